@@ -1,0 +1,82 @@
+//! What a body is: markers that put forces on the fluid and move with it.
+
+use std::any::Any;
+
+use crate::{BodyError, MarkerKind, Medium, Vec2};
+
+/// A bound on the time step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepLimit {
+    /// Largest stable step of the explicit midpoint rule (time); infinity where there is none.
+    pub dt: f64,
+    /// What sets it, as it reads after "set by".
+    pub reason: &'static str,
+}
+
+/// A body of a scene.
+///
+/// Its state is a flat list of numbers, which the integrator advances: `d state/dt = rate + L state`, the rate explicit,
+/// the linear part L (by default nothing) implicit. The calls of one evaluation come in this order, and a body may keep
+/// what it computed in one for the next: [`Body::read_state`], [`Body::write_markers`], [`Body::write_forces`],
+/// [`Body::rate`].
+pub trait Body: Any + std::fmt::Debug + Send {
+    /// A name for messages.
+    fn name(&self) -> &str;
+
+    /// What its markers are.
+    fn kind(&self) -> MarkerKind;
+
+    /// Number of markers; may change in [`Body::end_step`] only.
+    fn marker_count(&self) -> usize;
+
+    /// Writes the marker positions (length).
+    fn write_markers(&self, positions: &mut [Vec2]);
+
+    /// Writes the forces on the fluid at the markers (force).
+    ///
+    /// # Errors
+    /// A state in which the forces are not defined.
+    fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError>;
+
+    /// Length of the state.
+    fn state_len(&self) -> usize;
+
+    /// Copies the state out.
+    fn write_state(&self, state: &mut [f64]);
+
+    /// Takes a state over.
+    ///
+    /// # Errors
+    /// A state that is not finite or not possible.
+    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError>;
+
+    /// The explicit part of the state's rate of change, from the velocities of the fluid at the markers.
+    fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]);
+
+    /// Called before the first evaluation of a step.
+    ///
+    /// # Errors
+    /// A state from which no step can start.
+    fn begin_step(&mut self, _medium: &Medium, _dt: f64) -> Result<(), BodyError> {
+        Ok(())
+    }
+
+    /// Adds `factor * L(state) state` to `out`, where the implicit operator L may depend on the explicit part of
+    /// `state` (the geometry).
+    fn add_implicit(&mut self, _state: &[f64], _factor: f64, _out: &mut [f64]) {}
+
+    /// Replaces `state` by the solution y of `y - factor L(state) y = state`.
+    fn solve_implicit(&mut self, _factor: f64, _state: &mut [f64]) {}
+
+    /// Called after the last evaluation of a step, when the new state has been read: filters, constraints,
+    /// redistribution of markers, checks.
+    ///
+    /// # Errors
+    /// A state that cannot be.
+    fn end_step(&mut self, _medium: &Medium, _dt: f64) -> Result<(), BodyError> {
+        Ok(())
+    }
+
+    /// The largest stable time steps at the present state.
+    fn step_limits(&self, medium: &Medium) -> Vec<StepLimit>;
+}

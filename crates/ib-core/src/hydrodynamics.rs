@@ -1,0 +1,98 @@
+//! From forces at markers to velocities at markers.
+
+use crate::{FlowError, Markers, Vec2};
+
+/// The region that the fluid fills.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Domain {
+    /// Lower left corner (length).
+    pub origin: [f64; 2],
+    /// Periods in x and y (length); `None` where the fluid is unbounded or ends at a wall.
+    pub periods: [Option<f64>; 2],
+    /// Heights of the no-slip walls below and above (length).
+    pub walls: Option<[f64; 2]>,
+}
+
+/// What a body needs to know of the fluid around it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Medium {
+    /// The region.
+    pub domain: Domain,
+    /// Viscosity of the surroundings (stress times time).
+    pub viscosity: f64,
+    /// Grid spacing (length); `None` where there is no grid.
+    pub spacing: Option<f64>,
+    /// Fastest relaxation of an interface in this discretisation, in units of tension/viscosity (1/length): a marker
+    /// displacement normal to an interface of tension gamma decays at most at the rate
+    /// `stiffness * gamma / viscosity`.
+    pub interface_stiffness: f64,
+}
+
+/// The flow at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlowSample {
+    /// Velocity (length per time).
+    pub velocity: Vec2,
+    /// Pressure (force per length in 2D), periodic part.
+    pub pressure: f64,
+    /// Velocity gradient `[[du/dx, du/dy], [dv/dx, dv/dy]]` (1/time).
+    pub gradient: [[f64; 2]; 2],
+}
+
+impl Default for FlowSample {
+    fn default() -> Self {
+        Self { velocity: Vec2::zeros(), pressure: 0.0, gradient: [[0.0; 2]; 2] }
+    }
+}
+
+/// What one evaluation of the flow needed and found.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FlowReport {
+    /// Iterations of iterative solvers (0 where none ran).
+    pub iterations: usize,
+    /// Relative residual (0 for direct solvers).
+    pub residual: f64,
+    /// Mean pressure gradient (force per volume).
+    pub mean_pressure_gradient: [f64; 2],
+}
+
+/// Work done since the start, for reports and for tests that pin it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FlowWork {
+    /// Evaluations of marker velocities.
+    pub evaluations: usize,
+    /// Stokes solves on a grid.
+    pub stokes_solves: usize,
+    /// Forward and inverse two-dimensional transforms on a grid.
+    pub transforms: usize,
+    /// Markers spread to a grid.
+    pub markers_spread: usize,
+    /// Mobility corrections of an interface.
+    pub corrections: usize,
+    /// Iterations of iterative solvers.
+    pub iterations: usize,
+}
+
+/// Velocities at the markers of all bodies from the forces they put on the fluid, without inertia.
+///
+/// An implementation owns its scratch and allocates nothing per call while the numbers of markers stay the same.
+pub trait Hydrodynamics: std::fmt::Debug + Send {
+    /// The fluid, as bodies see it.
+    fn medium(&self) -> Medium;
+
+    /// Fills `markers.velocities` from `markers.positions` and `markers.forces`.
+    ///
+    /// # Errors
+    /// Positions or forces that are not finite, markers beyond a wall, no convergence.
+    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError>;
+
+    /// The flow at `points` for the positions and forces in `markers` (whose velocities must be those of
+    /// [`Hydrodynamics::velocities`]); `out` has as many entries as `points`. For pictures and files, not for stepping.
+    ///
+    /// # Errors
+    /// As [`Hydrodynamics::velocities`], and slices of different length.
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError>;
+
+    /// Work done since the start.
+    fn work(&self) -> FlowWork;
+}

@@ -1,0 +1,90 @@
+//! The markers of all bodies of a scene in flat arrays.
+
+use std::ops::Range;
+
+/// A vector in the plane.
+pub type Vec2 = nalgebra::Vector2<f64>;
+
+/// What a group of markers is, as far as the flow is concerned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum MarkerKind {
+    /// A closed fluid interface: markers in counter-clockwise order at equal spacing along the curve (to a few per
+    /// cent), the last one next to the first.
+    Interface {
+        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the surroundings.
+        viscosity_inside: Option<f64>,
+    },
+    /// A closed curve whose markers are not equally spaced.
+    UnevenInterface {
+        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the surroundings.
+        viscosity_inside: Option<f64>,
+    },
+    /// Points in no particular order, such as those of an elastic solid.
+    Points,
+}
+
+/// The markers of one body within [`Markers`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarkerGroup {
+    /// Which entries of the flat arrays.
+    pub range: Range<usize>,
+    /// What they are.
+    pub kind: MarkerKind,
+}
+
+/// Positions, forces and velocities of the markers of all bodies, body after body.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Markers {
+    /// Positions (length), not wrapped into the box.
+    pub positions: Vec<Vec2>,
+    /// Forces on the fluid (force, not force per length).
+    pub forces: Vec<Vec2>,
+    /// Velocities (length per time).
+    pub velocities: Vec<Vec2>,
+    groups: Vec<MarkerGroup>,
+}
+
+impl Markers {
+    /// No markers.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a group of `count` markers, with positions, forces and velocities zero.
+    pub fn push_group(&mut self, count: usize, kind: MarkerKind) {
+        let start = self.positions.len();
+        self.groups.push(MarkerGroup { range: start..start + count, kind });
+        self.resize(start + count);
+    }
+
+    /// Removes all groups, keeping the memory.
+    pub fn clear(&mut self) {
+        self.groups.clear();
+        self.resize(0);
+    }
+
+    fn resize(&mut self, count: usize) {
+        for array in [&mut self.positions, &mut self.forces, &mut self.velocities] {
+            array.resize(count, Vec2::zeros());
+        }
+    }
+
+    /// The groups, one a body.
+    #[must_use]
+    pub fn groups(&self) -> &[MarkerGroup] {
+        &self.groups
+    }
+
+    /// Number of markers.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.positions.is_empty()
+    }
+}

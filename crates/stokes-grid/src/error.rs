@@ -1,0 +1,65 @@
+//! What can go wrong on a grid.
+
+/// An error of this crate, with the offending values and the remedy.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StokesError {
+    /// A grid with too few cells in one direction.
+    #[error("a grid of {nx} x {ny} cells is too small: use at least {minimum} cells in each direction")]
+    GridTooSmall {
+        /// Cells in x.
+        nx: usize,
+        /// Cells in y.
+        ny: usize,
+        /// The least number that works.
+        minimum: usize,
+    },
+    /// A grid whose number of points does not fit into memory.
+    #[error("a grid of {nx} x {ny} cells has more points than can be addressed: use fewer cells")]
+    GridTooLarge {
+        /// Cells in x.
+        nx: usize,
+        /// Cells in y.
+        ny: usize,
+    },
+    /// A quantity that must be positive and finite is not.
+    #[error("{name} is {value}: give a positive finite number")]
+    NotPositive {
+        /// The quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A quantity that must be finite is not.
+    #[error("{name} is {value}: give a finite number")]
+    NotFinite {
+        /// The quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A field made for another grid than the solver's.
+    #[error("{name} lives on another grid than the solver: make both from the same grid")]
+    GridMismatch {
+        /// The field.
+        name: &'static str,
+    },
+    /// A slice of the wrong length.
+    #[error("{name} has {found} values where {expected} are needed")]
+    WrongLength {
+        /// The quantity.
+        name: &'static str,
+        /// Values needed.
+        expected: usize,
+        /// Values given.
+        found: usize,
+    },
+    /// A solver for a periodic box got a channel, or the other way round.
+    #[error("this solver needs {needed}: build the grid with {remedy}")]
+    WrongBoundary {
+        /// What the solver needs.
+        needed: &'static str,
+        /// The constructor to use.
+        remedy: &'static str,
+    },
+}

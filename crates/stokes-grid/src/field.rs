@@ -1,0 +1,125 @@
+//! Fields on a staggered grid.
+
+use crate::{Grid, StokesError};
+
+macro_rules! scalar_field {
+    ($(#[$doc:meta])* $name:ident, $rows:ident, $what:literal) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, PartialEq)]
+        pub struct $name {
+            grid: Grid,
+            values: Vec<f64>,
+        }
+
+        impl $name {
+            /// A field of zeros.
+            #[must_use]
+            pub fn zeros(grid: Grid) -> Self {
+                Self { grid, values: vec![0.0; grid.nx() * grid.$rows()] }
+            }
+
+            /// A field from its values, row after row.
+            ///
+            /// # Errors
+            /// The wrong number of values.
+            pub fn from_values(grid: Grid, values: Vec<f64>) -> Result<Self, StokesError> {
+                let expected = grid.nx() * grid.$rows();
+                if values.len() != expected {
+                    return Err(StokesError::WrongLength { name: $what, expected, found: values.len() });
+                }
+                Ok(Self { grid, values })
+            }
+
+            /// The grid it lives on.
+            #[must_use]
+            pub fn grid(&self) -> &Grid {
+                &self.grid
+            }
+
+            /// The values, row after row (x contiguous).
+            #[must_use]
+            pub fn values(&self) -> &[f64] {
+                &self.values
+            }
+
+            /// The values, to be written.
+            pub fn values_mut(&mut self) -> &mut [f64] {
+                &mut self.values
+            }
+        }
+    };
+}
+
+scalar_field!(
+    /// A scalar at the cell centres ((i + 1/2) h, (j + 1/2) h): pressure, normal strain rates.
+    CentreField,
+    centre_rows,
+    "a centre field"
+);
+scalar_field!(
+    /// A scalar at the nodes (i h, j h): streamfunction, vorticity, shear strain rate.
+    NodeField,
+    node_rows,
+    "a node field"
+);
+
+/// A vector field with its components on the cell faces they are normal to: x at (i h, (j + 1/2) h), y at
+/// ((i + 1/2) h, j h). Velocities and force densities.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StaggeredField {
+    grid: Grid,
+    x: Vec<f64>,
+    y: Vec<f64>,
+}
+
+impl StaggeredField {
+    /// A field of zeros.
+    #[must_use]
+    pub fn zeros(grid: Grid) -> Self {
+        let (x, y) = (vec![0.0; grid.nx() * grid.centre_rows()], vec![0.0; grid.nx() * grid.node_rows()]);
+        Self { grid, x, y }
+    }
+
+    /// A field from its components, row after row.
+    ///
+    /// # Errors
+    /// The wrong number of values in a component.
+    pub fn from_components(grid: Grid, x: Vec<f64>, y: Vec<f64>) -> Result<Self, StokesError> {
+        let (nx, ny) = (grid.nx() * grid.centre_rows(), grid.nx() * grid.node_rows());
+        for (name, expected, found) in [("an x component", nx, x.len()), ("a y component", ny, y.len())] {
+            if expected != found {
+                return Err(StokesError::WrongLength { name, expected, found });
+            }
+        }
+        Ok(Self { grid, x, y })
+    }
+
+    /// The grid it lives on.
+    #[must_use]
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The x components, row after row.
+    #[must_use]
+    pub fn x(&self) -> &[f64] {
+        &self.x
+    }
+
+    /// The y components, row after row.
+    #[must_use]
+    pub fn y(&self) -> &[f64] {
+        &self.y
+    }
+
+    /// Both components, to be written.
+    pub fn components_mut(&mut self) -> (&mut [f64], &mut [f64]) {
+        (&mut self.x, &mut self.y)
+    }
+
+    /// Sets every value.
+    pub fn fill(&mut self, value: f64) {
+        self.x.fill(value);
+        self.y.fill(value);
+    }
+}

@@ -1,0 +1,124 @@
+//! Rectangular grids of square cells.
+
+use crate::StokesError;
+
+/// A rectangle of `nx` x `ny` square cells of width `h`, periodic in x, and in y either periodic or bounded by two walls.
+///
+/// Quantities are staggered (marker-and-cell layout). With the lower left corner at `origin`:
+///
+/// | quantity | position of entry (i, j) | rows, periodic | rows, channel |
+/// |---|---|---|---|
+/// | x velocity, x force | (i h, (j + 1/2) h) | ny | ny |
+/// | y velocity, y force | ((i + 1/2) h, j h) | ny | ny + 1, the first and the last on the walls |
+/// | centres (pressure) | ((i + 1/2) h, (j + 1/2) h) | ny | ny |
+/// | nodes (streamfunction, vorticity) | (i h, j h) | ny | ny + 1, the first and the last on the walls |
+///
+/// Every row has `nx` entries, contiguous in memory; entry (i, j) is number `j * nx + i`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    nx: usize,
+    ny: usize,
+    h: f64,
+    origin: [f64; 2],
+    walls: bool,
+}
+
+impl Grid {
+    /// The least number of cells in each direction.
+    pub const MINIMUM_CELLS: usize = 2;
+
+    /// A doubly periodic box of `nx` x `ny` cells of width `h` (length), centred on the origin of coordinates.
+    ///
+    /// # Errors
+    /// Fewer than [`Grid::MINIMUM_CELLS`] cells in a direction, more points than can be addressed, or a width that is
+    /// not positive and finite.
+    pub fn periodic(nx: usize, ny: usize, h: f64) -> Result<Self, StokesError> {
+        Self::new(nx, ny, h, false)
+    }
+
+    /// A channel of `nx` x `ny` cells of width `h` (length), periodic in x with walls at the first and last row of
+    /// nodes, centred on the origin of coordinates (walls at y = -ny h/2 and y = ny h/2).
+    ///
+    /// # Errors
+    /// As [`Grid::periodic`].
+    pub fn channel(nx: usize, ny: usize, h: f64) -> Result<Self, StokesError> {
+        Self::new(nx, ny, h, true)
+    }
+
+    fn new(nx: usize, ny: usize, h: f64, walls: bool) -> Result<Self, StokesError> {
+        if nx < Self::MINIMUM_CELLS || ny < Self::MINIMUM_CELLS {
+            return Err(StokesError::GridTooSmall { nx, ny, minimum: Self::MINIMUM_CELLS });
+        }
+        if !(h.is_finite() && h > 0.0) {
+            return Err(StokesError::NotPositive { name: "grid spacing", value: h });
+        }
+        let points = ny.checked_add(1).and_then(|rows| rows.checked_mul(nx));
+        if points.is_none_or(|n| n > isize::MAX as usize / 64) {
+            return Err(StokesError::GridTooLarge { nx, ny });
+        }
+        let origin = [-0.5 * nx as f64 * h, -0.5 * ny as f64 * h];
+        Ok(Self { nx, ny, h, origin, walls })
+    }
+
+    /// The same grid with its lower left corner at `origin` (length).
+    ///
+    /// # Errors
+    /// A coordinate that is not finite.
+    pub fn with_origin(mut self, origin: [f64; 2]) -> Result<Self, StokesError> {
+        for value in origin {
+            if !value.is_finite() {
+                return Err(StokesError::NotFinite { name: "grid origin", value });
+            }
+        }
+        self.origin = origin;
+        Ok(self)
+    }
+
+    /// Cells in x.
+    #[must_use]
+    pub fn nx(&self) -> usize {
+        self.nx
+    }
+
+    /// Cells in y.
+    #[must_use]
+    pub fn ny(&self) -> usize {
+        self.ny
+    }
+
+    /// Cell width h (length).
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.h
+    }
+
+    /// The lower left corner (length).
+    #[must_use]
+    pub fn origin(&self) -> [f64; 2] {
+        self.origin
+    }
+
+    /// The extents `[nx h, ny h]` (length).
+    #[must_use]
+    pub fn lengths(&self) -> [f64; 2] {
+        [self.nx as f64 * self.h, self.ny as f64 * self.h]
+    }
+
+    /// Whether y is bounded by no-slip walls (otherwise it is periodic).
+    #[must_use]
+    pub fn has_walls(&self) -> bool {
+        self.walls
+    }
+
+    /// Rows of x velocities and of centres: `ny`.
+    #[must_use]
+    pub fn centre_rows(&self) -> usize {
+        self.ny
+    }
+
+    /// Rows of y velocities and of nodes: `ny`, or `ny + 1` with walls.
+    #[must_use]
+    pub fn node_rows(&self) -> usize {
+        self.ny + usize::from(self.walls)
+    }
+}

@@ -1,0 +1,62 @@
+//! What every Stokes solver does.
+
+use crate::{CentreField, Grid, StaggeredField, StokesError};
+
+/// What one solve needed and found.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SolveReport {
+    /// Iterations (0 for a direct solver).
+    pub iterations: usize,
+    /// Relative residual (0 for a direct solver, which is exact to round-off).
+    pub residual: f64,
+    /// Mean pressure gradient (force per volume): the part of grad p that is uniform. Periodic box: the mean force.
+    pub mean_pressure_gradient: [f64; 2],
+}
+
+/// Work done since a solver was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Calls of [`StokesSolver::solve`].
+    pub solves: usize,
+    /// Real transforms from space to wave numbers, each of a whole scalar field.
+    pub forward_transforms: usize,
+    /// Real transforms from wave numbers to space, each of a whole scalar field.
+    pub inverse_transforms: usize,
+    /// Iterations of iterative solvers.
+    pub iterations: usize,
+}
+
+/// A solver of the incompressible Stokes equations with a force density f (force per volume):
+///
+/// `eta lap(v) - grad p + f = 0`, `div v = 0`.
+///
+/// A solver is a plan: it is made once for a grid, owns its scratch, and allocates nothing per call.
+pub trait StokesSolver: std::fmt::Debug + Send {
+    /// The grid of the fields it takes and gives.
+    fn grid(&self) -> &Grid;
+
+    /// Dynamic viscosity eta (stress times time).
+    fn viscosity(&self) -> f64;
+
+    /// The velocity for a force density; it is discretely divergence free.
+    ///
+    /// # Errors
+    /// Fields of another grid; for iterative solvers, no convergence.
+    fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError>;
+
+    /// The periodic part of the pressure (force per length in 2D), mean zero, that belongs to a force density and the velocity that
+    /// [`StokesSolver::solve`] gave for it. The uniform part of its gradient is
+    /// [`SolveReport::mean_pressure_gradient`].
+    ///
+    /// # Errors
+    /// Fields of another grid.
+    fn pressure(
+        &mut self,
+        force: &StaggeredField,
+        velocity: &StaggeredField,
+        pressure: &mut CentreField,
+    ) -> Result<(), StokesError>;
+
+    /// Work done since the solver was made.
+    fn work(&self) -> Work;
+}
