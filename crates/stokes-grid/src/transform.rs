@@ -156,7 +156,7 @@ impl RealFft2 {
         for (j, row) in self.spectrum.chunks_exact_mut(width).enumerate() {
             // These are real but for round-off, and must be exactly so.
             row[0].im = 0.0;
-            if self.nx % 2 == 0 {
+            if self.nx.is_multiple_of(2) {
                 row[width - 1].im = 0.0;
             }
             let _ = self.inverse_row.process_with_scratch(row, &mut self.row, scratch);
