@@ -1,0 +1,242 @@
+//! The tension of the interface as a function of the concentration on it.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use crate::error::{finite, length, not_negative};
+use crate::{ExcludedVolume, InterfaceError, StepExcludedVolume};
+
+/// A tension law: the tension gamma (force; a line tension in two dimensions) as a function of the concentration c
+/// (particles per length).
+///
+/// Implement [`Tension::value`] and [`Tension::slope`] for a law of your own. The methods on slices are compiled anew
+/// for every law, so that a `dyn Tension` costs one indirect call a slice.
+pub trait Tension: Debug + Send + Sync {
+    /// gamma(c) (force).
+    fn value(&self, c: f64) -> f64;
+
+    /// d gamma / d c (force times length).
+    fn slope(&self, c: f64) -> f64;
+
+    /// gamma of every concentration.
+    ///
+    /// # Errors
+    /// Slices of different length.
+    fn values(&self, concentrations: &[f64], tensions: &mut [f64]) -> Result<(), InterfaceError> {
+        length("tensions", concentrations.len(), tensions.len())?;
+        for (tension, &c) in tensions.iter_mut().zip(concentrations) {
+            *tension = self.value(c);
+        }
+        Ok(())
+    }
+
+    /// d gamma / d c at every concentration.
+    ///
+    /// # Errors
+    /// Slices of different length.
+    fn slopes(&self, concentrations: &[f64], slopes: &mut [f64]) -> Result<(), InterfaceError> {
+        length("slopes", concentrations.len(), slopes.len())?;
+        for (slope, &c) in slopes.iter_mut().zip(concentrations) {
+            *slope = self.slope(c);
+        }
+        Ok(())
+    }
+
+    /// What may go wrong with this law whatever the resolution, for a warning before a run.
+    fn warning(&self) -> Option<TensionWarning> {
+        None
+    }
+}
+
+/// What may go wrong with a tension law whatever the resolution.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TensionWarning {
+    /// Contraction is stronger than repulsion at every concentration.
+    #[error(
+        "the activity {activity} is not balanced by the excluded volume at any concentration: there is no plateau, the \
+         particles collapse towards a point (use |activity| below the strength of the excluded volume)"
+    )]
+    NoPlateau {
+        /// The activity zeta delta-mu (force times length).
+        activity: f64,
+    },
+}
+
+/// A constant tension: gamma = gamma0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ConstantTension {
+    bare: f64,
+}
+
+impl ConstantTension {
+    /// The tension gamma0 >= 0 (force).
+    ///
+    /// # Errors
+    /// A negative or non-finite tension.
+    pub fn new(bare: f64) -> Result<Self, InterfaceError> {
+        Ok(Self { bare: not_negative("the bare tension", bare)? })
+    }
+}
+
+impl Tension for ConstantTension {
+    fn value(&self, _c: f64) -> f64 {
+        self.bare
+    }
+
+    fn slope(&self, _c: f64) -> f64 {
+        0.0
+    }
+}
+
+/// The active tension gamma = gamma0 - zeta_dmu c - Pi(c) (thesis, eqs. 2.38 and 2.39), with an excluded volume Pi.
+///
+/// The activity zeta_dmu is negative for particles that contract the interface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContractileTension<E> {
+    bare: f64,
+    activity: f64,
+    excluded_volume: E,
+}
+
+impl<E: ExcludedVolume> ContractileTension<E> {
+    /// Bare tension gamma0 >= 0 (force), activity zeta_dmu (force times length, of either sign) and excluded volume.
+    ///
+    /// # Errors
+    /// A negative bare tension, or values that are not finite.
+    pub fn new(bare: f64, activity: f64, excluded_volume: E) -> Result<Self, InterfaceError> {
+        let bare = not_negative("the bare tension", bare)?;
+        let activity = finite("the activity", activity)?;
+        Ok(Self { bare, activity, excluded_volume })
+    }
+
+    /// The bare tension gamma0 (force).
+    #[must_use]
+    pub fn bare(&self) -> f64 {
+        self.bare
+    }
+
+    /// The activity zeta_dmu (force times length).
+    #[must_use]
+    pub fn activity(&self) -> f64 {
+        self.activity
+    }
+
+    /// The excluded volume.
+    #[must_use]
+    pub fn excluded_volume(&self) -> &E {
+        &self.excluded_volume
+    }
+
+    /// The concentration at which the tension is largest (particles per length), up to which particles gather; `None`
+    /// where the tension grows without bound.
+    #[must_use]
+    pub fn plateau(&self) -> Option<f64> {
+        self.excluded_volume.plateau(-self.activity)
+    }
+}
+
+impl ContractileTension<StepExcludedVolume> {
+    /// The thesis' law: step-like excluded volume of strength A (force times length), threshold 2 c0 and steepness 20.
+    ///
+    /// # Errors
+    /// Values outside the ranges of [`ContractileTension::new`] and [`StepExcludedVolume::thesis`].
+    pub fn thesis(bare: f64, activity: f64, strength: f64, mean_concentration: f64) -> Result<Self, InterfaceError> {
+        Self::new(bare, activity, StepExcludedVolume::thesis(strength, mean_concentration)?)
+    }
+}
+
+impl<E: ExcludedVolume> Tension for ContractileTension<E> {
+    fn value(&self, c: f64) -> f64 {
+        self.bare - self.activity * c - self.excluded_volume.pressure(c)
+    }
+
+    fn slope(&self, c: f64) -> f64 {
+        -self.activity - self.excluded_volume.slope(c)
+    }
+
+    fn warning(&self) -> Option<TensionWarning> {
+        self.plateau().is_none().then_some(TensionWarning::NoPlateau { activity: self.activity })
+    }
+}
+
+impl<T: Tension + ?Sized> Tension for Arc<T> {
+    fn value(&self, c: f64) -> f64 {
+        (**self).value(c)
+    }
+
+    fn slope(&self, c: f64) -> f64 {
+        (**self).slope(c)
+    }
+
+    fn values(&self, concentrations: &[f64], tensions: &mut [f64]) -> Result<(), InterfaceError> {
+        (**self).values(concentrations, tensions)
+    }
+
+    fn slopes(&self, concentrations: &[f64], slopes: &mut [f64]) -> Result<(), InterfaceError> {
+        (**self).slopes(concentrations, slopes)
+    }
+
+    fn warning(&self) -> Option<TensionWarning> {
+        (**self).warning()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{NoExcludedVolume, QuadraticExcludedVolume};
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    #[test]
+    fn linear_law_is_equation_2_38() {
+        let law = ContractileTension::new(10.0, -2.0, NoExcludedVolume).unwrap();
+        assert_relative_eq!(law.value(100.0), 210.0);
+        assert_relative_eq!(law.slope(100.0), 2.0);
+        assert_eq!(ConstantTension::new(3.0).unwrap().value(7.0), 3.0);
+    }
+
+    #[test]
+    fn tension_is_largest_on_the_plateau() {
+        let law = ContractileTension::thesis(10.0, -4.0, 10.0, 100.0).unwrap();
+        let c = law.plateau().unwrap();
+        assert!(law.slope(c).abs() < 1e-10);
+        assert!(law.value(c) > law.value(c - 5.0) && law.value(c) > law.value(c + 5.0));
+        let quadratic = ContractileTension::new(10.0, -4.0, QuadraticExcludedVolume::new(0.02).unwrap()).unwrap();
+        assert_relative_eq!(quadratic.plateau().unwrap(), 200.0);
+    }
+
+    #[test]
+    fn a_missing_plateau_is_reported() {
+        let law = |activity| ContractileTension::thesis(10.0, activity, 10.0, 100.0).unwrap();
+        assert_eq!(law(-9.9).warning(), None);
+        assert_eq!(law(-10.0).warning(), Some(TensionWarning::NoPlateau { activity: -10.0 }));
+        assert_eq!(law(1.0).warning(), None);
+        assert!(ContractileTension::new(10.0, -1.0, NoExcludedVolume).unwrap().warning().is_some());
+        assert_eq!(ConstantTension::new(1.0).unwrap().warning(), None);
+    }
+
+    #[test]
+    fn slices_and_errors() {
+        let law: Arc<dyn Tension> = Arc::new(ContractileTension::thesis(10.0, -2.0, 10.0, 100.0).unwrap());
+        let mut out = [0.0; 3];
+        law.values(&[0.0, 100.0, 300.0], &mut out).unwrap();
+        assert_eq!(out[2], law.value(300.0));
+        law.slopes(&[0.0, 100.0, 300.0], &mut out).unwrap();
+        assert_eq!(out[1], law.slope(100.0));
+        assert!(law.values(&[0.0; 2], &mut out).is_err());
+        assert!(ConstantTension::new(-1.0).is_err());
+        assert!(ContractileTension::new(1.0, f64::NAN, NoExcludedVolume).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn slope_is_the_derivative(c in 0.0..800.0f64, activity in -15.0..1.0f64, strength in 0.0..20.0f64) {
+            let law = ContractileTension::thesis(10.0, activity, strength, 100.0).unwrap();
+            let step = 1e-3;
+            let difference = (law.value(c + step) - law.value(c - step)) / (2.0 * step);
+            prop_assert!((difference - law.slope(c)).abs() < 1e-5);
+        }
+    }
+}
