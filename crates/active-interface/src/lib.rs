@@ -1,17 +1,25 @@
 //! Active droplets.
 
+mod crossing;
+mod curve;
 mod cyclic;
+mod equidistant;
 mod error;
 mod excluded_volume;
 mod face_value;
+mod polygon;
 mod positivity;
+mod spline;
 mod tension;
 mod transport;
 
+pub use crossing::{CrossingFinder, first_crossing};
+pub use curve::{Curve, markers_from_points};
 pub use cyclic::{CirculantTridiagonal, CyclicTridiagonal};
 pub use error::InterfaceError;
 pub use excluded_volume::{ExcludedVolume, NoExcludedVolume, QuadraticExcludedVolume, StepExcludedVolume};
 pub use face_value::{Flux, weno5};
+pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
 pub use positivity::{Repair, repair_positivity};
 pub use tension::{ConstantTension, ContractileTension, Tension, TensionWarning};
 pub use transport::{Transport, cell_peclet};

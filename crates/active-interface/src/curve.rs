@@ -1,0 +1,347 @@
+//! Closed curves to start an interface from.
+
+use std::f64::consts::{PI, TAU};
+use std::fmt;
+use std::sync::Arc;
+
+use ib_core::Vec2;
+use nalgebra::Rotation2;
+
+use crate::equidistant::equidistant;
+use crate::error::{all_finite, all_points_finite, enough, finite, positive};
+use crate::polygon::{raw_area, raw_perimeter};
+use crate::spline::PeriodicSpline;
+use crate::{InterfaceError, first_crossing};
+
+/// Fewest markers of an interface.
+pub(crate) const MINIMUM_MARKERS: usize = 8;
+
+/// Points that a smooth curve is checked and measured on.
+const SAMPLES: usize = 8192;
+
+/// A closed curve without self-crossings, from which the markers of an interface are made.
+///
+/// Curves run counter-clockwise: one that is given clockwise is turned around. All checks are made where a curve is
+/// made, so that every curve is finite, closed, simple and encloses an area.
+///
+/// ```
+/// use active_interface::Curve;
+/// let curve = Curve::ellipse(1.3, 1.0 / 1.3)?.rotated(0.5);
+/// let markers = curve.markers(200)?;
+/// // equal spacing, and the polygon has exactly the ellipse's area
+/// let first = (markers[1] - markers[0]).norm();
+/// let other = (markers[101] - markers[100]).norm();
+/// assert!((first - other).abs() < 1e-12 * first);
+/// assert!((active_interface::polygon_area(&markers)? - std::f64::consts::PI).abs() < 1e-13);
+/// # Ok::<(), active_interface::InterfaceError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Curve {
+    shape: Shape,
+    reversed: bool,
+    rotation: f64,
+    translation: Vec2,
+    area: f64,
+    perimeter: f64,
+}
+
+#[derive(Clone)]
+enum Shape {
+    Circle(f64),
+    Ellipse(f64, f64),
+    Fourier { radius: f64, cosines: Vec<f64>, sines: Vec<f64> },
+    Parametric(Arc<dyn Fn(f64) -> Vec2 + Send + Sync>),
+    Spline(PeriodicSpline),
+    Polygon { points: Vec<Vec2>, ends: Vec<f64> },
+}
+
+impl fmt::Debug for Shape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Circle(radius) => f.debug_tuple("Circle").field(radius).finish(),
+            Self::Ellipse(a, b) => f.debug_tuple("Ellipse").field(a).field(b).finish(),
+            Self::Fourier { radius, cosines, sines } => {
+                f.debug_struct("Fourier").field("radius", radius).field("cos", cosines).field("sin", sines).finish()
+            }
+            Self::Parametric(_) => f.write_str("Parametric"),
+            Self::Spline(spline) => f.debug_tuple("Spline").field(spline).finish(),
+            Self::Polygon { points, .. } => f.debug_tuple("Polygon").field(points).finish(),
+        }
+    }
+}
+
+/// Radius divided by its mean at the polar angle `angle`.
+fn fourier_factor(cosines: &[f64], sines: &[f64], angle: f64) -> f64 {
+    let wave = |amplitudes: &[f64], f: fn(f64) -> f64| -> f64 {
+        amplitudes.iter().zip(1u32..).map(|(amplitude, k)| amplitude * f(f64::from(k) * angle)).sum()
+    };
+    1.0 + wave(cosines, f64::cos) + wave(sines, f64::sin)
+}
+
+impl Shape {
+    /// The point at the fraction `t` of the parameter, t in [0, 1].
+    fn point(&self, t: f64) -> Vec2 {
+        match self {
+            Self::Circle(radius) => {
+                let (s, c) = (TAU * t).sin_cos();
+                Vec2::new(c, s) * *radius
+            }
+            Self::Ellipse(a, b) => {
+                let (s, c) = (TAU * t).sin_cos();
+                Vec2::new(a * c, b * s)
+            }
+            Self::Fourier { radius, cosines, sines } => {
+                let (s, c) = (TAU * t).sin_cos();
+                Vec2::new(c, s) * (radius * fourier_factor(cosines, sines, TAU * t))
+            }
+            Self::Parametric(f) => f(TAU * t),
+            Self::Spline(spline) => spline.point(t),
+            Self::Polygon { points, ends } => {
+                let u = t * ends[ends.len() - 1];
+                let k = ends[..ends.len() - 1].partition_point(|&end| end <= u);
+                let start = if k == 0 { 0.0 } else { ends[k - 1] };
+                points[k].lerp(&points[(k + 1) % points.len()], (u - start) / (ends[k] - start))
+            }
+        }
+    }
+
+    /// Signed area where there is a formula.
+    fn area(&self) -> Option<f64> {
+        match self {
+            Self::Circle(radius) => Some(PI * radius * radius),
+            Self::Ellipse(a, b) => Some(PI * a * b),
+            Self::Fourier { radius, cosines, sines } => {
+                let squares: f64 = cosines.iter().chain(sines).map(|amplitude| amplitude * amplitude).sum();
+                Some(PI * radius * radius * (1.0 + 0.5 * squares))
+            }
+            Self::Parametric(_) => None,
+            Self::Spline(spline) => Some(spline.area()),
+            Self::Polygon { points, .. } => Some(raw_area(points)),
+        }
+    }
+}
+
+impl Curve {
+    /// A circle about the origin with this radius (length).
+    ///
+    /// # Errors
+    /// A radius that is not positive.
+    pub fn circle(radius: f64) -> Result<Self, InterfaceError> {
+        Self::build(Shape::Circle(positive("the radius", radius)?))
+    }
+
+    /// The ellipse (a cos t, b sin t) with the half axes a along x and b along y (length).
+    ///
+    /// # Errors
+    /// Half axes that are not positive.
+    pub fn ellipse(a: f64, b: f64) -> Result<Self, InterfaceError> {
+        Self::build(Shape::Ellipse(positive("the half axis along x", a)?, positive("the half axis along y", b)?))
+    }
+
+    /// The curve r(theta) = R (1 + sum over k >= 1 of a_k cos k theta + b_k sin k theta) about the origin, with
+    /// `cosines` = a_1, a_2, ... and `sines` = b_1, b_2, ... (no dimension) and the radius R (length).
+    ///
+    /// Its area is pi R^2 (1 + sum (a_k^2 + b_k^2) / 2).
+    ///
+    /// # Errors
+    /// A radius R that is not positive, amplitudes that are not finite or so large that r is not positive everywhere.
+    pub fn fourier(radius: f64, cosines: &[f64], sines: &[f64]) -> Result<Self, InterfaceError> {
+        positive("the radius", radius)?;
+        all_finite("the cosine amplitudes", cosines)?;
+        all_finite("the sine amplitudes", sines)?;
+        for i in 0..SAMPLES {
+            let angle = TAU * i as f64 / SAMPLES as f64;
+            let factor = fourier_factor(cosines, sines, angle);
+            if factor <= 0.0 {
+                return Err(InterfaceError::RadiusNotPositive { angle, radius: radius * factor });
+            }
+        }
+        Self::build(Shape::Fourier { radius, cosines: cosines.to_vec(), sines: sines.to_vec() })
+    }
+
+    /// The curve of a function of a parameter that runs from 0 to 2 pi and need not be the polar angle nor the arc
+    /// length. Area and length are right to round-off for smooth curves, to 1e-7 for curves with corners.
+    ///
+    /// # Errors
+    /// Points that are not finite, an end that is not the start, a crossing, no area.
+    pub fn parametric(point: impl Fn(f64) -> Vec2 + Send + Sync + 'static) -> Result<Self, InterfaceError> {
+        let (start, end) = (point(0.0), point(TAU));
+        all_points_finite("the ends of the curve", &[start, end])?;
+        let gap = (end - start).norm();
+        let extent = (0..64).map(|i| (point(TAU * f64::from(i) / 64.0) - start).norm()).fold(0.0, f64::max);
+        if gap > 1e-9 * extent {
+            return Err(InterfaceError::NotClosed { gap });
+        }
+        Self::build(Shape::Parametric(Arc::new(point)))
+    }
+
+    /// The smooth closed curve (a cubic spline) through these points; the last is joined to the first and must not
+    /// repeat it.
+    ///
+    /// # Errors
+    /// Fewer than three points, points that are not finite or coincide, a crossing, no area.
+    pub fn through_points(points: &[Vec2]) -> Result<Self, InterfaceError> {
+        check_list(points, 3)?;
+        Self::build(Shape::Spline(PeriodicSpline::new(points)?))
+    }
+
+    /// The polygon with these corners; the last is joined to the first and must not repeat it.
+    ///
+    /// # Errors
+    /// Fewer than three points, points that are not finite or coincide, a crossing, no area.
+    pub fn polygon(points: &[Vec2]) -> Result<Self, InterfaceError> {
+        check_list(points, 3)?;
+        let mut length = 0.0;
+        let ends = crate::polygon::edges(points)
+            .map(|(a, b)| {
+                length += (b - a).norm();
+                length
+            })
+            .collect();
+        Self::build(Shape::Polygon { points: points.to_vec(), ends })
+    }
+
+    fn build(shape: Shape) -> Result<Self, InterfaceError> {
+        let samples: Vec<Vec2> = (0..SAMPLES).map(|i| shape.point(i as f64 / SAMPLES as f64)).collect();
+        all_points_finite("the points of the curve", &samples)?;
+        let perimeter = match &shape {
+            Shape::Polygon { ends, .. } => ends[ends.len() - 1],
+            _ => extrapolate(|stride| raw_perimeter(&every(&samples, stride))),
+        };
+        let area = shape.area().unwrap_or_else(|| extrapolate(|stride| raw_area(&every(&samples, stride))));
+        if area.abs() < 1e-6 * perimeter * perimeter {
+            return Err(InterfaceError::NoArea { area, length: perimeter });
+        }
+        if !matches!(shape, Shape::Circle(_) | Shape::Ellipse(..) | Shape::Fourier { .. }) {
+            if let Some((first, second)) = first_crossing(&every(&samples, 4))? {
+                return Err(InterfaceError::SelfCrossing { first, second });
+            }
+        }
+        Ok(Self { shape, reversed: area < 0.0, rotation: 0.0, translation: Vec2::zeros(), area: area.abs(), perimeter })
+    }
+
+    /// This curve, as it lies, turned about the origin by `angle` (radians, counter-clockwise).
+    #[must_use]
+    pub fn rotated(mut self, angle: f64) -> Self {
+        self.rotation += angle;
+        self.translation = Rotation2::new(angle) * self.translation;
+        self
+    }
+
+    /// This curve moved by `displacement` (length).
+    #[must_use]
+    pub fn translated(mut self, displacement: Vec2) -> Self {
+        self.translation += displacement;
+        self
+    }
+
+    /// The area inside (length squared).
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.area
+    }
+
+    /// The length of the curve.
+    #[must_use]
+    pub fn perimeter(&self) -> f64 {
+        self.perimeter
+    }
+
+    /// The point at the fraction `t` of the curve's own parameter, t in [0, 1], counter-clockwise.
+    #[must_use]
+    pub fn point(&self, t: f64) -> Vec2 {
+        let t = t.clamp(0.0, 1.0);
+        Rotation2::new(self.rotation) * self.shape.point(if self.reversed { 1.0 - t } else { t }) + self.translation
+    }
+
+    /// `count` markers in counter-clockwise order, the first at the start of the curve's parameter.
+    ///
+    /// All chords between neighbours are equal, to 1e-12 of their length. The polygon through the markers is scaled
+    /// about its centroid so that its area is that of the curve; the markers then lie outside the curve by about
+    /// (spacing)^2 times its curvature / 12.
+    ///
+    /// # Errors
+    /// Fewer than eight markers; so few that the polygon crosses itself; a curve whose chords could not be made equal;
+    /// rotations or translations that are not finite.
+    pub fn markers(&self, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
+        enough("markers", count, MINIMUM_MARKERS)?;
+        finite("the rotation", self.rotation)?;
+        all_points_finite("the translation", &[self.translation])?;
+        let mut markers = if let Shape::Circle(_) = self.shape {
+            (0..count).map(|k| self.point(k as f64 / count as f64)).collect()
+        } else {
+            equidistant(|t| self.point(t), count)?
+        };
+        let moments = crate::polygon_moments(&markers)?;
+        if moments.area <= 0.0 {
+            return Err(InterfaceError::NoArea { area: moments.area, length: raw_perimeter(&markers) });
+        }
+        let factor = (self.area / moments.area).sqrt();
+        for marker in &mut markers {
+            *marker = moments.centroid + (*marker - moments.centroid) * factor;
+        }
+        match first_crossing(&markers)? {
+            Some((first, second)) => Err(InterfaceError::SelfCrossing { first, second }),
+            None => Ok(markers),
+        }
+    }
+
+    /// Markers about `spacing` apart (length): as [`Curve::markers`], with the perimeter divided by the spacing, rounded,
+    /// as their number.
+    ///
+    /// # Errors
+    /// A spacing that is not positive or gives fewer than eight markers, and those of [`Curve::markers`].
+    pub fn markers_with_spacing(&self, spacing: f64) -> Result<Vec<Vec2>, InterfaceError> {
+        positive("the marker spacing", spacing)?;
+        self.markers((self.perimeter / spacing).round() as usize)
+    }
+}
+
+/// Points as they are given as the markers of an interface: checked, and turned around where they run clockwise (the
+/// first stays the first).
+///
+/// # Errors
+/// Fewer than eight points, points that are not finite or coincide, a crossing, no area.
+pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError> {
+    check_list(points, MINIMUM_MARKERS)?;
+    let (area, length) = (raw_area(points), raw_perimeter(points));
+    if area.abs() < 1e-9 * length * length {
+        return Err(InterfaceError::NoArea { area, length });
+    }
+    let mut markers = points.to_vec();
+    if area < 0.0 {
+        markers[1..].reverse();
+    }
+    Ok(markers)
+}
+
+fn check_list(points: &[Vec2], minimum: usize) -> Result<(), InterfaceError> {
+    enough("points of the curve", points.len(), minimum)?;
+    all_points_finite("the points of the curve", points)?;
+    if let Some(index) = crate::polygon::edges(points).position(|(a, b)| a == b) {
+        return Err(InterfaceError::CoincidentPoints { index });
+    }
+    match first_crossing(points)? {
+        Some((first, second)) => Err(InterfaceError::SelfCrossing { first, second }),
+        None => Ok(()),
+    }
+}
+
+fn every(points: &[Vec2], stride: usize) -> Vec<Vec2> {
+    points.iter().step_by(stride).copied().collect()
+}
+
+/// Richardson extrapolation of a quantity of the inscribed polygon with every stride-th sample, whose error is a series
+/// in the square of the spacing.
+fn extrapolate(quantity: impl Fn(usize) -> f64) -> f64 {
+    let mut column: Vec<f64> = [8, 4, 2, 1].into_iter().map(quantity).collect();
+    let mut factor = 4.0;
+    while column.len() > 1 {
+        column = column.windows(2).map(|pair| pair[1] + (pair[1] - pair[0]) / (factor - 1.0)).collect();
+        factor *= 4.0;
+    }
+    column[0]
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,146 @@
+//! Exact geometry of the polygon through the markers.
+
+use ib_core::Vec2;
+
+use crate::InterfaceError;
+use crate::error::{all_points_finite, enough};
+
+/// Cross product a_x b_y - a_y b_x.
+pub(crate) fn cross(a: Vec2, b: Vec2) -> f64 {
+    a.x * b.y - a.y * b.x
+}
+
+/// The edges of a closed polygon, as pairs of end points.
+pub(crate) fn edges(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
+    points.iter().zip(points.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
+}
+
+/// Area, centroid and second moments of area of a polygon.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AreaMoments {
+    /// Area (length squared), positive for counter-clockwise order.
+    pub area: f64,
+    /// Centroid of the area (length).
+    pub centroid: Vec2,
+    /// Integral of x^2 over the area (length^4), x and y measured from the centroid.
+    pub xx: f64,
+    /// Integral of x y.
+    pub xy: f64,
+    /// Integral of y^2.
+    pub yy: f64,
+}
+
+pub(crate) fn raw_area(points: &[Vec2]) -> f64 {
+    let Some(&origin) = points.first() else { return 0.0 };
+    0.5 * edges(points).map(|(a, b)| cross(a - origin, b - origin)).sum::<f64>()
+}
+
+pub(crate) fn raw_perimeter(points: &[Vec2]) -> f64 {
+    edges(points).map(|(a, b)| (b - a).norm()).sum()
+}
+
+/// Exact sums over the triangles that the first point makes with the edges.
+pub(crate) fn raw_moments(points: &[Vec2]) -> AreaMoments {
+    let origin = points.first().copied().unwrap_or_default();
+    let (mut area, mut first) = (0.0, Vec2::zeros());
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for (a, b) in edges(points) {
+        let (a, b) = (a - origin, b - origin);
+        let twice = cross(a, b);
+        area += twice / 2.0;
+        first += (a + b) * (twice / 6.0);
+        xx += twice * (a.x * a.x + a.x * b.x + b.x * b.x) / 12.0;
+        yy += twice * (a.y * a.y + a.y * b.y + b.y * b.y) / 12.0;
+        xy += twice * (2.0 * (a.x * a.y + b.x * b.y) + a.x * b.y + b.x * a.y) / 24.0;
+    }
+    let centre = first / area;
+    AreaMoments {
+        area,
+        centroid: origin + centre,
+        xx: xx - area * centre.x * centre.x,
+        xy: xy - area * centre.x * centre.y,
+        yy: yy - area * centre.y * centre.y,
+    }
+}
+
+fn check(points: &[Vec2]) -> Result<(), InterfaceError> {
+    enough("points of a polygon", points.len(), 3)?;
+    all_points_finite("the points of the polygon", points)
+}
+
+/// Signed area of the polygon through the points (length squared), exact; positive for counter-clockwise order.
+///
+/// # Errors
+/// Fewer than three points, points that are not finite.
+pub fn polygon_area(points: &[Vec2]) -> Result<f64, InterfaceError> {
+    check(points)?;
+    Ok(raw_area(points))
+}
+
+/// Length of the polygon through the points, the last edge back to the first included.
+///
+/// # Errors
+/// Fewer than three points, points that are not finite.
+pub fn polygon_perimeter(points: &[Vec2]) -> Result<f64, InterfaceError> {
+    check(points)?;
+    Ok(raw_perimeter(points))
+}
+
+/// Area, centroid and second moments of the area inside the polygon, exact.
+///
+/// # Errors
+/// Fewer than three points, points that are not finite, no area.
+pub fn polygon_moments(points: &[Vec2]) -> Result<AreaMoments, InterfaceError> {
+    check(points)?;
+    let (area, length) = (raw_area(points), raw_perimeter(points));
+    // NaN does not get here, but 0/0 would.
+    if area == 0.0 || !area.is_finite() {
+        return Err(InterfaceError::NoArea { area, length });
+    }
+    Ok(raw_moments(points))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_rectangle() {
+        let points = [[1.0, 2.0], [5.0, 2.0], [5.0, 4.0], [1.0, 4.0]].map(|[x, y]| Vec2::new(x, y));
+        let moments = polygon_moments(&points).unwrap();
+        assert_relative_eq!(moments.area, 8.0);
+        assert_relative_eq!(moments.centroid, Vec2::new(3.0, 3.0));
+        assert_relative_eq!(moments.xx, 2.0 * 64.0 / 12.0, max_relative = 1e-14);
+        assert_relative_eq!(moments.yy, 4.0 * 8.0 / 12.0, max_relative = 1e-14);
+        assert!(moments.xy.abs() < 1e-13);
+        assert_relative_eq!(polygon_perimeter(&points).unwrap(), 12.0);
+        let reversed: Vec<Vec2> = points.iter().rev().copied().collect();
+        assert_relative_eq!(polygon_area(&reversed).unwrap(), -8.0);
+    }
+
+    #[test]
+    fn bad_points_are_refused() {
+        let line = [[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]].map(|[x, y]| Vec2::new(x, y));
+        assert!(matches!(polygon_moments(&line), Err(InterfaceError::NoArea { .. })));
+        assert!(polygon_area(&line[..2]).is_err());
+        assert!(polygon_perimeter(&[line[0], Vec2::new(f64::NAN, 0.0), line[2]]).is_err());
+    }
+
+    proptest! {
+        #[test]
+        fn moments_follow_rotation_and_translation(angle in -3.0..3.0f64, x in -9.0..9.0f64, y in -9.0..9.0f64) {
+            let points: Vec<Vec2> = [[0.0, 0.0], [2.0, 0.3], [2.5, 1.4], [0.7, 1.9], [-0.4, 1.0]].map(|[x, y]| Vec2::new(x, y)).to_vec();
+            let turn = nalgebra::Rotation2::new(angle);
+            let moved: Vec<Vec2> = points.iter().map(|p| turn * p + Vec2::new(x, y)).collect();
+            let (before, after) = (polygon_moments(&points).unwrap(), polygon_moments(&moved).unwrap());
+            prop_assert!((before.area - after.area).abs() < 1e-12);
+            prop_assert!((turn * before.centroid + Vec2::new(x, y) - after.centroid).norm() < 1e-12);
+            let (s, c) = angle.sin_cos();
+            let xx = c * c * before.xx - 2.0 * s * c * before.xy + s * s * before.yy;
+            prop_assert!((xx - after.xx).abs() < 1e-11);
+            prop_assert!((before.xx + before.yy - after.xx - after.yy).abs() < 1e-11);
+        }
+    }
+}
