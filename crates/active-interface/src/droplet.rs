@@ -6,8 +6,8 @@ use ib_core::{Medium, StepLimit, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::filter::WiggleFilter;
-use crate::geometry::{Geometry, polygon_area};
-use crate::{CrossingCheck, Flux, InterfaceError, Repair, Tension, TensionWarning, Transport, cell_peclet};
+use crate::geometry::{Geometry, signed_area};
+use crate::{CrossingFinder, Flux, InterfaceError, Repair, Tension, TensionWarning, Transport, cell_peclet};
 
 /// Least number of markers of a droplet.
 pub const MINIMUM_MARKERS: usize = 8;
@@ -88,19 +88,19 @@ pub struct ActiveDroplet {
     pub(crate) other_markers: Vec<Vec2>,
     pub(crate) other_geometry: Geometry,
     pub(crate) filter: WiggleFilter,
-    pub(crate) crossing: CrossingCheck,
+    pub(crate) crossing: CrossingFinder,
     pub(crate) repair: Repair,
     pub(crate) redistributed: (usize, usize),
 }
 
 impl ActiveDroplet {
-    /// A droplet from its markers (counter-clockwise, equally spaced; see [`crate::ClosedCurve`]), the particle numbers
+    /// A droplet from its markers (equally spaced, see [`crate::Curve`]; turned around if clockwise), the particle numbers
     /// of the segments that follow them, the tension law and the particles' diffusion constant along the interface
     /// (length squared per time).
     ///
     /// # Errors
     /// Fewer than [`MINIMUM_MARKERS`] markers, lists of different length, positions that are not finite, coincide,
-    /// cross or run clockwise, negative or non-finite numbers, a negative diffusion constant.
+    /// or cross, negative or non-finite numbers, a negative diffusion constant.
     pub fn new(
         markers: Vec<Vec2>,
         numbers: Vec<f64>,
@@ -108,7 +108,10 @@ impl ActiveDroplet {
         diffusion: f64,
     ) -> Result<Self, InterfaceError> {
         crate::error::length("particle numbers", markers.len(), numbers.len())?;
-        crate::error::all_not_negative("the particle numbers", &numbers)?;
+        crate::error::all_finite("the particle numbers", &numbers)?;
+        for &number in &numbers {
+            not_negative("a particle number", number)?;
+        }
         not_negative("the diffusion constant", diffusion)?;
         let transport = Transport::new(markers.len().max(MINIMUM_MARKERS), Flux::Weno5)?;
         Self::build(markers, numbers, Arc::new(tension), diffusion, Some(transport))
@@ -129,9 +132,8 @@ impl ActiveDroplet {
         diffusion: f64,
         transport: Option<Transport>,
     ) -> Result<Self, InterfaceError> {
-        let mut crossing = CrossingCheck::default();
-        crate::curve::check_markers(&markers, &mut crossing)?;
-        let initial_area = polygon_area(&markers);
+        let markers = crate::markers_from_points(&markers)?;
+        let initial_area = signed_area(&markers);
         let mut droplet = Self {
             name: "droplet".to_owned(),
             tension,
@@ -153,7 +155,7 @@ impl ActiveDroplet {
             other_markers: Vec::new(),
             other_geometry: Geometry::default(),
             filter: WiggleFilter::default(),
-            crossing,
+            crossing: CrossingFinder::new(),
             repair: Repair::default(),
             redistributed: (0, 0),
             markers,
@@ -332,11 +334,7 @@ impl ActiveDroplet {
         if self.transport.is_some() {
             let scale = medium.spacing.unwrap_or(self.geometry.mean_length());
             // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.
-            let coupling = self
-                .concentrations
-                .iter()
-                .map(|&c| c * self.tension.slope(c).abs())
-                .fold(0.0_f64, f64::max);
+            let coupling = self.concentrations.iter().map(|&c| c * self.tension.slope(c).abs()).fold(0.0_f64, f64::max);
             let remainder = if self.stabilised { 8.0 } else { 2.5 };
             limits.push(StepLimit {
                 dt: remainder * scale * viscosity / coupling,

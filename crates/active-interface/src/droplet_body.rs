@@ -3,7 +3,7 @@
 use ib_core::{Body, BodyError, MarkerKind, Medium, StepLimit, Vec2};
 
 use crate::droplet::MINIMUM_MARKERS;
-use crate::geometry::{equidistribute, outward, polygon_area};
+use crate::geometry::{equidistribute, outward, signed_area};
 use crate::redistribution::redistribute;
 use crate::{ActiveDroplet, InterfaceError, Motion, Transport, repair_positivity};
 
@@ -184,7 +184,7 @@ impl Body for ActiveDroplet {
                 self.update()?;
             }
         }
-        if let Some((first, second)) = self.crossing.first_crossing(&self.markers) {
+        if let Some((first, second)) = self.crossing.first_crossing(&self.markers)? {
             return Err(BodyError::SelfCrossing { first, second });
         }
         Ok(())
@@ -229,7 +229,7 @@ impl ActiveDroplet {
     /// quadratic part).
     fn restore_area(&mut self) -> Result<(), InterfaceError> {
         for _ in 0..2 {
-            let missing = self.initial_area - polygon_area(&self.markers);
+            let missing = self.initial_area - signed_area(&self.markers);
             let total: f64 = self.geometry.weights.iter().sum();
             for (marker, tau) in self.markers.iter_mut().zip(&self.geometry.tangents) {
                 *marker += missing / total * outward(*tau);

@@ -57,7 +57,7 @@ pub(crate) fn outward(tangent: Vec2) -> Vec2 {
 }
 
 /// Area of the polygon (length squared), positive if counter-clockwise.
-pub(crate) fn polygon_area(markers: &[Vec2]) -> f64 {
+pub(crate) fn signed_area(markers: &[Vec2]) -> f64 {
     // Relative to the first marker: no cancellation for droplets that have travelled far.
     let Some(&origin) = markers.first() else { return 0.0 };
     let mut twice = 0.0;

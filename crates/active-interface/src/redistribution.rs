@@ -6,7 +6,12 @@ use ib_core::Vec2;
 ///
 /// A new marker lies on the cubic through the four nearest ones; the particles of a split segment are shared in
 /// proportion to the lengths of its halves. Returns how many markers were inserted and removed.
-pub(crate) fn redistribute(markers: &mut Vec<Vec2>, numbers: &mut Vec<f64>, target: f64, minimum: usize) -> (usize, usize) {
+pub(crate) fn redistribute(
+    markers: &mut Vec<Vec2>,
+    numbers: &mut Vec<f64>,
+    target: f64,
+    minimum: usize,
+) -> (usize, usize) {
     let (mut inserted, mut removed) = (0, 0);
     let carries = !numbers.is_empty();
     let mut k = 0;
