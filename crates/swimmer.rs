@@ -2,9 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{
-    ActiveDroplet, ContractileTension, Curve, Flux, InterfaceError, Motion, StepExcludedVolume, Tension,
-};
+use active_interface::{ActiveDroplet, ContractileTension, Curve, Flux, InterfaceError, Motion, StepExcludedVolume};
 use ib_core::{AnyKernel, FlowError, Handle, ImmersedBoundary, Scene, StepSize, Vec2};
 use stokes_grid::{Grid, PeriodicStokes, StokesError};
 
@@ -171,9 +169,8 @@ impl Swimmer {
     pub fn droplet(&self) -> Result<ActiveDroplet, SetupError> {
         let tension = self.tension()?;
         let spacing = self.marker_spacing.unwrap_or(0.5 * self.spacing);
-        let curve = Curve::circle(self.radius)?
-            .rotated(self.angle)
-            .translated(Vec2::new(self.offset[0], self.offset[1]));
+        let curve =
+            Curve::circle(self.radius)?.rotated(self.angle).translated(Vec2::new(self.offset[0], self.offset[1]));
         let markers = curve.markers(fast_count(TAU * self.radius / spacing))?;
         let numbers = self.numbers(&markers)?;
         let droplet = ActiveDroplet::new(markers, numbers, tension, self.diffusion)?
@@ -187,10 +184,13 @@ impl Swimmer {
         let count = markers.len();
         // marker 0 lies at the front
         let step = TAU / count as f64;
-        Ok((0..count).map(|k| {
-            let (a, b) = (step * k as f64, step * (k + 1) as f64);
-            self.mean_concentration * self.radius * ((b - a) - (b.sin() - a.sin()))
-        }).map(|n| n.max(0.0)).collect())
+        Ok((0..count)
+            .map(|k| {
+                let (a, b) = (step * k as f64, step * (k + 1) as f64);
+                self.mean_concentration * self.radius * ((b - a) - (b.sin() - a.sin()))
+            })
+            .map(|n| n.max(0.0))
+            .collect())
     }
 
     /// The scene and the droplet in it.
@@ -198,6 +198,17 @@ impl Swimmer {
     /// # Errors
     /// Parameters out of their range, a box that does not hold a whole number of cells.
     pub fn build(&self) -> Result<(Scene<PeriodicBox>, Handle<ActiveDroplet>), SetupError> {
+        let droplet = self.droplet()?;
+        let mut scene = self.scene()?;
+        let droplet = scene.add(droplet);
+        Ok((scene, droplet))
+    }
+
+    /// The scene without a droplet, for droplets made otherwise.
+    ///
+    /// # Errors
+    /// Parameters out of their range, a box that does not hold a whole number of cells.
+    pub fn scene(&self) -> Result<Scene<PeriodicBox>, SetupError> {
         let [lx, ly] = self.lengths;
         let grid = Grid::periodic(self.cells(lx)?, self.cells(ly)?, self.spacing)?;
         let solver = PeriodicStokes::new(grid, self.viscosity)?;
@@ -206,9 +217,7 @@ impl Swimmer {
         } else {
             ImmersedBoundary::uncorrected(solver, self.kernel)
         };
-        let mut scene = Scene::new(flow);
-        let droplet = scene.add(self.droplet()?);
-        Ok((scene, droplet))
+        Ok(Scene::new(flow))
     }
 }
 

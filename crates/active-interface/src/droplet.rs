@@ -341,7 +341,8 @@ impl ActiveDroplet {
                 reason: "the coupling of concentration and tension",
             });
             let slip = self.slip.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
-            limits.push(StepLimit { dt: self.geometry.mean_length() / slip, reason: "the particles' transport" });
+            // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, holds up to about two segments a step.
+            limits.push(StepLimit { dt: 1.8 * self.geometry.mean_length() / slip, reason: "the particles' transport" });
         }
         limits
     }

@@ -183,6 +183,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         self.work.evaluations += 1;
         let setting = Setting {
             spacing: self.grid().spacing(),
+            origin: self.grid().origin(),
             viscosity: self.solver.viscosity(),
             walls: self.walls(),
             variance: self.variance,

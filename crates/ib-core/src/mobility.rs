@@ -20,21 +20,32 @@ const CUT: f64 = 50.0;
 ///
 /// `R_t = 4 q / (2 pi) integral dk (t_x w_u d_y - t_y w_v d_x)^2 / (d_x^2 + d_y^2)^2`, and `R_n` with n for t.
 ///
-/// Stored are `G = (1 - R) / (4 q)`. Their dependence on the direction of the interface is linear in
-/// `n_x^4 + n_y^4 - 3/4` to about 1e-3.
+/// Stored are the first coefficients of `G = (1 - R) / (4 q)` in cos(4 angle) and, for G_t, cos(8 angle).
 #[derive(Debug, Clone)]
 pub struct MobilityDeficit {
-    /// Rows at equal steps of sqrt(q): mean and slope of G_t, mean and slope of G_n.
-    table: Vec<[f64; 4]>,
+    /// Rows at equal steps of sqrt(q): mean, slope and curvature of G_t, mean and slope of G_n.
+    table: Vec<[f64; 5]>,
+    /// First grid harmonic of an interface along the grid, at equal steps of the wave number.
+    harmonic: Vec<f64>,
+    /// The second grid harmonic over the first at small wave numbers.
+    second_harmonic: f64,
 }
 
-/// The deficits of one wave number: `G = mean + slope * (n_x^4 + n_y^4 - 3/4)`, in units of h.
+/// Wave number (in units of 1/h) above which the grid harmonic is negligible.
+const HARMONIC_LAST: f64 = 6.0;
+/// Intervals of the table of the grid harmonic.
+const HARMONIC_INTERVALS: usize = 48;
+
+/// The deficits of one wave number, in units of h: with `z = n_x^4 + n_y^4 - 3/4 = cos(4 angle) / 4`,
+/// `G = mean + slope z + curvature (32 z^2 - 1)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deficit {
     /// Mean of the tangential deficit.
     pub tangential: f64,
     /// Slope of the tangential deficit.
     pub tangential_slope: f64,
+    /// Curvature of the tangential deficit.
+    pub tangential_curvature: f64,
     /// Mean of the normal deficit.
     pub normal: f64,
     /// Slope of the normal deficit.
@@ -50,20 +61,47 @@ impl MobilityDeficit {
             .map(|i| {
                 let root = LAST.sqrt() * i as f64 / INTERVALS as f64;
                 let q = (root * root).max(1e-6);
-                // n_x^4 + n_y^4 - 3/4 = cos(4 angle) / 4: the first two Fourier coefficients, by the trapezoidal rule.
-                let mut row = [0.0; 4];
+                // n_x^4 + n_y^4 - 3/4 = cos(4 angle) / 4: the first Fourier coefficients, by the trapezoidal rule.
+                let mut row = [0.0; 5];
                 for (step, weight) in [0.125, 0.25, 0.25, 0.25, 0.125].into_iter().enumerate() {
                     let phase = 0.25 * std::f64::consts::PI * step as f64;
                     let (tangential, normal) = deficits(&transforms, q, 0.25 * phase);
                     row[0] += weight * tangential;
                     row[1] += weight * 8.0 * phase.cos() * tangential;
-                    row[2] += weight * normal;
-                    row[3] += weight * 8.0 * phase.cos() * normal;
+                    row[2] += weight * 2.0 * (2.0 * phase).cos() * tangential;
+                    row[3] += weight * normal;
+                    row[4] += weight * 8.0 * phase.cos() * normal;
                 }
                 row
             })
             .collect();
-        Self { table }
+        let harmonic = (0..=HARMONIC_INTERVALS)
+            .map(|i| harmonic(&transforms, 1.0, (HARMONIC_LAST * i as f64 / HARMONIC_INTERVALS as f64).max(1e-6)))
+            .collect();
+        let second_harmonic = harmonic_ratio(&transforms);
+        Self { table, harmonic, second_harmonic }
+    }
+
+    /// The grid harmonic at wave number `q` (in units of 1/h): the part of the tangential mobility of an interface
+    /// along the grid lines that follows its position between them,
+    ///
+    /// `H(q) = 1 / (2 pi) integral dk w_u(q, k) d_y(k) w_u(q, k + 2 pi) d_y(k + 2 pi) / (d_x^2 + d_y^2)^2`,
+    ///
+    /// so that a tangential force F e^{iqx} at the height y moves it by `(h/eta) F (R/(4q) + 2 H cos(2 pi y/h))`.
+    #[must_use]
+    pub fn harmonic(&self, q: f64) -> f64 {
+        let position = q.abs() / HARMONIC_LAST * HARMONIC_INTERVALS as f64;
+        let i = position as usize;
+        if i >= HARMONIC_INTERVALS {
+            return 0.0;
+        }
+        let s = position - i as f64;
+        let before = self.harmonic[if i == 0 { 1 } else { i - 1 }];
+        let after = self.harmonic[(i + 2).min(HARMONIC_INTERVALS)];
+        let (a, b) = (self.harmonic[i], self.harmonic[i + 1]);
+        a + s
+            * (0.5 * (b - before)
+                + s * (before - 2.5 * a + 2.0 * b - 0.5 * after + s * (1.5 * (a - b) + 0.5 * (after - before))))
     }
 
     /// The deficits at wave number `q` (in units of 1/h).
@@ -71,7 +109,13 @@ impl MobilityDeficit {
     pub fn at(&self, q: f64) -> Deficit {
         if q >= LAST {
             let all = 0.25 / q;
-            return Deficit { tangential: all, tangential_slope: 0.0, normal: all, normal_slope: 0.0 };
+            return Deficit {
+                tangential: all,
+                tangential_slope: 0.0,
+                tangential_curvature: 0.0,
+                normal: all,
+                normal_slope: 0.0,
+            };
         }
         let position = (q.max(0.0) / LAST).sqrt() * INTERVALS as f64;
         let i = (position as usize).min(INTERVALS - 1);
@@ -85,14 +129,21 @@ impl MobilityDeficit {
             -x * (x - 1.0) * (x - 3.0) / 2.0,
             x * (x - 1.0) * (x - 2.0) / 6.0,
         ];
-        let mut row = [0.0; 4];
+        let mut row = [0.0; 5];
         for (weight, entry) in weights.iter().zip(&self.table[base..base + 4]) {
             for (sum, value) in row.iter_mut().zip(entry) {
                 *sum += weight * value;
             }
         }
-        let [tangential, tangential_slope, normal, normal_slope] = row;
-        Deficit { tangential, tangential_slope, normal, normal_slope }
+        let [tangential, tangential_slope, tangential_curvature, normal, normal_slope] = row;
+        Deficit { tangential, tangential_slope, tangential_curvature, normal, normal_slope }
+    }
+
+    /// The second grid harmonic over the first, `H_2 / H`, for forces that vary slowly; H_2 is H with 4 pi for 2 pi and multiplies
+    /// `cos(4 pi y/h)`.
+    #[must_use]
+    pub fn second_harmonic(&self) -> f64 {
+        self.second_harmonic
     }
 
     /// The fastest relaxation of a nearly flat interface on the grid, in units of tension/(viscosity h): the maximum
@@ -161,6 +212,34 @@ fn deficits(transforms: &Transforms, q: f64, angle: f64) -> (f64, f64) {
     let tail_n = 2.0 * (0.5 / q * (q / a).atan() - 0.5 * a / (q * q + a * a));
     let scale = 0.5 / std::f64::consts::PI;
     (scale * (sum.0 + tail_t), scale * (sum.1 + tail_n))
+}
+
+fn harmonic_ratio(transforms: &Transforms) -> f64 {
+    let (first, second) = (harmonic(transforms, 1.0, 1e-3), harmonic(transforms, 2.0, 1e-3));
+    if first == 0.0 { 0.0 } else { second / first }
+}
+
+/// The grid harmonic number `order` of an interface along x; see [`MobilityDeficit::harmonic`].
+fn harmonic(transforms: &Transforms, order: f64, q: f64) -> f64 {
+    let dx2 = (2.0 * (0.5 * q).sin()).powi(2);
+    let along = transforms.at(Role::Normal, q);
+    let bracket = |k: f64| along * transforms.at(Role::Tangential, k) * 2.0 * (0.5 * k).sin();
+    let mut sum = 0.0;
+    // Symmetric about k = -pi order, where both factors are largest.
+    let mut a = 0.0;
+    while a < CUT - 7.0 {
+        let width = if a < 10.0 { 0.2 } else { 0.5 };
+        for (x, w) in GAUSS_10 {
+            let k = -std::f64::consts::PI * order + a + 0.5 * width * (1.0 + x);
+            let d2 = dx2 + (2.0 * (0.5 * k).sin()).powi(2);
+            if d2 > 1e-18 {
+                let other = k + std::f64::consts::TAU * order;
+                sum += 0.5 * width * w * 2.0 * bracket(k) * bracket(other) / (d2 * d2);
+            }
+        }
+        a += width;
+    }
+    0.5 * sum / std::f64::consts::PI
 }
 
 /// Fourier transforms of the two roles of a kernel, tabulated once because the quadrature asks for them a million

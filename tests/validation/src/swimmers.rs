@@ -1,0 +1,1 @@
+//! Swimmers against boundary-integral values.
