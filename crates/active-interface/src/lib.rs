@@ -8,6 +8,7 @@ mod error;
 mod excluded_volume;
 mod face_value;
 mod initial;
+mod observables;
 mod polygon;
 mod positivity;
 mod spline;
@@ -21,6 +22,12 @@ pub use error::InterfaceError;
 pub use excluded_volume::{ExcludedVolume, NoExcludedVolume, QuadraticExcludedVolume, StepExcludedVolume};
 pub use face_value::{Flux, weno5};
 pub use initial::InitialConcentration;
+pub use observables::{
+    ActiveRegion, ConcentrationProfile, Convention, EllipseFit, ForceMoments, FourierModes, Frame, InterfaceState,
+    Observables, SquirmerFit, VelocityFrame, active_curvature, active_region, aspect_ratio_from_moments,
+    centroid_velocity, concentration_modes, concentration_profile, fit_ellipse, fitted_curvature, force_moments,
+    observe, shape_modes, squirmer_coefficients,
+};
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
 pub use positivity::{Repair, repair_positivity};
 pub use tension::{ConstantTension, ContractileTension, Tension, TensionWarning};
