@@ -212,10 +212,9 @@ impl Curve {
         if area.abs() < 1e-6 * perimeter * perimeter {
             return Err(InterfaceError::NoArea { area, length: perimeter });
         }
-        if !matches!(shape, Shape::Circle(_) | Shape::Ellipse(..) | Shape::Fourier { .. }) {
-            if let Some((first, second)) = first_crossing(&every(&samples, 4))? {
-                return Err(InterfaceError::SelfCrossing { first, second });
-            }
+        let simple_by_form = matches!(shape, Shape::Circle(_) | Shape::Ellipse(..) | Shape::Fourier { .. });
+        if !simple_by_form && let Some((first, second)) = first_crossing(&every(&samples, 4))? {
+            return Err(InterfaceError::SelfCrossing { first, second });
         }
         Ok(Self { shape, reversed: area < 0.0, rotation: 0.0, translation: Vec2::zeros(), area: area.abs(), perimeter })
     }

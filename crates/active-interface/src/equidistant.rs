@@ -27,7 +27,7 @@ pub(crate) fn equidistant(point: impl Fn(f64) -> Vec2, count: usize) -> Result<V
         .collect();
 
     let mut points: Vec<Vec2> = parameters.iter().map(|&t| point(t)).collect();
-    let extent = points.iter().map(|p| p.amax()).fold(0.0, f64::max);
+    let extent = points.iter().map(Vec2::amax).fold(0.0, f64::max);
     let mut best = f64::INFINITY;
     for _ in 0..200 {
         let chords: Vec<f64> = edges(&points).map(|(a, b)| (b - a).norm()).collect();

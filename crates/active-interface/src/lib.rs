@@ -11,6 +11,8 @@ mod excluded_volume;
 mod face_value;
 mod filter;
 mod geometry;
+mod initial;
+mod observables;
 mod polygon;
 mod positivity;
 mod redistribution;
@@ -25,6 +27,13 @@ pub use droplet::{ActiveDroplet, DropletWarning, MINIMUM_MARKERS, Motion, PECLET
 pub use error::InterfaceError;
 pub use excluded_volume::{ExcludedVolume, NoExcludedVolume, QuadraticExcludedVolume, StepExcludedVolume};
 pub use face_value::{Flux, weno5};
+pub use initial::InitialConcentration;
+pub use observables::{
+    ActiveRegion, ConcentrationProfile, Convention, EllipseFit, ForceMoments, FourierModes, Frame, InterfaceState,
+    Observables, SquirmerFit, VelocityFrame, active_curvature, active_region, aspect_ratio_from_moments,
+    centroid_velocity, concentration_modes, concentration_profile, fit_ellipse, fitted_curvature, force_moments,
+    observe, shape_modes, squirmer_coefficients,
+};
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
 pub use positivity::{Repair, repair_positivity};
 pub use tension::{ConstantTension, ContractileTension, Tension, TensionWarning};

@@ -115,9 +115,8 @@ mod tests {
         let mut points: Vec<Vec2> =
             [[0.0, 0.0], [2.0, 0.1], [2.2, 1.5], [0.4, 1.1]].iter().map(|&[x, y]| Vec2::new(x, y)).collect();
         let spline = PeriodicSpline::new(&points).unwrap();
-        for k in 0..4 {
-            let t = spline.knots[k] / spline.knots[4];
-            assert!((spline.point(t) - points[k]).norm() < 1e-14);
+        for (point, knot) in points.iter().zip(&spline.knots) {
+            assert!((spline.point(knot / spline.knots[4]) - point).norm() < 1e-14);
         }
         assert!((spline.point(1.0) - points[0]).norm() < 1e-14);
         points[2] = points[1];

@@ -165,13 +165,13 @@ impl Transport {
         let m = self.len();
         // Unknowns are the concentrations: l_k c_k - factor (g_{k+1} (c_{k+1} - c_k) - g_k (c_k - c_{k-1})) = n_k, a
         // symmetric matrix whose diagonal dominates.
-        for k in 0..m {
-            let conductance = factor * diffusivities[k] / spacing_at(lengths, k);
+        for (k, diffusivity) in diffusivities.iter().enumerate() {
+            let conductance = factor * diffusivity / spacing_at(lengths, k);
             self.lower[k] = -conductance;
             self.upper[before(k, 1, m)] = -conductance;
         }
-        for k in 0..m {
-            self.diagonal[k] = lengths[k] - self.lower[k] - self.upper[k];
+        for (k, length) in lengths.iter().enumerate() {
+            self.diagonal[k] = length - self.lower[k] - self.upper[k];
         }
         self.concentrations.copy_from_slice(numbers);
         self.solver.solve(&self.lower, &self.diagonal, &self.upper, &mut self.concentrations)?;

@@ -1,0 +1,253 @@
+//! The part of the interface that is crowded with particles.
+
+use ib_core::Vec2;
+
+use super::circle_fit::weighted_curvature;
+use crate::InterfaceError;
+use crate::error::{all_finite, all_points_finite, all_positive, enough, length};
+use crate::polygon::edges;
+
+/// The active region: the part of the interface from the steepest rise of the concentration to its steepest fall, in
+/// counter-clockwise order (thesis, section 2.3.4).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ActiveRegion {
+    /// Arc length from marker 0 to its start, the largest dc/ds (length).
+    pub start: f64,
+    /// Arc length from marker 0 to its end, the smallest dc/ds (length).
+    pub end: f64,
+    /// Its length.
+    pub length: f64,
+    /// Its length over that of the whole interface (no dimension): the active fraction.
+    pub fraction: f64,
+}
+
+/// The active region of an interface with the segment lengths `lengths` and the particle numbers `numbers`, segment k
+/// from marker k to the next; `None` where the concentration is uniform to round-off.
+///
+/// dc/ds is taken at the markers, by a difference that is right to fourth order for averages over segments, and its
+/// extrema are located between them on the polynomial through five values. Segments should be equally long, to a few per
+/// cent.
+///
+/// # Errors
+/// Slices of different length, fewer than eight segments, numbers that are not finite, lengths that are not positive.
+pub fn active_region(lengths: &[f64], numbers: &[f64]) -> Result<Option<ActiveRegion>, InterfaceError> {
+    enough("segments", lengths.len(), 8)?;
+    length("numbers", lengths.len(), numbers.len())?;
+    all_positive("the segment lengths", lengths)?;
+    all_finite("the particle numbers", numbers)?;
+    let m = lengths.len();
+    let c: Vec<f64> = numbers.iter().zip(lengths).map(|(number, length)| number / length).collect();
+    let difference = |k: usize| {
+        let before = (k + m - 1) % m;
+        (c[k] - c[before]) / (0.5 * (lengths[k] + lengths[before]))
+    };
+    // A difference of averages is the derivative smoothed twice over a segment, 1 + ds^2/12 d^2/ds^2: take that off.
+    let slopes: Vec<f64> = (0..m)
+        .map(|k| {
+            let (before, here, after) = (difference((k + m - 1) % m), difference(k), difference((k + 1) % m));
+            here - (before - 2.0 * here + after) / 12.0
+        })
+        .collect();
+    let largest = c.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+    let perimeter: f64 = lengths.iter().sum();
+    let steepest = |sign: f64| (0..m).max_by(|&i, &j| (sign * slopes[i]).total_cmp(&(sign * slopes[j]))).unwrap_or(0);
+    let (rise, fall) = (steepest(1.0), steepest(-1.0));
+    if (slopes[rise] - slopes[fall]) * perimeter <= 1e-9 * largest {
+        return Ok(None);
+    }
+    let locate = |k: usize| {
+        let offset = extremum(std::array::from_fn(|i| slopes[(k + m + i - 2) % m]));
+        let at: f64 = lengths[..k].iter().sum();
+        let along = if offset >= 0.0 { lengths[k] } else { lengths[(k + m - 1) % m] };
+        (at + offset * along).rem_euclid(perimeter)
+    };
+    let (start, end) = (locate(rise), locate(fall));
+    let span = (end - start).rem_euclid(perimeter);
+    Ok(Some(ActiveRegion { start, end, length: span, fraction: span / perimeter }))
+}
+
+/// Where the polynomial through five values at -2, ..., 2 has the extremum next to 0, between -1 and 1.
+fn extremum([a, b, c, d, e]: [f64; 5]) -> f64 {
+    // f(x) = c + p x + q x^2 + r x^3 + s x^4
+    let p = (a - 8.0 * b + 8.0 * d - e) / 12.0;
+    let q = (-a + 16.0 * b - 30.0 * c + 16.0 * d - e) / 24.0;
+    let r = (-a + 2.0 * b - 2.0 * d + e) / 12.0;
+    let s = (a - 4.0 * b + 6.0 * c - 4.0 * d + e) / 24.0;
+    let curvature = b - 2.0 * c + d;
+    let parabola = if curvature == 0.0 { 0.0 } else { (0.5 * (b - d) / curvature).clamp(-0.5, 0.5) };
+    let mut x = parabola;
+    for _ in 0..20 {
+        let slope = p + x * (2.0 * q + x * (3.0 * r + x * 4.0 * s));
+        let bend = 2.0 * q + x * (6.0 * r + x * 12.0 * s);
+        // Another kind of extremum, or none near: an edge too sharp for the polynomial.
+        if bend * curvature <= 0.0 {
+            return parabola;
+        }
+        let step = slope / bend;
+        x -= step;
+        if x.abs() > 1.0 {
+            return parabola;
+        }
+        if step.abs() < 1e-14 {
+            break;
+        }
+    }
+    x
+}
+
+/// Signed curvature (1/length) of the active region of an interface: that of the circle fitted to its part by least
+/// squares, positive where it bulges outwards, negative where it is dented (thesis, section 2.3.4).
+///
+/// The markers in the region count by their arc length; its ends are interpolated between markers.
+///
+/// # Errors
+/// Fewer than eight markers, markers that are not finite, a region too short to fit a circle to.
+pub fn active_curvature(markers: &[Vec2], region: &ActiveRegion) -> Result<f64, InterfaceError> {
+    enough("markers", markers.len(), 8)?;
+    all_points_finite("the markers", markers)?;
+    let m = markers.len();
+    let mut arcs = vec![0.0; m + 1];
+    for (k, (a, b)) in edges(markers).enumerate() {
+        arcs[k + 1] = arcs[k] + (b - a).norm();
+    }
+    let perimeter = arcs[m];
+    if !(region.length > 0.0 && region.length <= perimeter && region.start.is_finite()) {
+        return Err(InterfaceError::NoFit { what: "a circle", points: 0 });
+    }
+    let (start, end) = (region.start, region.start + region.length);
+    let mut points = vec![interpolate(markers, &arcs, start)];
+    let mut places = vec![start];
+    let first = arcs[..m].partition_point(|&arc| arc <= start);
+    for k in first..first + m {
+        let arc = arcs[k % m] + if k >= m { perimeter } else { 0.0 };
+        if arc >= end {
+            break;
+        }
+        points.push(markers[k % m]);
+        places.push(arc);
+    }
+    points.push(interpolate(markers, &arcs, end));
+    places.push(end);
+    let n = places.len();
+    let weights: Vec<f64> = (0..n).map(|i| 0.5 * (places[(i + 1).min(n - 1)] - places[i.max(1) - 1])).collect();
+    weighted_curvature(&points, &weights)
+}
+
+/// The point at an arc length, on the cubic through the two markers on either side.
+fn interpolate(markers: &[Vec2], arcs: &[f64], arc: f64) -> Vec2 {
+    let m = markers.len();
+    let arc = arc.rem_euclid(arcs[m]);
+    let k = arcs[1..m].partition_point(|&a| a <= arc);
+    let x = (arc - arcs[k]) / (arcs[k + 1] - arcs[k]);
+    let at = |i: usize| markers[(k + m + i - 1) % m];
+    at(0) * (-x * (x - 1.0) * (x - 2.0) / 6.0)
+        + at(1) * ((x + 1.0) * (x - 1.0) * (x - 2.0) / 2.0)
+        + at(2) * (-(x + 1.0) * x * (x - 2.0) / 2.0)
+        + at(3) * ((x + 1.0) * x * (x - 1.0) / 6.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Curve;
+    use approx::assert_relative_eq;
+
+    /// ln cosh without overflow.
+    fn ln_cosh(x: f64) -> f64 {
+        x.abs() + (-2.0 * x.abs()).exp().ln_1p()
+    }
+
+    /// Particle numbers of a plateau between `from` and `to` on a closed line of length 1, edges of width `width`.
+    fn plateau(m: usize, from: f64, to: f64, width: f64) -> (Vec<f64>, Vec<f64>) {
+        // integral of (tanh((s - from)/width) - tanh((s - to)/width))/2
+        let integral = |s: f64| 0.5 * width * (ln_cosh((s - from) / width) - ln_cosh((s - to) / width));
+        let h = 1.0 / m as f64;
+        (vec![h; m], (0..m).map(|k| integral((k + 1) as f64 * h) - integral(k as f64 * h) + 1e-3 * h).collect())
+    }
+
+    #[test]
+    fn edges_are_found_between_the_markers() {
+        // Edges of the width that the steady swimmers have: 0.1 R0 of 6.28 R0 from foot to top.
+        for shift in [0.0, 0.1, 0.3, 0.5, 0.7] {
+            let m = 240;
+            let (from, to) = (0.31 + shift / m as f64, 0.62 + 0.37 * shift / m as f64);
+            let (lengths, numbers) = plateau(m, from, to, 0.008);
+            let region = active_region(&lengths, &numbers).unwrap().unwrap();
+            assert!((region.fraction - (to - from)).abs() < 2e-4, "{shift}: {}", region.fraction - (to - from));
+            assert!((region.start - from).abs() < 2e-4 && (region.end - to).abs() < 2e-4);
+        }
+    }
+
+    #[test]
+    fn the_location_is_of_fourth_order() {
+        // An edge without symmetry, so that the error of a lower order would show.
+        let error = |m: usize, shift: f64| {
+            let h = std::f64::consts::TAU / m as f64;
+            // c = exp(sin s + 0.3 cos 2s), averaged by Simpson's rule on 8 parts
+            let f = |s: f64| ((s + shift * h).sin() + 0.3 * (2.0 * (s + shift * h)).cos()).exp();
+            let numbers: Vec<f64> = (0..m)
+                .map(|k| {
+                    let parts = 8;
+                    (0..=parts)
+                        .map(|i| {
+                            let weight = if i == 0 || i == parts { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
+                            weight * f((k as f64 + f64::from(i) / f64::from(parts)) * h) * h / (3.0 * f64::from(parts))
+                        })
+                        .sum()
+                })
+                .collect();
+            let region = active_region(&vec![h; m], &numbers).unwrap().unwrap();
+            // The zero of c'' by Newton's method: with g = ln c, g'^2 + g'' = 0.
+            let mut s = region.start + shift * h;
+            for _ in 0..50 {
+                let g = s.cos() - 0.6 * (2.0 * s).sin();
+                let g2 = -s.sin() - 1.2 * (2.0 * s).cos();
+                let g3 = -s.cos() + 2.4 * (2.0 * s).sin();
+                s -= (g * g + g2) / (2.0 * g * g2 + g3);
+            }
+            (region.start + shift * h - s).abs()
+        };
+        // The largest error over positions of the edge between the markers.
+        let largest = |m| (0..10).map(|i| error(m, f64::from(i) / 10.0)).fold(0.0, f64::max);
+        let (coarse, fine) = (largest(60), largest(120));
+        assert!(fine < 2e-5 && (coarse / fine).log2() > 3.5, "{coarse:e} {fine:e}");
+    }
+
+    #[test]
+    fn the_polarised_state_is_half_active() {
+        // reference/swimmer_transient_box6_activity_1.csv, t = 0: active_frac 0.5, kappa_act 1
+        let markers = Curve::circle(1.0).unwrap().markers(250).unwrap();
+        let numbers = crate::InitialConcentration::polarised(100.0, 0.3).unwrap().particle_numbers(&markers).unwrap();
+        let lengths: Vec<f64> = edges(&markers).map(|(a, b)| (b - a).norm()).collect();
+        let region = active_region(&lengths, &numbers).unwrap().unwrap();
+        assert_relative_eq!(region.fraction, 0.5, epsilon = 1e-8);
+        assert_relative_eq!(active_curvature(&markers, &region).unwrap(), 1.0, max_relative = 1e-3);
+        assert_eq!(active_region(&lengths, &lengths).unwrap(), None);
+    }
+
+    #[test]
+    fn a_dent_has_negative_curvature() {
+        let markers = Curve::fourier(1.0, &[0.0, 0.25, 0.0], &[]).unwrap().markers(200).unwrap();
+        let perimeter = crate::polygon_perimeter(&markers).unwrap();
+        let region = |middle: f64| ActiveRegion {
+            start: (middle - 0.04) * perimeter,
+            end: (middle + 0.04) * perimeter,
+            length: 0.08 * perimeter,
+            fraction: 0.08,
+        };
+        let (dent, tip) = (active_curvature(&markers, &region(0.25)), active_curvature(&markers, &region(0.5)));
+        assert!(dent.clone().unwrap() < -0.1 && tip.clone().unwrap() > 1.0, "{dent:?} {tip:?}");
+        // The tip across marker 0 is the same as the other one.
+        assert_relative_eq!(active_curvature(&markers, &region(1.0)).unwrap(), tip.unwrap(), max_relative = 1e-9);
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        assert!(active_region(&[1.0; 7], &[1.0; 7]).is_err());
+        assert!(active_region(&[1.0; 9], &[1.0; 8]).is_err());
+        assert!(active_region(&[0.0; 9], &[1.0; 9]).is_err());
+        let markers = Curve::circle(1.0).unwrap().markers(10).unwrap();
+        let empty = ActiveRegion { start: 0.0, end: 0.0, length: 0.0, fraction: 0.0 };
+        assert!(active_curvature(&markers, &empty).is_err());
+    }
+}

@@ -1,0 +1,180 @@
+//! The circle closest to an arc of points.
+
+use ib_core::Vec2;
+use nalgebra::{Matrix3, Vector3};
+
+use crate::InterfaceError;
+use crate::error::{all_points_finite, enough};
+use crate::polygon::cross;
+
+/// Signed curvature (1/length) of the circle with the least sum of squared distances from the points of an open arc, in their
+/// order: positive where the arc turns to the left, as a convex interface in counter-clockwise order does, negative
+/// where it turns to the right, zero for points on a line.
+///
+/// The circle A r^2 + B x + C y + D = 0 with B^2 + C^2 - 4 A D = 1 includes straight lines (A = 0), its curvature is 2 A;
+/// Gauss-Newton iterations start from the turning of the arc about its middle.
+///
+/// # Errors
+/// Fewer than three points, points that are not finite, points that determine no circle, no convergence.
+pub fn fitted_curvature(points: &[Vec2]) -> Result<f64, InterfaceError> {
+    weighted_curvature(points, &vec![1.0; points.len()])
+}
+
+/// [`fitted_curvature`] with weights of the squared distances.
+pub(crate) fn weighted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, InterfaceError> {
+    enough("points of an arc", points.len(), 3)?;
+    all_points_finite("the points of the arc", points)?;
+    let n = points.len();
+    let no_fit = InterfaceError::NoFit { what: "a circle", points: n };
+    let extent = points.iter().map(|p| (p - points[0]).norm()).fold(0.0, f64::max);
+    if extent == 0.0 {
+        return Err(no_fit);
+    }
+    // Units of the extent, origin in the middle of the arc.
+    let origin = points[n / 2];
+    let local: Vec<Vec2> = points.iter().map(|p| (p - origin) / extent).collect();
+    let (first, last) = (local[1] - local[0], local[n - 1] - local[n - 2]);
+    let turning: f64 = local
+        .windows(3)
+        .map(|p| {
+            let (a, b) = (p[1] - p[0], p[2] - p[1]);
+            cross(a, b).atan2(a.dot(&b))
+        })
+        .sum();
+    let arc: f64 = local.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>() - 0.5 * (first.norm() + last.norm());
+    let tangent = local[(n / 2 + 1).min(n - 1)] - local[n / 2 - 1];
+    if arc <= 0.0 || tangent == Vec2::zeros() {
+        return Err(no_fit);
+    }
+
+    let mut a = 0.5 * turning / arc;
+    let mut angle = (-tangent.x).atan2(tangent.y);
+    let mut d = 0.0;
+    let mut damping = 0.0;
+    let mut cost = f64::INFINITY;
+    let mut previous = (a, angle, d);
+    for _ in 0..100 {
+        let root = (1.0 + 4.0 * a * d).max(1e-12).sqrt();
+        let (sin, cos) = angle.sin_cos();
+        let (mut normal, mut gradient, mut sum) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
+        for (p, &weight) in local.iter().zip(weights) {
+            let square = p.norm_squared();
+            let along = p.x * cos + p.y * sin;
+            let value = a * square + root * along + d;
+            let stretch = (1.0 + 4.0 * a * value).max(1e-12).sqrt();
+            let distance = 2.0 * value / (1.0 + stretch);
+            // Derivatives of the distance by the value and, at a fixed value, by A.
+            let by_value = 1.0 / stretch;
+            let by_a = -distance * distance / stretch;
+            let row = Vector3::new(
+                by_value * (square + 2.0 * d / root * along) + by_a,
+                by_value * root * (p.y * cos - p.x * sin),
+                by_value * (1.0 + 2.0 * a / root * along),
+            );
+            normal += row * row.transpose() * weight;
+            gradient += row * (weight * distance);
+            sum += weight * distance * distance;
+        }
+        if sum > cost * (1.0 + 1e-12) {
+            (a, angle, d) = previous;
+            damping = (damping * 10.0f64).max(1e-6);
+            if damping > 1e12 {
+                break;
+            }
+            cost = f64::INFINITY;
+            continue;
+        }
+        cost = sum;
+        previous = (a, angle, d);
+        let damped = normal + Matrix3::from_diagonal(&normal.diagonal()) * damping;
+        let Some(step) = damped.lu().solve(&gradient) else { return Err(no_fit) };
+        if !step.iter().all(|x| x.is_finite()) {
+            return Err(no_fit);
+        }
+        (a, angle, d) = (a - step.x, angle - step.y, d - step.z);
+        damping *= 0.1;
+        if step.amax() < 1e-13 {
+            return Ok(2.0 * a / extent);
+        }
+    }
+    Err(InterfaceError::NoConvergence {
+        what: "the fit of a circle",
+        residual: cost,
+        tolerance: 1e-13,
+        remedy: "give points that lie closer to an arc",
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    fn arc(radius: f64, from: f64, to: f64, n: usize) -> Vec<Vec2> {
+        (0..n)
+            .map(|k| {
+                let (s, c) = (from + (to - from) * k as f64 / (n - 1) as f64).sin_cos();
+                Vec2::new(3.0 + radius * c, 1.0 + radius * s)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_line_has_no_curvature() {
+        let line: Vec<Vec2> = (0..20).map(|k| Vec2::new(f64::from(k), 2.0 * f64::from(k))).collect();
+        assert!(fitted_curvature(&line).unwrap().abs() < 1e-13);
+        assert!(fitted_curvature(&line[..2]).is_err());
+        assert!(fitted_curvature(&[Vec2::zeros(); 5]).is_err());
+        assert!(fitted_curvature(&[line[0], line[1], Vec2::new(f64::NAN, 0.0)]).is_err());
+    }
+
+    #[test]
+    fn the_fit_is_a_minimum() {
+        // Points off a circle: no nearby circle has a smaller sum of squared distances.
+        let points: Vec<Vec2> = arc(1.0, 0.2, 2.0, 40)
+            .iter()
+            .enumerate()
+            .map(|(k, p)| p + Vec2::new(0.02 * (k as f64).sin(), 0.03 * (2.0 * k as f64).cos()))
+            .collect();
+        let kappa = fitted_curvature(&points).unwrap();
+        // Minimise over the centre for each radius by Newton's method with numerical derivatives.
+        let best = |radius: f64| {
+            let cost = |c: Vec2| points.iter().map(|p| ((p - c).norm() - radius).powi(2)).sum::<f64>();
+            let mut c = Vec2::new(3.0, 1.0);
+            for _ in 0..30 {
+                let h = 1e-4;
+                let (x, y) = (Vec2::new(h, 0.0), Vec2::new(0.0, h));
+                let gradient = Vec2::new(cost(c + x) - cost(c - x), cost(c + y) - cost(c - y)) / (2.0 * h);
+                let xx = (cost(c + x) + cost(c - x) - 2.0 * cost(c)) / (h * h);
+                let yy = (cost(c + y) + cost(c - y) - 2.0 * cost(c)) / (h * h);
+                let xy = (cost(c + x + y) + cost(c - x - y) - cost(c + x - y) - cost(c - x + y)) / (4.0 * h * h);
+                let det = xx * yy - xy * xy;
+                c -= Vec2::new(yy * gradient.x - xy * gradient.y, xx * gradient.y - xy * gradient.x) / det;
+            }
+            cost(c)
+        };
+        let radius = 1.0 / kappa;
+        assert!(best(radius) < best(radius * 1.003) && best(radius) < best(radius * 0.997));
+    }
+
+    proptest! {
+        #[test]
+        fn circles_are_exact(radius in 0.01..100.0f64, from in -3.0..3.0f64, width in 0.1..5.0f64, n in 3usize..60, left in prop::bool::ANY) {
+            let mut points = arc(radius, from, from + width, n);
+            if !left {
+                points.reverse();
+            }
+            let kappa = fitted_curvature(&points).unwrap();
+            let sign = if left { 1.0 } else { -1.0 };
+            // Round-off of the coordinates is magnified by the flatness of the arc.
+            let tolerance = 1e-13 * (1.0 + 3.0 / radius) / (width * width).min(1.0) * 50.0;
+            prop_assert!((kappa * radius * sign - 1.0).abs() < tolerance, "{} {}", kappa, sign / radius);
+        }
+    }
+
+    #[test]
+    fn almost_a_full_turn() {
+        assert_relative_eq!(fitted_curvature(&arc(2.0, 0.0, 6.0, 100)).unwrap(), 0.5, max_relative = 1e-12);
+    }
+}

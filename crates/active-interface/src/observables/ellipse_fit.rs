@@ -1,0 +1,133 @@
+//! The ellipse closest to the markers.
+
+use ib_core::Vec2;
+use nalgebra::{Matrix4, Vector4};
+
+use super::frame::{Frame, half_chords, raw_aspect_ratio};
+use crate::{InterfaceError, polygon_moments};
+
+/// An ellipse with its axes along those of a frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EllipseFit {
+    /// Half axis along the first axis of the frame (length).
+    pub along: f64,
+    /// Half axis across it (length).
+    pub across: f64,
+    /// Centre in the frame (length).
+    pub centre: Vec2,
+    /// Root mean square of the distance of the interface from the ellipse (length; measured towards its centre).
+    pub residual: f64,
+}
+
+impl EllipseFit {
+    /// Aspect ratio a/b, a along the motion (no dimension; thesis, section 2.3.4).
+    #[must_use]
+    pub fn aspect_ratio(&self) -> f64 {
+        self.along / self.across
+    }
+}
+
+/// The ellipse through the markers by least squares, with its axes along and across the first axis of `frame`.
+///
+/// Half axes a, b and centre (x0, y0) minimise the sum of (rho_k - 1)^2 ds_k with rho = sqrt((x-x0)^2/a^2 + (y-y0)^2/b^2), the
+/// distance from the ellipse towards its centre in units of the radius there, by Gauss-Newton iterations. Exact for
+/// ellipses whatever the number of markers.
+///
+/// # Errors
+/// Fewer than four markers, markers that are not finite or enclose no area, no convergence.
+pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, InterfaceError> {
+    crate::error::enough("markers", markers.len(), 4)?;
+    let moments = polygon_moments(markers)?;
+    let no_fit = InterfaceError::NoFit { what: "an ellipse", points: markers.len() };
+    let ratio = raw_aspect_ratio(&moments, frame);
+    let radius = (moments.area.abs() / std::f64::consts::PI).sqrt();
+    if !(ratio.is_finite() && ratio > 0.0) {
+        return Err(no_fit);
+    }
+    let centroid = frame.coordinates(moments.centroid);
+    let points: Vec<(Vec2, f64)> = markers
+        .iter()
+        .zip(half_chords(markers))
+        .map(|(marker, chord)| ((frame.coordinates(*marker) - centroid) / radius, chord.norm() / radius))
+        .collect();
+    // Inverse half axes and centre, in units of the radius.
+    let (mut p, mut q, mut centre) = (ratio.sqrt().recip(), ratio.sqrt(), Vec2::zeros());
+    let mut last = f64::INFINITY;
+    for _ in 0..100 {
+        let (mut normal, mut gradient) = (Matrix4::zeros(), Vector4::zeros());
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for &(point, weight) in &points {
+            let r = point - centre;
+            let (x, y) = (r.x * p, r.y * q);
+            let rho = x.hypot(y);
+            if rho == 0.0 {
+                return Err(no_fit);
+            }
+            let row = Vector4::new(x * r.x, y * r.y, -x * p, -y * q) / rho;
+            normal += row * row.transpose() * weight;
+            gradient += row * (weight * (rho - 1.0));
+            let distance = r.norm() * (1.0 - 1.0 / rho);
+            sum += weight * distance * distance;
+            weights += weight;
+        }
+        let Some(step) = normal.lu().solve(&gradient) else { return Err(no_fit) };
+        if !step.iter().all(|x| x.is_finite()) {
+            return Err(no_fit);
+        }
+        // A step may change a half axis by 30 per cent at most.
+        let (change, bound) = (step.x.abs().max(step.y.abs()), 0.3 * p.min(q));
+        let scale = if change > bound { bound / change } else { 1.0 };
+        p -= scale * step.x;
+        q -= scale * step.y;
+        centre -= Vec2::new(step.z, step.w) * scale;
+        last = step.amax();
+        if last < 1e-13 * (p + q) {
+            return Ok(EllipseFit {
+                along: radius / p,
+                across: radius / q,
+                centre: centroid + centre * radius,
+                residual: radius * (sum / weights).sqrt(),
+            });
+        }
+    }
+    Err(InterfaceError::NoConvergence {
+        what: "the fit of an ellipse",
+        residual: last,
+        tolerance: 1e-13,
+        remedy: "the shape is too far from an ellipse",
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Curve;
+    use approx::assert_relative_eq;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn ellipses_are_exact(a in 0.3..3.0f64, b in 0.3..3.0f64, angle in -3.0..3.0f64, x in -5.0..5.0f64, count in 8usize..90) {
+            let curve = Curve::ellipse(a, b).unwrap().rotated(angle).translated(Vec2::new(x, 1.0));
+            // Points on the ellipse itself, unevenly spaced.
+            let markers: Vec<Vec2> = (0..count).map(|k| curve.point(k as f64 / count as f64)).collect();
+            let frame = Frame::new(Vec2::new(x, 1.0), angle).unwrap();
+            let fit = fit_ellipse(&markers, &frame).unwrap();
+            prop_assert!((fit.along - a).abs() < 1e-11 * a && (fit.across - b).abs() < 1e-11 * b);
+            prop_assert!(fit.centre.norm() < 1e-11 && fit.residual < 1e-11);
+            prop_assert!((fit.aspect_ratio() - a / b).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn higher_modes_do_not_bias_the_axes() {
+        // r = 1 + 0.02 cos 2 theta + 0.02 cos 3 theta: a/b = 1.02/0.98 to first order.
+        let markers = Curve::fourier(1.0, &[0.0, 0.02, 0.02], &[]).unwrap().markers(400).unwrap();
+        let frame = Frame::new(Vec2::zeros(), 0.0).unwrap();
+        let fit = fit_ellipse(&markers, &frame).unwrap();
+        assert_relative_eq!(fit.aspect_ratio(), 1.02 / 0.98, max_relative = 1e-3);
+        assert_relative_eq!(fit.residual, 0.02 / 2f64.sqrt(), max_relative = 0.05);
+        assert!(fit_ellipse(&markers[..3], &frame).is_err());
+        assert!(fit_ellipse(&[Vec2::zeros(); 9], &frame).is_err());
+    }
+}

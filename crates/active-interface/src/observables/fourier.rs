@@ -1,0 +1,144 @@
+//! Fourier modes of the shape and of the concentration.
+
+use std::f64::consts::PI;
+
+use ib_core::Vec2;
+
+use super::frame::Frame;
+use super::squirmer::polar_weights;
+use crate::error::{all_finite, length};
+use crate::polygon::{cross, edges};
+use crate::{InterfaceError, polygon_moments};
+
+/// Coefficients of f(theta) = mean + sum over k >= 1 of cosines[k-1] cos k theta + sines[k-1] sin k theta.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FourierModes {
+    /// Mean over the polar angle.
+    pub mean: f64,
+    /// Coefficients of cos theta, cos 2 theta, ...
+    pub cosines: Vec<f64>,
+    /// Coefficients of sin theta, sin 2 theta, ...
+    pub sines: Vec<f64>,
+}
+
+impl FourierModes {
+    /// Amplitude sqrt(a_k^2 + b_k^2) of mode `k`, 0 for modes that were not computed; for k = 0 the mean.
+    #[must_use]
+    pub fn amplitude(&self, k: usize) -> f64 {
+        match k.checked_sub(1) {
+            None => self.mean,
+            Some(i) => match (self.cosines.get(i), self.sines.get(i)) {
+                (Some(a), Some(b)) => a.hypot(*b),
+                _ => 0.0,
+            },
+        }
+    }
+
+    /// Sums of weighted values at polar angles.
+    fn sum(count: usize, samples: impl Iterator<Item = (f64, f64, f64)>) -> Self {
+        let mut modes = Self { mean: 0.0, cosines: vec![0.0; count], sines: vec![0.0; count] };
+        for (theta, weight, value) in samples {
+            let part = weight * value / PI;
+            modes.mean += 0.5 * part;
+            for (i, (a, b)) in modes.cosines.iter_mut().zip(&mut modes.sines).enumerate() {
+                let (sin, cos) = ((i + 1) as f64 * theta).sin_cos();
+                *a += part * cos;
+                *b += part * sin;
+            }
+        }
+        modes
+    }
+}
+
+/// The first `count` Fourier modes of the shape r(theta) (length) about the origin of `frame`, theta from its first
+/// axis.
+///
+/// Integrals over the polar angle by the sum over markers: spectrally accurate on a circle with equidistant
+/// markers, second order in the marker spacing otherwise. Meant for shapes on which r is single-valued.
+///
+/// # Errors
+/// Fewer than three markers, markers that are not finite or enclose no area.
+pub fn shape_modes(markers: &[Vec2], frame: &Frame, count: usize) -> Result<FourierModes, InterfaceError> {
+    polygon_moments(markers)?;
+    let radii = markers.iter().map(|marker| frame.coordinates(*marker).norm());
+    let samples = polar_weights(markers, frame).zip(radii).map(|((theta, weight), r)| (theta, weight, r));
+    Ok(FourierModes::sum(count, samples))
+}
+
+/// The first `count` Fourier modes of the concentration (particles per length) as a function of the polar angle about the
+/// origin of `frame`, theta from its first axis; `numbers` are the particle numbers of the segments.
+///
+/// The averages over the segments are turned into values mode by mode, so that on a circle with equidistant markers
+/// the modes are exact; second order in the marker spacing otherwise.
+///
+/// # Errors
+/// Slices of different length, fewer than three markers, values that are not finite, no area, segments without length.
+pub fn concentration_modes(
+    markers: &[Vec2],
+    numbers: &[f64],
+    frame: &Frame,
+    count: usize,
+) -> Result<FourierModes, InterfaceError> {
+    length("numbers", markers.len(), numbers.len())?;
+    polygon_moments(markers)?;
+    all_finite("the particle numbers", numbers)?;
+    if let Some(index) = edges(markers).position(|(a, b)| a == b) {
+        return Err(InterfaceError::CoincidentPoints { index });
+    }
+    let samples = edges(markers).zip(numbers).map(|((a, b), number)| {
+        let chord = (b - a).norm();
+        let (a, b) = (frame.coordinates(a), frame.coordinates(b));
+        let width = cross(a, b).atan2(a.dot(&b));
+        (a.y.atan2(a.x) + 0.5 * width, width, number / chord)
+    });
+    let mut modes = FourierModes::sum(count, samples);
+    for (i, (a, b)) in modes.cosines.iter_mut().zip(&mut modes.sines).enumerate() {
+        let half = (i + 1) as f64 * PI / markers.len() as f64;
+        let damping = half.sin() / half;
+        // Modes that the segments do not resolve stay as they are.
+        if damping > 0.5 {
+            *a /= damping;
+            *b /= damping;
+        }
+    }
+    Ok(modes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Curve, InitialConcentration};
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn shape_modes_are_those_the_curve_was_made_of() {
+        let errors = [100, 200].map(|count| {
+            let curve = Curve::fourier(2.0, &[0.0, 0.05, 0.0, 0.02], &[0.0, 0.0, -0.03]).unwrap();
+            let markers = curve.rotated(0.5).translated(Vec2::new(1.0, 1.0)).markers(count).unwrap();
+            let frame = Frame::new(Vec2::new(1.0, 1.0), 0.5).unwrap();
+            let modes = shape_modes(&markers, &frame, 6).unwrap();
+            assert!((modes.amplitude(3) - 0.06).abs() < 1e-3);
+            assert!(modes.amplitude(7) == 0.0);
+            let exact = [0.0, 0.1, 0.0, 0.04, 0.0, 0.0];
+            (modes.mean - 2.0).abs() + modes.cosines.iter().zip(exact).map(|(a, b)| (a - b).abs()).sum::<f64>()
+        });
+        assert!((errors[0] / errors[1]).log2() > 1.9, "{errors:?}");
+        assert!(errors[1] < 2e-3, "{errors:?}");
+    }
+
+    #[test]
+    fn the_polarised_state_is_one_mode() {
+        let markers = Curve::circle(1.0).unwrap().markers(60).unwrap();
+        let numbers = InitialConcentration::polarised(100.0, 0.7).unwrap().particle_numbers(&markers).unwrap();
+        let frame = Frame::new(Vec2::zeros(), 0.7).unwrap();
+        let modes = concentration_modes(&markers, &numbers, &frame, 5).unwrap();
+        assert_relative_eq!(modes.amplitude(0), 100.0, max_relative = 1e-12);
+        assert_relative_eq!(modes.cosines[0], -100.0, max_relative = 1e-12);
+        assert!(modes.sines[0].abs() < 1e-11);
+        for k in 2..=5 {
+            assert!(modes.amplitude(k) < 1e-11, "{k}: {}", modes.amplitude(k));
+        }
+        assert!(concentration_modes(&markers, &numbers[1..], &frame, 5).is_err());
+        assert!(shape_modes(&markers[..2], &frame, 5).is_err());
+    }
+}

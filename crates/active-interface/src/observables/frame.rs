@@ -1,0 +1,164 @@
+//! Where a droplet is, where it goes, and the axes along its motion.
+
+use ib_core::Vec2;
+
+use crate::error::{all_points_finite, finite, length};
+use crate::polygon::{AreaMoments, cross};
+use crate::{InterfaceError, polygon_moments};
+
+/// Axes with their origin at a droplet's centroid and their first axis along its motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    centre: Vec2,
+    direction: Vec2,
+}
+
+impl Frame {
+    /// The frame with this origin (length) and the first axis at the angle `heading` to x (radians).
+    ///
+    /// # Errors
+    /// Values that are not finite.
+    pub fn new(centre: Vec2, heading: f64) -> Result<Self, InterfaceError> {
+        all_points_finite("the origin of the frame", &[centre])?;
+        let (sin, cos) = finite("the heading", heading)?.sin_cos();
+        Ok(Self { centre, direction: Vec2::new(cos, sin) })
+    }
+
+    /// The frame of a droplet with the centroid `centre` (length) that moves with `velocity` (length per time); at rest
+    /// its axes are x and y.
+    ///
+    /// # Errors
+    /// Values that are not finite.
+    pub fn of_motion(centre: Vec2, velocity: Vec2) -> Result<Self, InterfaceError> {
+        all_points_finite("the origin of the frame", &[centre])?;
+        all_points_finite("the velocity of the frame", &[velocity])?;
+        let direction = velocity.try_normalize(0.0).unwrap_or_else(Vec2::x);
+        Ok(Self { centre, direction })
+    }
+
+    /// The origin (length).
+    #[must_use]
+    pub fn centre(&self) -> Vec2 {
+        self.centre
+    }
+
+    /// The angle of the first axis to x (radians, from -pi to pi).
+    #[must_use]
+    pub fn heading(&self) -> f64 {
+        self.direction.y.atan2(self.direction.x)
+    }
+
+    /// Components of the vector `v` along the axes.
+    #[must_use]
+    pub fn components(&self, v: Vec2) -> Vec2 {
+        Vec2::new(self.direction.dot(&v), cross(self.direction, v))
+    }
+
+    /// Coordinates of the point `p` in the frame (length).
+    #[must_use]
+    pub fn coordinates(&self, p: Vec2) -> Vec2 {
+        self.components(p - self.centre)
+    }
+}
+
+/// Half the chord between the neighbours of each marker, (X_{k+1} - X_{k-1}) / 2: its length is the weight of the marker
+/// in sums along the curve, and turned by -90 degrees it is the outward normal times that weight, with which the area of
+/// the polygon changes by exactly the sum of V . n ds.
+pub(crate) fn half_chords(markers: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
+    let m = markers.len();
+    (0..m)
+        .map(move |k| (markers[if k + 1 == m { 0 } else { k + 1 }] - markers[if k == 0 { m - 1 } else { k - 1 }]) * 0.5)
+}
+
+/// The outward normal times the weight of each marker (length).
+pub(crate) fn weighted_normals(markers: &[Vec2]) -> impl Iterator<Item = Vec2> + '_ {
+    half_chords(markers).map(|d| Vec2::new(d.y, -d.x))
+}
+
+/// Velocity of the centroid of the area inside the markers, from the flux of area through the interface,
+/// ```text
+/// V = (1/A) sum over k of (X_k - X_c) (v_k . n_k ds_k)
+/// ```
+/// with `velocities` v_k those of the fluid, or of the markers, at the markers (length per time): velocities along the
+/// interface do not count. Exact for a uniform velocity, second order in the marker spacing otherwise.
+///
+/// # Errors
+/// Slices of different length, fewer than three markers, values that are not finite, no area.
+pub fn centroid_velocity(markers: &[Vec2], velocities: &[Vec2]) -> Result<Vec2, InterfaceError> {
+    length("velocities", markers.len(), velocities.len())?;
+    let moments = polygon_moments(markers)?;
+    all_points_finite("the velocities", velocities)?;
+    Ok(raw_centroid_velocity(markers, velocities, &moments))
+}
+
+pub(crate) fn raw_centroid_velocity(markers: &[Vec2], velocities: &[Vec2], moments: &AreaMoments) -> Vec2 {
+    let flux: Vec2 = weighted_normals(markers)
+        .zip(markers.iter().zip(velocities))
+        .map(|(normal, (marker, velocity))| (marker - moments.centroid) * velocity.dot(&normal))
+        .sum();
+    flux / moments.area
+}
+
+/// Aspect ratio a/b from the second moments of area, sqrt(I_xx / I_yy), a along the first axis of the frame and b across
+/// it (no dimension): that of the ellipse with the same moments. Exact for the polygon through the markers.
+///
+/// # Errors
+/// Fewer than three markers, values that are not finite, no area.
+pub fn aspect_ratio_from_moments(markers: &[Vec2], frame: &Frame) -> Result<f64, InterfaceError> {
+    Ok(raw_aspect_ratio(&polygon_moments(markers)?, frame))
+}
+
+pub(crate) fn raw_aspect_ratio(moments: &AreaMoments, frame: &Frame) -> f64 {
+    let (c, s) = (frame.direction.x, frame.direction.y);
+    let along = c * c * moments.xx + 2.0 * s * c * moments.xy + s * s * moments.yy;
+    let across = s * s * moments.xx - 2.0 * s * c * moments.xy + c * c * moments.yy;
+    (along / across).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Curve;
+    use proptest::prelude::*;
+
+    #[test]
+    fn aspect_ratio_of_an_ellipse() {
+        let errors = [50, 100].map(|count| {
+            let markers = Curve::ellipse(1.3, 1.0 / 1.3).unwrap().rotated(0.7).markers(count).unwrap();
+            let along = Frame::new(Vec2::zeros(), 0.7).unwrap();
+            (aspect_ratio_from_moments(&markers, &along).unwrap() - 1.69).abs()
+        });
+        assert!(errors[1] < 1e-3 && (errors[0] / errors[1]).log2() > 1.9, "{errors:?}");
+    }
+
+    #[test]
+    fn velocity_of_a_circle_that_deforms() {
+        // v = (1 + x) e_x: the centroid moves with 1, the area grows with it.
+        let markers = Curve::circle(1.0).unwrap().markers(400).unwrap();
+        let velocities: Vec<Vec2> = markers.iter().map(|p| Vec2::new(1.0 + p.x, 0.0)).collect();
+        let velocity = centroid_velocity(&markers, &velocities).unwrap();
+        assert!((velocity - Vec2::new(1.0, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        let markers = Curve::circle(1.0).unwrap().markers(10).unwrap();
+        assert!(centroid_velocity(&markers, &markers[..9]).is_err());
+        assert!(centroid_velocity(&markers, &[Vec2::new(f64::NAN, 0.0); 10]).is_err());
+        assert!(Frame::new(Vec2::zeros(), f64::INFINITY).is_err());
+        assert_eq!(Frame::of_motion(Vec2::zeros(), Vec2::zeros()).unwrap().heading(), 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn uniform_motion_is_exact(x in -5.0..5.0f64, y in -5.0..5.0f64, slide in -5.0..5.0f64, count in 8usize..80) {
+            let markers = Curve::fourier(1.0, &[0.1, 0.1], &[0.0, -0.1, 0.1]).unwrap().markers(count).unwrap();
+            let velocity = Vec2::new(x, y);
+            // A velocity along the half chords changes nothing.
+            let velocities: Vec<Vec2> = half_chords(&markers).map(|d| velocity + d * slide).collect();
+            prop_assert!((centroid_velocity(&markers, &velocities).unwrap() - velocity).norm() < 1e-12);
+            let frame = Frame::of_motion(Vec2::new(1.0, 2.0), velocity).unwrap();
+            prop_assert!((frame.components(velocity) - Vec2::new(velocity.norm(), 0.0)).norm() < 1e-13);
+        }
+    }
+}

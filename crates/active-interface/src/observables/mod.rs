@@ -1,0 +1,21 @@
+//! What is measured on a droplet. Every function works on plain slices.
+
+mod active_region;
+mod circle_fit;
+mod ellipse_fit;
+mod fourier;
+mod frame;
+mod moments;
+mod profile;
+mod record;
+mod squirmer;
+
+pub use active_region::{ActiveRegion, active_curvature, active_region};
+pub use circle_fit::fitted_curvature;
+pub use ellipse_fit::{EllipseFit, fit_ellipse};
+pub use fourier::{FourierModes, concentration_modes, shape_modes};
+pub use frame::{Frame, aspect_ratio_from_moments, centroid_velocity};
+pub use moments::{Convention, ForceMoments, force_moments};
+pub use profile::{ConcentrationProfile, concentration_profile};
+pub use record::{InterfaceState, Observables, observe};
+pub use squirmer::{SquirmerFit, VelocityFrame, squirmer_coefficients};

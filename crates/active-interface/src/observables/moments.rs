@@ -1,0 +1,115 @@
+//! Moments of the interface's force: what a droplet looks like from far away.
+
+use ib_core::Vec2;
+
+use super::frame::{Frame, weighted_normals};
+use crate::InterfaceError;
+use crate::error::{all_points_finite, enough, finite, length};
+
+/// Sign of the viscous term in the force moments of a droplet of another viscosity than its surroundings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Convention {
+    /// The sign that matches the flow far away for the force F as in the thesis, eq. (2.5): + (eta_ext - eta_in). (For
+    /// the flow itself the second moment needs twice its viscous term and a pressure dipole besides.)
+    #[default]
+    FarField,
+    /// Eqs. (2.49) and (2.50) as they are printed: - (eta_ext - eta_in).
+    AsPrinted,
+}
+
+/// Force moments about the centroid of a droplet, in axes along its motion (index 0: along, 1: across).
+///
+/// ```text
+/// F_i   = sum F_i                                                                       (2.48)
+/// F_ij  = sum F_i r_j     +- (eta_ext - eta_in) sum (v_j n_i + v_i n_j) ds               (2.49)
+/// F_ijk = sum F_i r_j r_k +- (eta_ext - eta_in) sum (v_j n_i + v_i n_j) r_k ds           (2.50)
+/// ```
+/// with F_i the force on the fluid at a marker, r from the centroid of the area, v the velocity of the fluid at the
+/// marker, n the outward normal, and the sign of the [`Convention`]. Sums over the markers; second order in their
+/// spacing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ForceMoments {
+    /// F_i (force): zero to round-off for a free droplet.
+    pub force: [f64; 2],
+    /// F_ij (force times length).
+    pub dipole: [[f64; 2]; 2],
+    /// F_ijk (force times length squared).
+    pub quadrupole: [[[f64; 2]; 2]; 2],
+}
+
+impl ForceMoments {
+    /// The stresslet S_ij (force times length), the symmetric part of F_ij without trace, eq. (2.52). S_xx > 0 is a pusher.
+    #[must_use]
+    pub fn stresslet(&self) -> [[f64; 2]; 2] {
+        let [[xx, xy], [yx, yy]] = self.dipole;
+        let (half, off) = (0.5 * (xx - yy), 0.5 * (xy + yx));
+        [[half, off], [off, -half]]
+    }
+
+    /// The symmetric part S_ijk of F_ijk (force times length squared), its mean over the six orders of the indices, eq.
+    /// (2.54).
+    #[must_use]
+    pub fn symmetric_quadrupole(&self) -> [[[f64; 2]; 2]; 2] {
+        let f = &self.quadrupole;
+        build(|i, j, k| (f[i][j][k] + f[i][k][j] + f[j][i][k] + f[j][k][i] + f[k][i][j] + f[k][j][i]) / 6.0)
+    }
+
+    /// The part of mixed symmetry N_ijk = F_ijk - S_ijk (force times length squared), eq. (2.53), related to the source
+    /// dipole. The totally antisymmetric part A_ijk is zero in two dimensions.
+    #[must_use]
+    pub fn mixed_quadrupole(&self) -> [[[f64; 2]; 2]; 2] {
+        let symmetric = self.symmetric_quadrupole();
+        build(|i, j, k| self.quadrupole[i][j][k] - symmetric[i][j][k])
+    }
+}
+
+fn build(entry: impl Fn(usize, usize, usize) -> f64) -> [[[f64; 2]; 2]; 2] {
+    std::array::from_fn(|i| std::array::from_fn(|j| std::array::from_fn(|k| entry(i, j, k))))
+}
+
+/// The force moments of a droplet in the axes of `frame`, whose origin must be the centroid of its area.
+///
+/// `forces` are those on the fluid at the markers (force, not force per length), `velocities` those of the fluid there
+/// (length per time; they matter for unequal viscosities only), `viscosities` those inside and outside.
+///
+/// # Errors
+/// Slices of different length, fewer than three markers, values that are not finite.
+pub fn force_moments(
+    markers: &[Vec2],
+    forces: &[Vec2],
+    velocities: &[Vec2],
+    viscosities: [f64; 2],
+    convention: Convention,
+    frame: &Frame,
+) -> Result<ForceMoments, InterfaceError> {
+    enough("markers", markers.len(), 3)?;
+    length("forces", markers.len(), forces.len())?;
+    length("velocities", markers.len(), velocities.len())?;
+    all_points_finite("the markers", markers)?;
+    all_points_finite("the forces", forces)?;
+    all_points_finite("the velocities", velocities)?;
+    let difference = finite("the viscosity outside", viscosities[1])? - finite("the viscosity inside", viscosities[0])?;
+    let factor = match convention {
+        Convention::FarField => difference,
+        Convention::AsPrinted => -difference,
+    };
+
+    let mut sums = ForceMoments::default();
+    for (((&marker, &force), &velocity), normal) in
+        markers.iter().zip(forces).zip(velocities).zip(weighted_normals(markers))
+    {
+        let r = frame.coordinates(marker);
+        let (f, v, n) = (frame.components(force), frame.components(velocity), frame.components(normal));
+        for i in 0..2 {
+            sums.force[i] += f[i];
+            for j in 0..2 {
+                let viscous = factor * (v[j] * n[i] + v[i] * n[j]);
+                sums.dipole[i][j] += f[i] * r[j] + viscous;
+                for k in 0..2 {
+                    sums.quadrupole[i][j][k] += (f[i] * r[j] + viscous) * r[k];
+                }
+            }
+        }
+    }
+    Ok(sums)
+}

@@ -1,0 +1,87 @@
+//! The concentration along the interface.
+
+use ib_core::Vec2;
+
+use super::frame::Frame;
+use crate::error::{all_finite, length};
+use crate::polygon::edges;
+use crate::{InterfaceError, polygon_moments};
+
+/// The concentration as a function of the arc length from the front of the droplet.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ConcentrationProfile {
+    /// Arc length of the middles of the segments, counter-clockwise from the front, ascending in [0, perimeter) (length).
+    pub arc: Vec<f64>,
+    /// Concentration there (particles per length).
+    pub concentration: Vec<f64>,
+    /// Length of the interface.
+    pub perimeter: f64,
+}
+
+/// The profile of the concentration (thesis, figure 2.4). The front is where the first axis of `frame` leaves the droplet,
+/// or the marker furthest along that axis where it does not meet the interface.
+///
+/// # Errors
+/// Slices of different length, fewer than three markers, values that are not finite, no area, segments without length.
+pub fn concentration_profile(
+    markers: &[Vec2],
+    numbers: &[f64],
+    frame: &Frame,
+) -> Result<ConcentrationProfile, InterfaceError> {
+    length("numbers", markers.len(), numbers.len())?;
+    polygon_moments(markers)?;
+    all_finite("the particle numbers", numbers)?;
+    if let Some(index) = edges(markers).position(|(a, b)| a == b) {
+        return Err(InterfaceError::CoincidentPoints { index });
+    }
+    let mut end = 0.0;
+    // Middle, concentration; and the furthest crossing of the axis with its arc length.
+    let mut segments = Vec::with_capacity(markers.len());
+    let mut front: Option<(f64, f64)> = None;
+    let mut foremost = (f64::NEG_INFINITY, 0.0);
+    for ((a, b), number) in edges(markers).zip(numbers) {
+        let (start, chord) = (end, (b - a).norm());
+        end += chord;
+        segments.push((0.5 * (start + end), number / chord));
+        let (a, b) = (frame.coordinates(a), frame.coordinates(b));
+        if a.x > foremost.0 {
+            foremost = (a.x, start);
+        }
+        if (a.y <= 0.0) != (b.y <= 0.0) {
+            let fraction = a.y / (a.y - b.y);
+            let x = a.x + fraction * (b.x - a.x);
+            if x > front.map_or(0.0, |front| front.0) {
+                front = Some((x, start + fraction * chord));
+            }
+        }
+    }
+    let origin = front.unwrap_or(foremost).1;
+    for segment in &mut segments {
+        let arc = (segment.0 - origin).rem_euclid(end);
+        segment.0 = if arc < end { arc } else { 0.0 };
+    }
+    segments.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (arc, concentration) = segments.into_iter().unzip();
+    Ok(ConcentrationProfile { arc, concentration, perimeter: end })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Curve, InitialConcentration};
+
+    #[test]
+    fn the_profile_starts_at_the_front() {
+        let heading = 2.0;
+        let centre = Vec2::new(1.0, -2.0);
+        let markers = Curve::circle(1.0).unwrap().translated(centre).markers(90).unwrap();
+        let numbers = InitialConcentration::polarised(100.0, heading).unwrap().particle_numbers(&markers).unwrap();
+        let profile = concentration_profile(&markers, &numbers, &Frame::new(centre, heading).unwrap()).unwrap();
+        assert!(profile.arc.windows(2).all(|pair| pair[0] < pair[1]));
+        assert!(profile.arc[0] >= 0.0 && profile.arc[89] < profile.perimeter);
+        for (arc, c) in profile.arc.iter().zip(&profile.concentration) {
+            assert!((c - 100.0 * (1.0 - arc.cos())).abs() < 0.2, "{arc} {c}");
+        }
+        assert!(concentration_profile(&markers, &numbers[2..], &Frame::new(centre, 0.0).unwrap()).is_err());
+    }
+}

@@ -1,0 +1,222 @@
+//! All observables of a droplet at one time.
+
+use ib_core::Vec2;
+
+use super::fourier::{concentration_modes, shape_modes};
+use super::frame::{raw_aspect_ratio, raw_centroid_velocity};
+use super::{
+    ActiveRegion, Convention, EllipseFit, ForceMoments, FourierModes, Frame, SquirmerFit, VelocityFrame,
+    active_curvature, active_region, fit_ellipse, force_moments, squirmer_coefficients,
+};
+use crate::error::{all_finite, all_points_finite, length};
+use crate::polygon::{edges, raw_perimeter};
+use crate::{InterfaceError, polygon_moments};
+
+/// What the observables are computed from: lists of M values, marker by marker or segment by segment.
+#[derive(Debug, Clone, Copy)]
+pub struct InterfaceState<'a> {
+    /// Markers in counter-clockwise order (length).
+    pub markers: &'a [Vec2],
+    /// Forces on the fluid at the markers (force).
+    pub forces: &'a [Vec2],
+    /// Velocities of the fluid at the markers (length per time), in the frame of the fluid far away or of the walls.
+    pub velocities: &'a [Vec2],
+    /// Particle numbers of the segments, segment k from marker k to the next; empty for an interface without particles.
+    pub numbers: &'a [f64],
+    /// Viscosities inside and outside (stress times time).
+    pub viscosities: [f64; 2],
+}
+
+/// Modes of shape and concentration that are recorded.
+const MODES: usize = 6;
+
+/// All observables of a droplet at one time, in axes along its motion where directions matter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observables {
+    /// Centroid of the area (length).
+    pub centroid: Vec2,
+    /// Its velocity (length per time), from the flux of area.
+    pub velocity: Vec2,
+    /// Area (length squared).
+    pub area: f64,
+    /// Perimeter (length).
+    pub perimeter: f64,
+    /// Number of particles.
+    pub particle_number: f64,
+    /// Largest and smallest concentration (particles per length); `None` without particles.
+    pub concentration_range: Option<[f64; 2]>,
+    /// Aspect ratio from area moments, along the motion over across it.
+    pub aspect_ratio_moments: f64,
+    /// The fitted ellipse; `None` for shapes that are too far from one.
+    pub ellipse: Option<EllipseFit>,
+    /// The active region; `None` for a uniform concentration.
+    pub active_region: Option<ActiveRegion>,
+    /// Its signed curvature (1/length); `None` where there is none or it is too short.
+    pub active_curvature: Option<f64>,
+    /// Force moments in axes along the motion.
+    pub moments: ForceMoments,
+    /// The convention they follow.
+    pub convention: Convention,
+    /// Squirmer coefficients in the frame of the droplet.
+    pub squirmer: SquirmerFit,
+    /// Squirmer coefficients in the laboratory frame.
+    pub squirmer_laboratory: SquirmerFit,
+    /// Modes of r(theta) (length) about the centroid, theta from the direction of motion.
+    pub shape_modes: FourierModes,
+    /// Modes of the concentration (particles per length); zero without particles.
+    pub concentration_modes: FourierModes,
+}
+
+/// Computes all observables of a droplet.
+///
+/// A droplet at rest has no direction of motion: its axes are x and y where the velocity is exactly zero, and those of the
+/// round-off where it is not.
+///
+/// # Errors
+/// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
+/// no area.
+pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
+    let InterfaceState { markers, forces, velocities, numbers, viscosities } = *state;
+    crate::error::enough("markers", markers.len(), 8)?;
+    length("velocities", markers.len(), velocities.len())?;
+    all_points_finite("the velocities", velocities)?;
+    let area = polygon_moments(markers)?;
+    let velocity = raw_centroid_velocity(markers, velocities, &area);
+    let frame = Frame::of_motion(area.centroid, velocity)?;
+
+    let mut record = Observables {
+        centroid: area.centroid,
+        velocity,
+        area: area.area,
+        perimeter: raw_perimeter(markers),
+        particle_number: 0.0,
+        concentration_range: None,
+        aspect_ratio_moments: raw_aspect_ratio(&area, &frame),
+        ellipse: fit_ellipse(markers, &frame).ok(),
+        active_region: None,
+        active_curvature: None,
+        moments: force_moments(markers, forces, velocities, viscosities, convention, &frame)?,
+        convention,
+        squirmer: squirmer_coefficients(markers, velocities, VelocityFrame::CoMoving, &frame)?,
+        squirmer_laboratory: squirmer_coefficients(markers, velocities, VelocityFrame::Laboratory, &frame)?,
+        shape_modes: shape_modes(markers, &frame, MODES)?,
+        concentration_modes: FourierModes { mean: 0.0, cosines: vec![0.0; MODES], sines: vec![0.0; MODES] },
+    };
+    if !numbers.is_empty() {
+        length("numbers", markers.len(), numbers.len())?;
+        all_finite("the particle numbers", numbers)?;
+        let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).norm()).collect();
+        record.concentration_modes = concentration_modes(markers, numbers, &frame, MODES)?;
+        record.particle_number = numbers.iter().sum();
+        let range = [f64::NEG_INFINITY, f64::INFINITY];
+        record.concentration_range = Some(
+            numbers.iter().zip(&lengths).map(|(n, l)| n / l).fold(range, |[max, min], c| [c.max(max), c.min(min)]),
+        );
+        record.active_region = active_region(&lengths, numbers)?;
+        record.active_curvature = record.active_region.and_then(|region| active_curvature(markers, &region).ok());
+    }
+    Ok(record)
+}
+
+impl Observables {
+    /// Speed of the centroid (length per time).
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.velocity.norm()
+    }
+
+    /// Direction of motion (radians from x, from -pi to pi; 0 at rest).
+    #[must_use]
+    pub fn heading(&self) -> f64 {
+        self.velocity.y.atan2(self.velocity.x)
+    }
+
+    /// Names and values, in the order of the columns of a table. Values that do not exist, such as the active fraction of a
+    /// uniform concentration, are `None`.
+    ///
+    /// Units: lengths, times and forces as in the state. `s_ijk` and `n_ijk` are the parts of the quadrupole, `b1`, `b2`,
+    /// `beta` those in the droplet's frame, `shape_mode_k` and `concentration_mode_k` amplitudes over the mean.
+    #[must_use]
+    pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
+        let stresslet = self.moments.stresslet();
+        let symmetric = self.moments.symmetric_quadrupole();
+        let mixed = self.moments.mixed_quadrupole();
+        let f2 = self.moments.dipole;
+        let f3 = self.moments.quadrupole;
+        let [maximum, minimum] = match self.concentration_range {
+            Some(range) => range.map(Some),
+            None => [None, None],
+        };
+        let region = self.active_region;
+        let known = Some;
+        let mut entries = vec![
+            ("x", known(self.centroid.x)),
+            ("y", known(self.centroid.y)),
+            ("velocity_x", known(self.velocity.x)),
+            ("velocity_y", known(self.velocity.y)),
+            ("speed", known(self.speed())),
+            ("heading_degrees", known(self.heading().to_degrees())),
+            ("area", known(self.area)),
+            ("perimeter", known(self.perimeter)),
+            ("particle_number", known(self.particle_number)),
+            ("concentration_max", maximum),
+            ("concentration_min", minimum),
+            ("aspect_ratio_moments", known(self.aspect_ratio_moments)),
+            ("aspect_ratio_ellipse", self.ellipse.map(|ellipse| ellipse.aspect_ratio())),
+            ("active_length", region.map(|region| region.length)),
+            ("active_fraction", region.map(|region| region.fraction)),
+            ("active_curvature", self.active_curvature),
+            ("b1", known(self.squirmer.b1)),
+            ("b2", known(self.squirmer.b2)),
+            ("beta", self.squirmer.beta()),
+            ("b1_laboratory", known(self.squirmer_laboratory.b1)),
+            ("b2_laboratory", known(self.squirmer_laboratory.b2)),
+            ("beta_laboratory", self.squirmer_laboratory.beta()),
+            ("force_x", known(self.moments.force[0])),
+            ("force_y", known(self.moments.force[1])),
+            ("f_xx", known(f2[0][0])),
+            ("f_xy", known(f2[0][1])),
+            ("f_yx", known(f2[1][0])),
+            ("f_yy", known(f2[1][1])),
+            ("stresslet_xx", known(stresslet[0][0])),
+            ("stresslet_xy", known(stresslet[0][1])),
+            ("f_xxx", known(f3[0][0][0])),
+            ("f_xyy", known(f3[0][1][1])),
+            ("f_yxy", known(f3[1][0][1])),
+            ("f_yyx", known(f3[1][1][0])),
+            ("s_xxx", known(symmetric[0][0][0])),
+            ("s_xxy", known(symmetric[0][0][1])),
+            ("s_xyy", known(symmetric[0][1][1])),
+            ("s_yyy", known(symmetric[1][1][1])),
+            ("n_xyy", known(mixed[0][1][1])),
+            ("n_yxy", known(mixed[1][0][1])),
+            ("n_yyx", known(mixed[1][1][0])),
+        ];
+        let relative = |modes: &FourierModes, k: usize| (modes.mean != 0.0).then(|| modes.amplitude(k) / modes.mean);
+        for (k, name) in SHAPE_MODES {
+            entries.push((name, relative(&self.shape_modes, k)));
+        }
+        for (k, name) in CONCENTRATION_MODES {
+            entries.push((name, relative(&self.concentration_modes, k)));
+        }
+        entries
+    }
+
+    /// The value of an entry by its name; `None` for unknown names and values that do not exist.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<f64> {
+        self.entries().into_iter().find(|entry| entry.0 == name).and_then(|entry| entry.1)
+    }
+}
+
+const SHAPE_MODES: [(usize, &str); 5] =
+    [(2, "shape_mode_2"), (3, "shape_mode_3"), (4, "shape_mode_4"), (5, "shape_mode_5"), (6, "shape_mode_6")];
+
+const CONCENTRATION_MODES: [(usize, &str); 6] = [
+    (1, "concentration_mode_1"),
+    (2, "concentration_mode_2"),
+    (3, "concentration_mode_3"),
+    (4, "concentration_mode_4"),
+    (5, "concentration_mode_5"),
+    (6, "concentration_mode_6"),
+];

@@ -1,0 +1,143 @@
+//! The two squirmer modes of the flow along the interface.
+
+use std::f64::consts::PI;
+
+use ib_core::Vec2;
+
+use super::frame::{Frame, raw_centroid_velocity};
+use crate::error::{all_points_finite, length};
+use crate::polygon::cross;
+use crate::{InterfaceError, polygon_moments};
+
+/// The frame of reference in which the velocity along the interface is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum VelocityFrame {
+    /// That of the droplet: the velocity of its centroid is taken off.
+    #[default]
+    CoMoving,
+    /// That of the fluid far away. Halves B1.
+    Laboratory,
+}
+
+/// The coefficients of v_theta = B1 sin(theta) + (B2/2) sin(2 theta), thesis, eq. (2.63).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SquirmerFit {
+    /// B1 (length per time), positive for a droplet that swims along the first axis of its frame.
+    pub b1: f64,
+    /// B2 (length per time).
+    pub b2: f64,
+}
+
+impl SquirmerFit {
+    /// beta = B2 / |B1| (no dimension): positive for pullers, negative for pushers; `None` where B1 is zero.
+    #[must_use]
+    pub fn beta(&self) -> Option<f64> {
+        (self.b1 != 0.0).then(|| self.b2 / self.b1.abs())
+    }
+}
+
+/// Polar angle, measured from the first axis of the frame, and the weight of each marker in integrals over it.
+pub(crate) fn polar_weights<'a>(markers: &'a [Vec2], frame: &'a Frame) -> impl Iterator<Item = (f64, f64)> + 'a {
+    let m = markers.len();
+    let turn = |from: Vec2, to: Vec2| cross(from, to).atan2(from.dot(&to));
+    (0..m).map(move |k| {
+        let before = frame.coordinates(markers[(k + m - 1) % m]);
+        let here = frame.coordinates(markers[k]);
+        let after = frame.coordinates(markers[(k + 1) % m]);
+        (here.y.atan2(here.x), 0.5 * (turn(before, here) + turn(here, after)))
+    })
+}
+
+/// B1 and B2 by projection of the azimuthal velocity on the interface on sin(theta) and sin(2 theta)/2, uniformly in the
+/// polar angle theta about the centroid, measured from the first axis of `frame` (whose origin must be the centroid).
+///
+/// `velocities` are those of the fluid at the markers (length per time) in the laboratory frame. Second order in the marker
+/// spacing; spectrally accurate on a circle with equidistant markers.
+///
+/// # Errors
+/// Slices of different length, fewer than three markers, values that are not finite, no area.
+pub fn squirmer_coefficients(
+    markers: &[Vec2],
+    velocities: &[Vec2],
+    reference: VelocityFrame,
+    frame: &Frame,
+) -> Result<SquirmerFit, InterfaceError> {
+    length("velocities", markers.len(), velocities.len())?;
+    let moments = polygon_moments(markers)?;
+    all_points_finite("the velocities", velocities)?;
+    let drift = match reference {
+        VelocityFrame::CoMoving => raw_centroid_velocity(markers, velocities, &moments),
+        VelocityFrame::Laboratory => Vec2::zeros(),
+    };
+    let mut fit = SquirmerFit::default();
+    for ((theta, weight), velocity) in polar_weights(markers, frame).zip(velocities) {
+        let v = frame.components(velocity - drift);
+        let (sin, cos) = theta.sin_cos();
+        let azimuthal = v.y * cos - v.x * sin;
+        fit.b1 += weight * azimuthal * sin / PI;
+        fit.b2 += weight * azimuthal * 4.0 * sin * cos / PI;
+    }
+    Ok(fit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Curve;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_squirmer_is_recovered() {
+        let (b1, b2, heading) = (0.7, -0.4, 2.1);
+        let markers = Curve::circle(1.3).unwrap().translated(Vec2::new(1.0, 2.0)).markers(40).unwrap();
+        let frame = Frame::new(Vec2::new(1.0, 2.0), heading).unwrap();
+        // Laboratory frame: the co-moving flow plus the swimming velocity B1/2.
+        let velocities: Vec<Vec2> = markers
+            .iter()
+            .map(|p| {
+                let r = frame.coordinates(*p);
+                let theta = r.y.atan2(r.x);
+                let azimuthal = b1 * theta.sin() + 0.5 * b2 * (2.0 * theta).sin();
+                let outer = Vec2::new(-(theta + heading).sin(), (theta + heading).cos()) * azimuthal;
+                outer + Vec2::new(heading.cos(), heading.sin()) * (0.5 * b1)
+            })
+            .collect();
+        let fit = squirmer_coefficients(&markers, &velocities, VelocityFrame::CoMoving, &frame).unwrap();
+        assert_relative_eq!(fit.b1, b1, max_relative = 1e-12);
+        assert_relative_eq!(fit.b2, b2, max_relative = 1e-12);
+        assert_relative_eq!(fit.beta().unwrap(), b2 / b1, max_relative = 1e-12);
+        let lab = squirmer_coefficients(&markers, &velocities, VelocityFrame::Laboratory, &frame).unwrap();
+        assert_relative_eq!(lab.b1, 0.5 * b1, max_relative = 1e-12);
+        assert_relative_eq!(lab.b2, b2, max_relative = 1e-12);
+        assert!(squirmer_coefficients(&markers, &velocities[1..], VelocityFrame::CoMoving, &frame).is_err());
+        assert_eq!(SquirmerFit::default().beta(), None);
+    }
+
+    #[test]
+    fn second_order_on_an_ellipse() {
+        // The reference is the integral over the polar angle with 100 times as many points.
+        let fit = |count: usize| {
+            let markers = Curve::ellipse(1.3, 0.8).unwrap().markers(count).unwrap();
+            let frame = Frame::new(Vec2::zeros(), 0.0).unwrap();
+            let velocities: Vec<Vec2> = markers.iter().map(|p| Vec2::new(p.x * p.y, 0.4 + p.x * p.x - p.y)).collect();
+            squirmer_coefficients(&markers, &velocities, VelocityFrame::Laboratory, &frame).unwrap()
+        };
+        let n = 20_000;
+        let mut exact = SquirmerFit::default();
+        for i in 0..n {
+            let theta = 2.0 * PI * f64::from(i) / f64::from(n);
+            let (s, c) = theta.sin_cos();
+            let r = 1.0 / ((c / 1.3).powi(2) + (s / 0.8).powi(2)).sqrt();
+            let (x, y) = (r * c, r * s);
+            let azimuthal = (0.4 + x * x - y) * c - x * y * s;
+            exact.b1 += azimuthal * s * 2.0 / f64::from(n);
+            exact.b2 += azimuthal * 8.0 * s * c / f64::from(n);
+        }
+        let error = |count| {
+            let fit = fit(count);
+            (fit.b1 - exact.b1).hypot(fit.b2 - exact.b2)
+        };
+        let (coarse, fine) = (error(60), error(120));
+        assert!((coarse / fine).log2() > 1.9, "{coarse} {fine}");
+    }
+}
