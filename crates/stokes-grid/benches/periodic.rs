@@ -33,6 +33,13 @@ fn main() {
         };
         let times = medians(&mut [&mut || plain.run(), &mut pair, &mut solve], Duration::from_secs(1));
         let [plain, own, solve] = times[..] else { unreachable!() };
-        println!("{n:>6} {:>9.1} us {:>9.1} us {:>9.1} us {:>8.2} {:>8.2}", plain * 1e6, own * 1e6, solve * 1e6, solve / plain, solve / own);
+        println!(
+            "{n:>6} {:>9.1} us {:>9.1} us {:>9.1} us {:>8.2} {:>8.2}",
+            plain * 1e6,
+            own * 1e6,
+            solve * 1e6,
+            solve / plain,
+            solve / own
+        );
     }
 }
