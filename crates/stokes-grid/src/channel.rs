@@ -97,13 +97,7 @@ impl ChannelStokes {
     pub fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
         walls.check(&self.grid)?;
         for (wall, spectrum) in [Wall::Bottom, Wall::Top].into_iter().zip(&mut self.wall_spectra) {
-            let scale = 1.0 / self.grid.nx() as f64;
-            let fill = |row: &mut [f64]| {
-                for (i, value) in row.iter_mut().enumerate() {
-                    *value = scale * walls.at(wall, i);
-                }
-            };
-            self.rows.forward(fill, spectrum);
+            walls.spectrum(wall, &mut self.rows, spectrum);
         }
         self.walls = walls;
         Ok(())

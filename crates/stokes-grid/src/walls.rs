@@ -1,6 +1,9 @@
 //! How the walls of a channel move.
 
+use num_complex::Complex64;
+
 use crate::checks::check_finite;
+use crate::rows::RowTransform;
 use crate::sums::sum;
 use crate::{Grid, StokesError};
 
@@ -72,6 +75,17 @@ impl WallMotion {
     pub fn mean(&self, wall: Wall) -> f64 {
         let velocities = self.velocities(wall);
         if velocities.is_empty() { 0.0 } else { sum(velocities) / velocities.len() as f64 }
+    }
+
+    /// The transform of a wall's velocities along x, normalised.
+    pub(crate) fn spectrum(&self, wall: Wall, rows: &mut RowTransform, out: &mut [Complex64]) {
+        let fill = |row: &mut [f64]| {
+            let scale = 1.0 / row.len() as f64;
+            for (i, value) in row.iter_mut().enumerate() {
+                *value = scale * self.at(wall, i);
+            }
+        };
+        rows.forward(fill, out);
     }
 
     /// Whether these walls belong to such a grid.
