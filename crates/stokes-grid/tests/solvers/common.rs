@@ -3,7 +3,7 @@
 use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, Wall, WallMotion};
 
 /// Numbers in [-1, 1) from a linear congruential generator.
-pub fn random(count: usize, seed: u64) -> Vec<f64> {
+pub(crate) fn random(count: usize, seed: u64) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
     (0..count)
         .map(|_| {
@@ -13,29 +13,29 @@ pub fn random(count: usize, seed: u64) -> Vec<f64> {
         .collect()
 }
 
-pub fn random_force(grid: Grid, seed: u64) -> StaggeredField {
+pub(crate) fn random_force(grid: Grid, seed: u64) -> StaggeredField {
     let (nx, ny) = (grid.nx(), grid.ny());
     StaggeredField::from_components(grid, random(nx * ny, seed), random(nx * grid.node_rows(), seed + 1)).unwrap()
 }
 
 /// The largest absolute value.
-pub fn largest(values: &[f64]) -> f64 {
+pub(crate) fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |a, b| a.max(b.abs()))
 }
 
 /// The largest absolute difference.
-pub fn distance(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter().zip(b).fold(0.0, |m, (a, b)| m.max((a - b).abs()))
 }
 
 /// The largest difference of two velocities relative to the largest component of the second.
-pub fn relative_distance(a: &StaggeredField, b: &StaggeredField) -> f64 {
+pub(crate) fn relative_distance(a: &StaggeredField, b: &StaggeredField) -> f64 {
     distance(a.x(), b.x()).max(distance(a.y(), b.y())) / largest(b.x()).max(largest(b.y()))
 }
 
 /// The largest residuals of a discrete solution: momentum (in units of force) and divergence.
-pub fn residuals(
+pub(crate) fn residuals(
     viscosity: f64,
     walls: &WallMotion,
     force: &StaggeredField,
