@@ -1,7 +1,8 @@
 //! The streamfunction solver of a doubly periodic box.
 
-use crate::transform::{RealFft2, Symbol};
-use crate::{CentreField, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, Work};
+use crate::checks::{check_finite, check_grid, check_viscosity};
+use crate::sums::sum;
+use crate::{CentreField, Grid, RealFft2, SolveReport, StaggeredField, StokesError, StokesSolver, Symbol, Work};
 
 /// Stokes flow in a doubly periodic box with one viscosity, by its streamfunction psi:
 ///
@@ -30,12 +31,6 @@ pub struct PeriodicStokes {
     work: Work,
 }
 
-/// `(2 sin(pi m / n))^2`: minus h^2 times the symbol of the three-point second difference.
-pub(crate) fn second_difference_symbol(m: usize, n: usize) -> f64 {
-    let s = 2.0 * (std::f64::consts::PI * m as f64 / n as f64).sin();
-    s * s
-}
-
 impl PeriodicStokes {
     /// A solver for a periodic grid and a viscosity eta (stress times time).
     ///
@@ -48,10 +43,7 @@ impl PeriodicStokes {
         }
         let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
         // With h curl f on the right and psi / h on the left both stencils are bare differences.
-        let biharmonic = Symbol::new(nx, ny, |m, n| {
-            let k2 = second_difference_symbol(m, nx) + second_difference_symbol(n, ny);
-            if m == 0 && n == 0 { 0.0 } else { h * h / (viscosity * k2 * k2) }
-        });
+        let biharmonic = Symbol::inverse_biharmonic(nx, ny, h * h / viscosity);
         Ok(Self {
             grid,
             viscosity,
@@ -70,11 +62,7 @@ impl PeriodicStokes {
     /// # Errors
     /// A component that is not finite.
     pub fn set_mean_velocity(&mut self, mean: [f64; 2]) -> Result<(), StokesError> {
-        for value in mean {
-            if !value.is_finite() {
-                return Err(StokesError::NotFinite { name: "mean velocity", value });
-            }
-        }
+        mean.into_iter().try_for_each(|value| check_finite("mean velocity", value))?;
         self.mean_velocity = mean;
         Ok(())
     }
@@ -113,17 +101,19 @@ impl StokesSolver for PeriodicStokes {
             total[1] += sum(fy);
         });
         // The sum of a row with a value that is not finite is not finite.
-        for value in total {
-            if !value.is_finite() {
-                return Err(StokesError::NotFinite { name: "the sum of the force", value });
-            }
-        }
+        total.into_iter().try_for_each(|value| check_finite("the sum of the force", value))?;
         self.transform.filter_columns(&self.biharmonic);
 
         let [mean_u, mean_v] = self.mean_velocity;
         let (u, v) = velocity.components_mut();
         let (first, previous) = (&mut self.first, &mut self.previous);
+        let mut finite = true;
         self.transform.inverse_rows(|j, psi| {
+            // An overflow anywhere in the transforms reaches every value of every row.
+            finite &= j > 0 || psi[0].is_finite();
+            if !finite {
+                return;
+            }
             let v = &mut v[j * nx..][..nx];
             for (v, psi) in v.iter_mut().zip(psi.windows(2)) {
                 *v = mean_v - (psi[1] - psi[0]);
@@ -136,6 +126,9 @@ impl StokesSolver for PeriodicStokes {
             }
             previous.copy_from_slice(psi);
         });
+        if !finite {
+            return Err(StokesError::Overflow { name: "the velocity" });
+        }
         difference(&mut u[(ny - 1) * nx..], previous, first, mean_u);
 
         self.work.solves += 1;
@@ -156,12 +149,7 @@ impl StokesSolver for PeriodicStokes {
         check_grid(&self.grid, velocity.grid(), "the velocity")?;
         check_grid(&self.grid, pressure.grid(), "the pressure")?;
         let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
-        let poisson = self.poisson.get_or_insert_with(|| {
-            Symbol::new(nx, ny, |m, n| {
-                let k2 = second_difference_symbol(m, nx) + second_difference_symbol(n, ny);
-                if m == 0 && n == 0 { 0.0 } else { -h / k2 }
-            })
-        });
+        let poisson = self.poisson.get_or_insert_with(|| Symbol::inverse_laplacian(nx, ny, -h));
         let (fx, fy) = (force.x(), force.y());
         let out = pressure.values_mut();
         self.transform.filter(
@@ -191,25 +179,4 @@ fn difference(out: &mut [f64], lower: &[f64], upper: &[f64], mean: f64) {
     for ((out, lower), upper) in out.iter_mut().zip(lower).zip(upper) {
         *out = mean + (upper - lower);
     }
-}
-
-/// A sum in eight lanes, which a machine does at once.
-pub(crate) fn sum(values: &[f64]) -> f64 {
-    let mut lanes = [0.0; 8];
-    let chunks = values.chunks_exact(8);
-    let rest: f64 = chunks.remainder().iter().sum();
-    for chunk in chunks {
-        for (lane, value) in lanes.iter_mut().zip(chunk) {
-            *lane += value;
-        }
-    }
-    rest + lanes.iter().sum::<f64>()
-}
-
-pub(crate) fn check_viscosity(value: f64) -> Result<(), StokesError> {
-    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(StokesError::NotPositive { name: "viscosity", value }) }
-}
-
-pub(crate) fn check_grid(solver: &Grid, field: &Grid, name: &'static str) -> Result<(), StokesError> {
-    if solver == field { Ok(()) } else { Err(StokesError::GridMismatch { name }) }
 }

@@ -4,10 +4,11 @@ use std::fmt;
 use std::sync::Arc;
 
 use num_complex::Complex64;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
 use crate::StokesError;
+use crate::Symbol;
+use crate::rows::RowTransform;
 
 /// Columns that are gathered, transformed and put back together: two cache lines a row.
 const BATCH: usize = 8;
@@ -29,11 +30,9 @@ const BATCH: usize = 8;
 pub struct RealFft2 {
     nx: usize,
     ny: usize,
-    forward_row: Arc<dyn RealToComplex<f64>>,
-    inverse_row: Arc<dyn ComplexToReal<f64>>,
+    rows: RowTransform,
     forward_column: Arc<dyn Fft<f64>>,
     inverse_column: Arc<dyn Fft<f64>>,
-    row: Vec<f64>,
     spectrum: Vec<Complex64>,
     batch: Vec<Complex64>,
     scratch: Vec<Complex64>,
@@ -42,45 +41,6 @@ pub struct RealFft2 {
 impl fmt::Debug for RealFft2 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("RealFft2").field("nx", &self.nx).field("ny", &self.ny).finish_non_exhaustive()
-    }
-}
-
-/// A real factor for each wave number that does not change when a wave number changes its sign: the effect of a symmetric
-/// linear operator with constant coefficients, to be applied by [`RealFft2::filter`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct Symbol {
-    nx: usize,
-    ny: usize,
-    values: Vec<f64>,
-}
-
-impl Symbol {
-    /// The factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by symmetry. The `1 / (nx ny)` of a
-    /// transform there and back is put in here, so that a factor of one everywhere gives the identity.
-    pub fn new(nx: usize, ny: usize, factor: impl Fn(usize, usize) -> f64) -> Self {
-        let scale = 1.0 / (nx as f64 * ny as f64);
-        let mut values = Vec::with_capacity((nx / 2 + 1) * (ny / 2 + 1));
-        for m in 0..=nx / 2 {
-            values.extend((0..=ny / 2).map(|n| scale * factor(m, n)));
-        }
-        Self { nx, ny, values }
-    }
-
-    fn column(&self, m: usize) -> &[f64] {
-        let rows = self.ny / 2 + 1;
-        &self.values[m * rows..(m + 1) * rows]
-    }
-
-    /// Multiplies one column of a spectrum: entries n and ny - n by the same factor.
-    fn apply(&self, m: usize, column: &mut [Complex64]) {
-        let factors = self.column(m);
-        let (low, high) = column.split_at_mut(factors.len());
-        for (value, &factor) in low.iter_mut().zip(factors) {
-            *value *= factor;
-        }
-        for (value, &factor) in high.iter_mut().rev().zip(&factors[1..]) {
-            *value *= factor;
-        }
     }
 }
 
@@ -93,26 +53,16 @@ impl RealFft2 {
         if nx == 0 || ny == 0 {
             return Err(StokesError::GridTooSmall { nx, ny, minimum: 1 });
         }
-        let mut rows = RealFftPlanner::new();
         let mut columns = FftPlanner::new();
-        let (forward_row, inverse_row) = (rows.plan_fft_forward(nx), rows.plan_fft_inverse(nx));
         let (forward_column, inverse_column) = (columns.plan_fft_forward(ny), columns.plan_fft_inverse(ny));
-        let scratch = [
-            forward_row.get_scratch_len(),
-            inverse_row.get_scratch_len(),
-            forward_column.get_inplace_scratch_len(),
-            inverse_column.get_inplace_scratch_len(),
-        ];
-        let scratch = scratch.into_iter().max().unwrap_or(0);
+        let scratch = forward_column.get_inplace_scratch_len().max(inverse_column.get_inplace_scratch_len());
         let width = nx / 2 + 1;
         Ok(Self {
             nx,
             ny,
-            forward_row,
-            inverse_row,
+            rows: RowTransform::new(nx),
             forward_column,
             inverse_column,
-            row: vec![0.0; nx],
             spectrum: vec![Complex64::ZERO; width * ny],
             batch: vec![Complex64::ZERO; BATCH.min(width) * ny],
             scratch: vec![Complex64::ZERO; scratch],
@@ -128,17 +78,14 @@ impl RealFft2 {
     /// Transforms the rows that `input(j, row)` writes, for j = 0, 1, ..., into the plan's own spectrum.
     pub(crate) fn forward_rows(&mut self, mut input: impl FnMut(usize, &mut [f64])) {
         let width = self.spectrum_width();
-        let scratch = &mut self.scratch[..self.forward_row.get_scratch_len()];
         for (j, out) in self.spectrum.chunks_exact_mut(width).enumerate() {
-            input(j, &mut self.row);
-            // The lengths are this plan's own, so that the call cannot fail.
-            let _ = self.forward_row.process_with_scratch(&mut self.row, out, scratch);
+            self.rows.forward(|row| input(j, row), out);
         }
     }
 
     /// Transforms the columns of the plan's own spectrum, multiplies them and transforms them back.
     pub(crate) fn filter_columns(&mut self, symbol: &Symbol) {
-        assert!(symbol.nx == self.nx && symbol.ny == self.ny, "a symbol for another size than the transform's");
+        assert!(symbol.fits(self.nx, self.ny), "a symbol for another size than the transform's");
         let (forward, inverse) = (self.forward_column.clone(), self.inverse_column.clone());
         self.for_column_batches(|m, batch, scratch, ny| {
             forward.process_with_scratch(batch, &mut scratch[..forward.get_inplace_scratch_len()]);
@@ -152,15 +99,8 @@ impl RealFft2 {
     /// Transforms the rows of the plan's own spectrum back and hands each to `output(j, row)`, for j = 0, 1, ...
     pub(crate) fn inverse_rows(&mut self, mut output: impl FnMut(usize, &[f64])) {
         let width = self.spectrum_width();
-        let scratch = &mut self.scratch[..self.inverse_row.get_scratch_len()];
         for (j, row) in self.spectrum.chunks_exact_mut(width).enumerate() {
-            // These are real but for round-off, and must be exactly so.
-            row[0].im = 0.0;
-            if self.nx.is_multiple_of(2) {
-                row[width - 1].im = 0.0;
-            }
-            let _ = self.inverse_row.process_with_scratch(row, &mut self.row, scratch);
-            output(j, &self.row);
+            output(j, self.rows.inverse(row));
         }
     }
 
@@ -255,5 +195,83 @@ fn scatter(columns: &[Complex64], ny: usize, rows: &mut [Complex64], width: usiz
         for (k, value) in row[..count].iter_mut().enumerate() {
             *value = columns[k * ny + j];
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    const SIZES: [(usize, usize); 10] =
+        [(1, 1), (1, 6), (6, 1), (2, 2), (16, 8), (15, 9), (7, 13), (20, 17), (17, 20), (37, 24)];
+
+    fn field(nx: usize, ny: usize) -> Vec<f64> {
+        (0..nx * ny).map(|k| ((k * k) as f64 * 0.37).sin() + 0.2).collect()
+    }
+
+    /// The sum of the definition, with exactly reduced angles.
+    fn definition(f: &[f64], nx: usize, ny: usize, m: usize, n: usize) -> Complex64 {
+        let term = |(k, value): (usize, &f64)| {
+            let angle = (m * (k % nx) % nx) as f64 / nx as f64 + (n * (k / nx) % ny) as f64 / ny as f64;
+            Complex64::from_polar(*value, -2.0 * PI * angle)
+        };
+        f.iter().enumerate().map(term).sum()
+    }
+
+    #[test]
+    fn the_spectrum_is_the_sum_it_says() {
+        for (nx, ny) in SIZES {
+            let mut transform = RealFft2::new(nx, ny).unwrap();
+            let width = transform.spectrum_width();
+            let f = field(nx, ny);
+            let mut spectrum = vec![Complex64::ZERO; width * ny];
+            transform.forward(&f, &mut spectrum).unwrap();
+            for (k, value) in spectrum.iter().enumerate() {
+                let expected = definition(&f, nx, ny, k % width, k / width);
+                assert!((value - expected).norm() < 1e-12, "{nx} x {ny}, entry {k}: {value} and {expected}");
+            }
+            let mut back = vec![0.0; nx * ny];
+            transform.inverse(&spectrum, &mut back).unwrap();
+            for (a, b) in back.iter().zip(&f) {
+                assert!((a / (nx * ny) as f64 - b).abs() < 1e-14, "{nx} x {ny}: {a} and {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_filter_multiplies_each_wave_number() {
+        for (nx, ny) in SIZES {
+            let mut transform = RealFft2::new(nx, ny).unwrap();
+            let width = transform.spectrum_width();
+            let factor = |m: usize, n: usize| 1.0 / (1.0 + (m * m) as f64 + 3.0 * n as f64);
+            let symbol = Symbol::new(nx, ny, factor);
+            let (f, mut filtered) = (field(nx, ny), vec![0.0; nx * ny]);
+            let rows = |j: usize| j * nx..(j + 1) * nx;
+            transform.filter(
+                &symbol,
+                |j, row| row.copy_from_slice(&f[rows(j)]),
+                |j, row| filtered[rows(j)].copy_from_slice(row),
+            );
+            let mut spectrum = vec![Complex64::ZERO; width * ny];
+            transform.forward(&filtered, &mut spectrum).unwrap();
+            for (k, value) in spectrum.iter().enumerate() {
+                let (m, n) = (k % width, k / width);
+                let expected = definition(&f, nx, ny, m, n) * factor(m, n.min(ny - n));
+                assert!((value - expected).norm() < 1e-12, "{nx} x {ny}, entry {k}: {value} and {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn wrong_lengths_are_errors() {
+        let mut transform = RealFft2::new(6, 4).unwrap();
+        let mut spectrum = vec![Complex64::ZERO; 16];
+        let found = transform.forward(&[0.0; 23], &mut spectrum);
+        assert_eq!(found, Err(StokesError::WrongLength { name: "a field to transform", expected: 24, found: 23 }));
+        let found = transform.inverse(&spectrum[..15], &mut [0.0; 24]);
+        assert_eq!(found, Err(StokesError::WrongLength { name: "a spectrum", expected: 16, found: 15 }));
+        assert!(matches!(RealFft2::new(0, 4), Err(StokesError::GridTooSmall { .. })));
     }
 }
