@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveDroplet, ContractileTension, Curve, Flux, InterfaceError, Motion, StepExcludedVolume};
+use active_interface::{
+    ActiveDroplet, ContractileTension, Curve, Flux, InitialConcentration, InterfaceError, Motion, StepExcludedVolume,
+};
 use ib_core::{AnyKernel, FlowError, Handle, ImmersedBoundary, Scene, StepSize, Vec2};
 use stokes_grid::{Grid, PeriodicStokes, StokesError};
 
@@ -35,7 +37,7 @@ pub enum SetupError {
 
 /// How the particles are spread over the interface at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum InitialConcentration {
+pub enum InitialState {
     /// `(1 - cos(theta - angle)) c0`: crowded at the rear of a droplet that swims at `angle` (thesis (2.46)).
     Polarised,
     /// Uniform with small random Fourier modes of relative amplitude `amplitude`, made from `seed`.
@@ -87,7 +89,7 @@ pub struct Swimmer {
     /// Position of the centre (length); the box is centred on the origin.
     pub offset: [f64; 2],
     /// Particles at the start.
-    pub initial: InitialConcentration,
+    pub initial: InitialState,
     /// Time step.
     pub step: StepSize,
 }
@@ -112,7 +114,7 @@ impl Default for Swimmer {
             area_constraint: false,
             angle: 0.0,
             offset: [0.0, 0.0],
-            initial: InitialConcentration::Polarised,
+            initial: InitialState::Polarised,
             step: StepSize::OfLimit(0.25),
         }
     }
@@ -173,7 +175,7 @@ impl Swimmer {
             Curve::circle(self.radius)?.rotated(self.angle).translated(Vec2::new(self.offset[0], self.offset[1]));
         let markers = curve.markers(fast_count(TAU * self.radius / spacing))?;
         let numbers = self.numbers(&markers)?;
-        let droplet = ActiveDroplet::new(markers, numbers, tension, self.diffusion)?
+        let droplet = ActiveDroplet::new(&markers, numbers, tension, self.diffusion)?
             .with_motion(self.motion)
             .with_flux(self.flux)?
             .with_area_constraint(self.area_constraint);
@@ -181,16 +183,12 @@ impl Swimmer {
     }
 
     fn numbers(&self, markers: &[Vec2]) -> Result<Vec<f64>, SetupError> {
-        let count = markers.len();
-        // marker 0 lies at the front
-        let step = TAU / count as f64;
-        Ok((0..count)
-            .map(|k| {
-                let (a, b) = (step * k as f64, step * (k + 1) as f64);
-                self.mean_concentration * self.radius * ((b - a) - (b.sin() - a.sin()))
-            })
-            .map(|n| n.max(0.0))
-            .collect())
+        let c0 = self.mean_concentration;
+        let initial = match self.initial {
+            InitialState::Polarised => InitialConcentration::polarised(c0, self.angle)?,
+            InitialState::Perturbed { amplitude, seed } => InitialConcentration::perturbed(c0, amplitude, seed)?,
+        };
+        Ok(initial.particle_numbers(markers)?)
     }
 
     /// The scene and the droplet in it.

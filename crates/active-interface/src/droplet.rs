@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use ib_core::{Medium, StepLimit, Vec2};
+use ib_core::{Hydrodynamics, Medium, StepLimit, System, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::filter::WiggleFilter;
 use crate::geometry::{Geometry, signed_area};
-use crate::{CrossingFinder, Flux, InterfaceError, Repair, Tension, TensionWarning, Transport, cell_peclet};
+use crate::{
+    CrossingFinder, Flux, InterfaceError, InterfaceState, Repair, Tension, TensionWarning, Transport, cell_peclet,
+};
 
 /// Least number of markers of a droplet.
 pub const MINIMUM_MARKERS: usize = 8;
@@ -102,7 +104,7 @@ impl ActiveDroplet {
     /// Fewer than [`MINIMUM_MARKERS`] markers, lists of different length, positions that are not finite, coincide,
     /// or cross, negative or non-finite numbers, a negative diffusion constant.
     pub fn new(
-        markers: Vec<Vec2>,
+        markers: &[Vec2],
         numbers: Vec<f64>,
         tension: impl Tension + 'static,
         diffusion: f64,
@@ -121,18 +123,18 @@ impl ActiveDroplet {
     ///
     /// # Errors
     /// As [`ActiveDroplet::new`], and a tension that is negative or not finite.
-    pub fn passive(markers: Vec<Vec2>, tension: f64) -> Result<Self, InterfaceError> {
+    pub fn passive(markers: &[Vec2], tension: f64) -> Result<Self, InterfaceError> {
         Self::build(markers, Vec::new(), Arc::new(crate::ConstantTension::new(tension)?), 0.0, None)
     }
 
     fn build(
-        markers: Vec<Vec2>,
+        markers: &[Vec2],
         numbers: Vec<f64>,
         tension: Arc<dyn Tension>,
         diffusion: f64,
         transport: Option<Transport>,
     ) -> Result<Self, InterfaceError> {
-        let markers = crate::markers_from_points(&markers)?;
+        let markers = crate::markers_from_points(markers)?;
         let initial_area = signed_area(&markers);
         let mut droplet = Self {
             name: "droplet".to_owned(),
@@ -268,6 +270,21 @@ impl ActiveDroplet {
     #[must_use]
     pub fn viscosity_inside(&self) -> Option<f64> {
         self.viscosity_inside
+    }
+
+    /// What [`crate::observe`] needs, from the last evaluation of the system that the droplet is body number `index` of.
+    #[must_use]
+    pub fn interface_state<'a, H: Hydrodynamics>(&'a self, system: &'a System<H>, index: usize) -> InterfaceState<'a> {
+        let all = system.markers();
+        let range = all.groups()[index].range.clone();
+        let outside = system.hydrodynamics().medium().viscosity;
+        InterfaceState {
+            markers: &self.markers,
+            forces: &all.forces[range.clone()],
+            velocities: &all.velocities[range],
+            numbers: &self.numbers,
+            viscosities: [self.viscosity_inside.unwrap_or(outside), outside],
+        }
     }
 
     /// How often particle numbers had to be kept from becoming negative.

@@ -78,7 +78,7 @@ fn amplitudes(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<(f64, f64),
             let (a, b) = (step * j as f64, step * (j + 1) as f64);
             let wave = match mode {
                 Mode::Concentration(k) => {
-                    EPSILON * ((f64::from(k) * b).sin() - (f64::from(k) * a).sin()) / f64::from(k)
+                    epsilon * ((f64::from(k) * b).sin() - (f64::from(k) * a).sin()) / f64::from(k)
                 }
                 Mode::Shape(_) => 0.0,
             };
@@ -86,7 +86,7 @@ fn amplitudes(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<(f64, f64),
         })
         .collect();
     let law = ContractileTension::new(swimmer.bare_tension, swimmer.activity, NoExcludedVolume)?;
-    let droplet = ActiveDroplet::new(markers, numbers, law, swimmer.diffusion)?
+    let droplet = ActiveDroplet::new(&markers, numbers, law, swimmer.diffusion)?
         .with_motion(swimmer.motion)
         .with_flux(swimmer.flux)?
         .with_area_constraint(swimmer.area_constraint);

@@ -29,7 +29,7 @@ pub fn run(h: f64, dt: f64) -> Result<Relaxation, StudyError> {
     let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
     let curve = Curve::ellipse(1.3, 1.0 / 1.3)?;
     let count = 2 * (curve.perimeter() / h).round() as usize;
-    let droplet = scene.add(ActiveDroplet::passive(curve.markers(count)?, 1.0)?);
+    let droplet = scene.add(ActiveDroplet::passive(&curve.markers(count)?, 1.0)?);
     scene.run(2.0).step_size(StepSize::Fixed(dt)).go()?;
     let moments = polygon_moments(scene.body(droplet).markers())?;
     Ok(Relaxation {
