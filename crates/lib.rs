@@ -2,5 +2,5 @@
 
 mod swimmer;
 
-pub use swimmer::{InitialState, PeriodicBox, SetupError, Swimmer};
+pub use swimmer::{InitialState, PeriodicBox, RigidChannel, SetupError, Swimmer};
 pub use {active_interface, elastic_solids, ib_core, stokes_grid};

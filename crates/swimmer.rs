@@ -6,7 +6,7 @@ use active_interface::{
     ActiveDroplet, ContractileTension, Curve, Flux, InitialConcentration, InterfaceError, Motion, StepExcludedVolume,
 };
 use ib_core::{AnyKernel, FlowError, Handle, ImmersedBoundary, Scene, StepSize, Vec2};
-use stokes_grid::{Grid, PeriodicStokes, StokesError};
+use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StokesError, StokesSolver};
 
 /// A scene that could not be set up.
 #[derive(Debug, thiserror::Error)]
@@ -123,6 +123,9 @@ impl Default for Swimmer {
 /// The hydrodynamics of a droplet in a periodic box.
 pub type PeriodicBox = ImmersedBoundary<PeriodicStokes, AnyKernel>;
 
+/// The hydrodynamics of a droplet in a channel with rigid walls.
+pub type RigidChannel = ImmersedBoundary<ChannelStokes, AnyKernel>;
+
 impl Swimmer {
     /// The thesis' method: Peskin's 4-point function, no mobility correction, markers that move with the fluid and are
     /// inserted and removed, an area constraint, h = 0.05, markers h/2 apart, steps of 1e-3.
@@ -148,8 +151,6 @@ impl Swimmer {
             "has no cells: give positive finite lengths"
         } else if (cells - whole).abs() > 1e-6 * whole {
             "does not hold a whole number of cells: change the spacing or the box"
-        } else if self.lengths.iter().any(|&l| l <= 2.0 * self.radius) {
-            "is too small for the droplet: give it more than two radii each way"
         } else {
             return Ok(whole as usize);
         };
@@ -208,14 +209,41 @@ impl Swimmer {
     /// Parameters out of their range, a box that does not hold a whole number of cells.
     pub fn scene(&self) -> Result<Scene<PeriodicBox>, SetupError> {
         let [lx, ly] = self.lengths;
+        if self.lengths.iter().any(|&l| l <= 2.0 * self.radius) {
+            let problem = "is too small for the droplet: give it more than two radii each way";
+            return Err(SetupError::Box { lx, ly, spacing: self.spacing, problem });
+        }
         let grid = Grid::periodic(self.cells(lx)?, self.cells(ly)?, self.spacing)?;
-        let solver = PeriodicStokes::new(grid, self.viscosity)?;
-        let flow = if self.corrected {
+        Ok(Scene::new(self.couple(PeriodicStokes::new(grid, self.viscosity)?)))
+    }
+
+    /// The scene and the droplet in a channel with rigid no-slip walls at y = +-`lengths[1]`/2, periodic in x with the period
+    /// `lengths[0]` (thesis section 3.1). A channel as wide as the droplet (two radii) is the narrowest.
+    ///
+    /// # Errors
+    /// Parameters out of their range, lengths that do not hold a whole number of cells, a droplet beyond a wall.
+    pub fn build_in_channel(&self, drive: Drive) -> Result<(Scene<RigidChannel>, Handle<ActiveDroplet>), SetupError> {
+        let [lx, ly] = self.lengths;
+        let too_high = self.offset[1].abs() + self.radius > 0.5 * ly * (1.0 + 1e-12);
+        if too_high || lx <= 2.0 * self.radius {
+            let problem = "does not hold the droplet: move it to the centre line or make the channel wider or longer";
+            return Err(SetupError::Box { lx, ly, spacing: self.spacing, problem });
+        }
+        let droplet = self.droplet()?;
+        let grid = Grid::channel(self.cells(lx)?, self.cells(ly)?, self.spacing)?;
+        let mut solver = ChannelStokes::new(grid, self.viscosity)?;
+        solver.set_drive(drive)?;
+        let mut scene = Scene::new(self.couple(solver));
+        let droplet = scene.add(droplet);
+        Ok((scene, droplet))
+    }
+
+    fn couple<S: StokesSolver>(&self, solver: S) -> ImmersedBoundary<S, AnyKernel> {
+        if self.corrected {
             ImmersedBoundary::new(solver, self.kernel)
         } else {
             ImmersedBoundary::uncorrected(solver, self.kernel)
-        };
-        Ok(Scene::new(flow))
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
 use motile::ib_core::{Hydrodynamics, ImmersedBoundary, Kernel, MarkerKind, Markers, Vec2};
-use motile::stokes_grid::{Grid, PeriodicStokes};
+use motile::stokes_grid::{Grid, PeriodicStokes, StokesSolver};
 
 use crate::{Reference, ReferenceFile, StudyError};
 
@@ -42,13 +42,15 @@ impl Case {
     }
 
     fn reference(self) -> Result<Reference, StudyError> {
+        let all = Reference::read(ReferenceFile::FixedShapes)?;
+        Ok(self.select(all).select("L", "6").select("kind", "marker"))
+    }
+
+    /// The rows of a table that belong to the case.
+    pub(crate) fn select(self, table: Reference) -> Reference {
         let shape = if self == Self::Circle { "circle" } else { "ellipse" };
         let gamma = if self == Self::EllipseUniform { "const1" } else { "1+0.5cos" };
-        Ok(Reference::read(ReferenceFile::FixedShapes)?
-            .select("shape", shape)
-            .select("gamma", gamma)
-            .select("L", "6")
-            .select("kind", "marker"))
+        table.select("shape", shape).select("gamma", gamma)
     }
 }
 
@@ -68,39 +70,68 @@ pub struct Errors {
 pub fn errors<K: Kernel>(kernel: &K, corrected: bool, h: f64, case: Case) -> Result<Errors, StudyError> {
     let cells = (6.0 / h).round() as usize;
     let solver = PeriodicStokes::new(Grid::periodic(cells, cells, h)?, 1.0)?;
-    let mut flow = if corrected {
+    let mut flow = couple(solver, kernel, corrected);
+    let mut shape = Shape::new(case, 0.0, h)?;
+    flow.velocities(&mut shape.markers)?;
+    shape.compare(&case.reference()?)
+}
+
+/// The immersed boundary method with or without the mobility correction.
+pub(crate) fn couple<S: StokesSolver, K: Kernel>(solver: S, kernel: &K, corrected: bool) -> ImmersedBoundary<S, K> {
+    if corrected {
         ImmersedBoundary::new(solver, kernel.clone())
     } else {
         ImmersedBoundary::uncorrected(solver, kernel.clone())
-    };
-    let a = case.axis();
-    let curve = if case == Case::Circle { Curve::circle(1.0)? } else { Curve::ellipse(a, 1.0 / a)? };
-    // A multiple of eight puts markers on the reference points of the circle.
-    let count = 8 * (curve.perimeter() / (4.0 * h)).round() as usize;
-    let mut markers = Markers::new();
-    markers.push_group(count, MarkerKind::Interface { viscosity_inside: None });
-    markers.positions.copy_from_slice(&curve.markers(count)?);
-    let parameter = |point: Vec2| (point.y * a).atan2(point.x / a).rem_euclid(TAU);
-    for k in 0..count {
-        let (here, next) = (markers.positions[k], markers.positions[(k + 1) % count]);
-        let pull = case.tension(parameter(0.5 * (here + next))) * (next - here).normalize();
-        markers.forces[k] += pull;
-        markers.forces[(k + 1) % count] -= pull;
     }
-    flow.velocities(&mut markers)?;
+}
 
-    let reference = case.reference()?;
-    let (vx, vy) = (reference.column("vx")?, reference.column("vy")?);
-    let largest = vx.iter().zip(&vy).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
-    let parameters: Vec<f64> = markers.positions.iter().map(|&point| parameter(point)).collect();
-    let (mut maximum, mut sum) = (0.0_f64, 0.0);
-    for (j, (vx, vy)) in vx.iter().zip(&vy).enumerate() {
-        let velocity = at_parameter(&parameters, &markers.velocities, TAU * j as f64 / 8.0);
-        let error = (velocity - Vec2::new(*vx, *vy)).norm() / largest;
-        maximum = maximum.max(error);
-        sum += error * error / 8.0;
+/// Markers on a shape of the reference table, with the forces of its tension.
+pub(crate) struct Shape {
+    pub(crate) markers: Markers,
+    case: Case,
+    height: f64,
+}
+
+impl Shape {
+    /// The shape with its centre at the height `height`, markers h/2 apart.
+    pub(crate) fn new(case: Case, height: f64, h: f64) -> Result<Self, StudyError> {
+        let a = case.axis();
+        let curve = if case == Case::Circle { Curve::circle(1.0)? } else { Curve::ellipse(a, 1.0 / a)? };
+        let curve = curve.translated(Vec2::new(0.0, height));
+        // A multiple of eight puts markers on the reference points of the circle.
+        let count = 8 * (curve.perimeter() / (4.0 * h)).round() as usize;
+        let mut markers = Markers::new();
+        markers.push_group(count, MarkerKind::Interface { viscosity_inside: None });
+        markers.positions.copy_from_slice(&curve.markers(count)?);
+        let mut shape = Self { markers, case, height };
+        for k in 0..count {
+            let (here, next) = (shape.markers.positions[k], shape.markers.positions[(k + 1) % count]);
+            let pull = case.tension(shape.parameter(0.5 * (here + next))) * (next - here).normalize();
+            shape.markers.forces[k] += pull;
+            shape.markers.forces[(k + 1) % count] -= pull;
+        }
+        Ok(shape)
     }
-    Ok(Errors { maximum, rms: sum.sqrt() })
+
+    fn parameter(&self, point: Vec2) -> f64 {
+        let a = self.case.axis();
+        ((point.y - self.height) * a).atan2(point.x / a).rem_euclid(TAU)
+    }
+
+    /// Errors at the eight markers of `reference`.
+    pub(crate) fn compare(&self, reference: &Reference) -> Result<Errors, StudyError> {
+        let (vx, vy) = (reference.column("vx")?, reference.column("vy")?);
+        let largest = vx.iter().zip(&vy).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+        let parameters: Vec<f64> = self.markers.positions.iter().map(|&point| self.parameter(point)).collect();
+        let (mut maximum, mut sum) = (0.0_f64, 0.0);
+        for (j, (vx, vy)) in vx.iter().zip(&vy).enumerate() {
+            let velocity = at_parameter(&parameters, &self.markers.velocities, TAU * j as f64 / 8.0);
+            let error = (velocity - Vec2::new(*vx, *vy)).norm() / largest;
+            maximum = maximum.max(error);
+            sum += error * error / 8.0;
+        }
+        Ok(Errors { maximum, rms: sum.sqrt() })
+    }
 }
 
 /// Velocity at the parameter `t`, by cubic interpolation in the parameters of the markers around it.

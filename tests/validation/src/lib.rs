@@ -11,6 +11,7 @@
 //! # Ok::<(), motile_validation::StudyError>(())
 //! ```
 
+pub mod channel;
 pub mod fixed_shapes;
 pub mod growth;
 mod order;

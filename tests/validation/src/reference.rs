@@ -13,6 +13,16 @@ pub enum ReferenceFile {
     SteadySwimmers,
     /// A swimmer's transient in a box.
     Transient,
+    /// Point forces in a channel.
+    ChannelPointForces,
+    /// Velocities on fixed shapes in a channel.
+    ChannelFixedShapes,
+    /// Flux, pressure gradient and wall shear of fixed shapes in a channel.
+    ChannelGlobal,
+    /// Steady swimmers in channels.
+    ChannelSwimmers,
+    /// Growth of a small lateral offset of swimmers in channels.
+    ChannelStability,
 }
 
 impl ReferenceFile {
@@ -22,6 +32,11 @@ impl ReferenceFile {
             Self::EllipseRelaxation => include_str!("../reference/ellipse_relaxation_box6.csv"),
             Self::SteadySwimmers => include_str!("../reference/steady_swimmer_box6.csv"),
             Self::Transient => include_str!("../reference/swimmer_transient_box6_activity_1.csv"),
+            Self::ChannelPointForces => include_str!("../reference/channel_greens_function.csv"),
+            Self::ChannelFixedShapes => include_str!("../reference/channel_fixed_shape_velocities.csv"),
+            Self::ChannelGlobal => include_str!("../reference/channel_fixed_shape_global.csv"),
+            Self::ChannelSwimmers => include_str!("../reference/channel_steady_swimmer.csv"),
+            Self::ChannelStability => include_str!("../reference/channel_lateral_stability.csv"),
         }
     }
 }
