@@ -172,6 +172,9 @@ impl Swimmer {
     pub fn droplet(&self) -> Result<ActiveDroplet, SetupError> {
         let tension = self.tension()?;
         let spacing = self.marker_spacing.unwrap_or(0.5 * self.spacing);
+        if !(spacing.is_finite() && spacing > 0.0) {
+            return Err(InterfaceError::NotPositive { name: "the marker spacing", value: spacing }.into());
+        }
         let curve =
             Curve::circle(self.radius)?.rotated(self.angle).translated(Vec2::new(self.offset[0], self.offset[1]));
         let markers = curve.markers(fast_count(TAU * self.radius / spacing))?;

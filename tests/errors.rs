@@ -1,0 +1,91 @@
+//! Wrong input ends in an error that names it, before any work; a run that goes wrong leaves the last good state.
+
+use motile::Swimmer;
+use motile::ib_core::{FlowError, SceneError, StepSize};
+use motile::stokes_grid::Drive;
+
+#[test]
+fn wrong_numbers_are_refused() {
+    let good = Swimmer { spacing: 0.2, ..Swimmer::default() };
+    assert!(good.build().is_ok());
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0] {
+        let named = [
+            ("viscosity", Swimmer { viscosity: bad, ..good.clone() }),
+            ("diffusion", Swimmer { diffusion: bad, ..good.clone() }),
+            ("concentration", Swimmer { mean_concentration: bad, ..good.clone() }),
+            ("tension", Swimmer { bare_tension: bad, ..good.clone() }),
+            ("radius", Swimmer { radius: bad, ..good.clone() }),
+            ("spacing", Swimmer { marker_spacing: Some(bad), ..good.clone() }),
+            ("excluded volume", Swimmer { excluded_volume: bad, ..good.clone() }),
+        ];
+        for (name, swimmer) in named {
+            let message = swimmer.build().expect_err(name).to_string();
+            assert!(message.contains(&format!("{bad}")), "{name}: {message}");
+        }
+        let mut others = vec![
+            Swimmer { lengths: [bad, 6.0], ..good.clone() },
+            Swimmer { lengths: [6.0, bad], ..good.clone() },
+            Swimmer { spacing: bad, ..good.clone() },
+        ];
+        if !bad.is_finite() {
+            others.push(Swimmer { activity: bad, ..good.clone() });
+            others.push(Swimmer { angle: bad, ..good.clone() });
+            others.push(Swimmer { offset: [0.0, bad], ..good.clone() });
+        }
+        for swimmer in others {
+            assert!(swimmer.build().is_err(), "{swimmer:?}");
+            assert!(swimmer.build_in_channel(Drive::ZeroFlux).is_err(), "{swimmer:?}");
+        }
+    }
+    assert!(Swimmer { lengths: [6.03, 6.0], ..good.clone() }.build().is_err(), "no whole number of cells");
+    assert!(Swimmer { lengths: [1.6, 6.0], ..good.clone() }.build().is_err(), "a box smaller than the droplet");
+    assert!(Swimmer { lengths: [6.0, 1.6], ..good }.build_in_channel(Drive::ZeroFlux).is_err());
+}
+
+#[test]
+fn a_step_above_the_limit_is_refused_before_any_work() {
+    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build().unwrap();
+    let error = scene.run(1.0).step_size(StepSize::Fixed(5.0)).go().unwrap_err();
+    assert!(matches!(error, SceneError::TimeStepTooLarge { .. }), "{error}");
+    assert!(error.to_string().contains("time step 5 is above the stable"), "{error}");
+    assert_eq!(scene.steps(), 0);
+    for dt in [0.0, -0.1, f64::NAN, f64::INFINITY] {
+        assert!(scene.step(dt).is_err());
+        assert!(scene.run(1.0).step_size(StepSize::Fixed(dt)).go().is_err());
+    }
+    assert!(scene.run(f64::NAN).go().is_err() && scene.run(-1.0).go().is_err());
+}
+
+#[test]
+fn a_step_that_fails_is_taken_back() {
+    let (mut scene, droplet) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build().unwrap();
+    scene.step(0.01).unwrap();
+    let before = scene.body(droplet).markers().to_vec();
+    let error = (0..50).find_map(|_| scene.step(50.0).err()).expect("steps 500 times too large end in an error");
+    assert!(matches!(error, SceneError::Body { .. } | SceneError::Flow { .. }), "{error}");
+    // The state is one from which the scene can go on.
+    assert!(scene.body(droplet).markers().iter().all(|marker| marker.x.is_finite()));
+    assert_eq!(scene.body(droplet).markers().len(), before.len());
+    scene.step(0.001).unwrap();
+}
+
+#[test]
+fn markers_beyond_a_wall_are_named() {
+    let swimmer = Swimmer { lengths: [6.0, 2.0], spacing: 0.1, ..Swimmer::default() };
+    let (mut scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient).unwrap();
+    use motile::ib_core::Body;
+    let body = scene.body_mut(droplet);
+    let mut state = vec![0.0; body.state_len()];
+    body.write_state(&mut state);
+    let markers = body.marker_count();
+    for y in state[..2 * markers].iter_mut().skip(1).step_by(2) {
+        *y += 0.05;
+    }
+    body.read_state(&state).unwrap();
+    match scene.step(0.01).unwrap_err() {
+        SceneError::Flow { source: FlowError::BeyondWall { depth, allowed, .. }, .. } => {
+            assert!((allowed - 0.025).abs() < 1e-12 && depth > allowed && depth < 0.06);
+        }
+        other => panic!("{other}"),
+    }
+}

@@ -1,0 +1,65 @@
+//! What a scene computes and allocates: only what it needs.
+
+use allocation_counter::measure;
+use motile::Swimmer;
+use motile::active_interface::{ActiveDroplet, Curve};
+use motile::ib_core::{CubicQuadratic, FlowWork, Hydrodynamics, ImmersedBoundary, Scene};
+use motile::stokes_grid::{Drive, Grid, PeriodicStokes};
+
+#[test]
+fn a_step_is_two_solves_of_two_transforms() {
+    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build().unwrap();
+    for _ in 0..5 {
+        scene.step(0.01).unwrap();
+    }
+    let expected = FlowWork {
+        evaluations: 10,
+        stokes_solves: 10,
+        transforms: 20,
+        markers_spread: 10 * 128,
+        corrections: 10,
+        iterations: 0,
+    };
+    assert_eq!(scene.system().hydrodynamics().work(), expected);
+    // Looking at the present state is reused by the next step.
+    scene.system_mut().evaluate().unwrap();
+    scene.system_mut().evaluate().unwrap();
+    scene.step(0.01).unwrap();
+    assert_eq!(scene.system().hydrodynamics().work().evaluations, 12);
+}
+
+#[test]
+fn the_thesis_preset_is_not_corrected() {
+    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::thesis() }.build().unwrap();
+    scene.step(0.001).unwrap();
+    assert_eq!(scene.system().hydrodynamics().work().corrections, 0);
+}
+
+#[test]
+fn a_passive_droplet_has_no_transport() {
+    let solver = PeriodicStokes::new(Grid::periodic(40, 40, 0.1).unwrap(), 1.0).unwrap();
+    let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+    let curve = Curve::ellipse(1.2, 1.0 / 1.2).unwrap();
+    let droplet = scene.add(ActiveDroplet::passive(&curve.markers(128).unwrap(), 1.0).unwrap());
+    scene.step(0.01).unwrap();
+    assert!(scene.body(droplet).particle_numbers().is_empty());
+    let reasons: Vec<_> =
+        motile::ib_core::Body::step_limits(scene.body(droplet), &scene.system().hydrodynamics().medium())
+            .iter()
+            .map(|limit| limit.reason)
+            .collect();
+    assert_eq!(reasons, ["the surface tension"]);
+}
+
+#[test]
+fn steps_allocate_nothing() {
+    let swimmer = Swimmer { spacing: 0.1, ..Swimmer::default() };
+    let (mut scene, _) = swimmer.build().unwrap();
+    (0..3).for_each(|_| scene.step(0.01).unwrap());
+    assert_eq!(measure(|| (0..10).for_each(|_| scene.step(0.01).unwrap())).count_total, 0);
+
+    let swimmer = Swimmer { lengths: [6.0, 3.0], ..swimmer };
+    let (mut scene, _) = swimmer.build_in_channel(Drive::ZeroGradient).unwrap();
+    (0..3).for_each(|_| scene.step(0.01).unwrap());
+    assert_eq!(measure(|| (0..10).for_each(|_| scene.step(0.01).unwrap())).count_total, 0);
+}
