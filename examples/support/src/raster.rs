@@ -213,7 +213,7 @@ impl VectorSamples {
     /// The magnitudes.
     #[must_use]
     pub fn magnitude(&self) -> ScalarSamples {
-        ScalarSamples { raster: self.raster, values: self.values.iter().map(|v| v.norm()).collect() }
+        ScalarSamples { raster: self.raster, values: self.values.iter().map(Vec2::norm).collect() }
     }
 
     /// The bilinear interpolant at `point` (length).

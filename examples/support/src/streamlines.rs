@@ -35,7 +35,7 @@ pub fn streamlines(field: &VectorSamples, spacing: f64, anchor: Vec2) -> Result<
         "streamlines cannot be {spacing} apart in a rectangle of {:?}",
         raster.size()
     );
-    let fastest = field.values().iter().map(|v| v.norm()).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let fastest = field.values().iter().map(Vec2::norm).filter(|v| v.is_finite()).fold(0.0, f64::max);
     if fastest == 0.0 {
         return Ok(Vec::new());
     }

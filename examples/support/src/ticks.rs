@@ -19,23 +19,30 @@ impl Ticks {
     /// About `target` ticks at multiples of 1, 2 or 5 times a power of ten within `low..=high`.
     pub(crate) fn linear(low: f64, high: f64, target: usize) -> Self {
         let span = high - low;
-        if !(span.is_finite() && span > 0.0) {
+        // Ends that differ by little more than round-off cannot be told apart by labels.
+        if !(span.is_finite() && span > 1e-9 * low.abs().max(high.abs())) {
             let ticks = if low.is_finite() { vec![Tick { value: low, label: Some(number(low)) }] } else { vec![] };
             return Self { ticks, exponent: 0 };
         }
-        let step = nice_step(span / target.max(1) as f64);
+        let multiples = |step: f64| {
+            let slack = 1e-9 * step;
+            ((low - slack) / step).ceil() as i64..=((high + slack) / step).floor() as i64
+        };
+        // A short axis may fall between the multiples of a step: two ticks are the least that show a scale.
+        let mut step = nice_step(span / target.max(1) as f64);
+        while multiples(step).count() < 2 {
+            step = nice_step_below(0.99 * step);
+        }
         let largest = low.abs().max(high.abs());
         let magnitude = largest.log10().floor() as i32;
         let exponent = if (-2..5).contains(&magnitude) { 0 } else { magnitude };
         let unit = 10f64.powi(exponent);
         let decimals = (-(step / unit * 1.000_001).log10().floor()).clamp(0.0, 12.0) as usize;
-        let slack = 1e-9 * step;
-        let (first, last) = (((low - slack) / step).ceil() as i64, ((high + slack) / step).floor() as i64);
         let tick = |k: i64| {
             let value = k as f64 * step;
-            Tick { value, label: Some(signed(format!("{:.decimals$}", value / unit))) }
+            Tick { value, label: Some(signed(&format!("{:.decimals$}", value / unit))) }
         };
-        Self { ticks: (first..=last).map(tick).collect(), exponent }
+        Self { ticks: multiples(step).map(tick).collect(), exponent }
     }
 
     /// Ticks of a logarithmic axis: decades with labels and the multiples between without; where the axis is shorter
@@ -54,7 +61,7 @@ impl Ticks {
             _ => &[1],
         };
         let plain = first >= -2 && last <= 3;
-        let decade_label = |k: i32| if plain { number(10f64.powi(k)) } else { signed(format!("10^{{{k}}}")) };
+        let decade_label = |k: i32| if plain { number(10f64.powi(k)) } else { signed(&format!("10^{{{k}}}")) };
         let mut ticks = Vec::new();
         for decade in first..=last {
             for multiple in 1..10 {
@@ -88,21 +95,21 @@ pub(crate) fn nice_step_below(raw: f64) -> f64 {
 /// A number as text, to four significant figures without trailing zeros.
 pub(crate) fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
-        return if value == 0.0 { "0".into() } else { signed(value.to_string()) };
+        return if value == 0.0 { "0".into() } else { signed(&value.to_string()) };
     }
     let magnitude = value.abs().log10().floor() as i32;
     if !(-3..6).contains(&magnitude) {
         let mantissa = number(value / 10f64.powi(magnitude));
-        let factor = signed(format!("10^{{{magnitude}}}"));
+        let factor = signed(&format!("10^{{{magnitude}}}"));
         return if mantissa == "1" { factor } else { format!("{mantissa}×{factor}") };
     }
     let text = format!("{value:.*}", (3 - magnitude).max(0) as usize);
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    signed(text.to_string())
+    signed(text)
 }
 
 /// Replaces the hyphen by a minus sign, and takes the sign off a zero.
-fn signed(text: String) -> String {
+fn signed(text: &str) -> String {
     match text.strip_prefix('-') {
         Some(rest) if rest.chars().all(|c| c == '0' || c == '.') => rest.to_string(),
         _ => text.replace('-', "−"),
@@ -127,6 +134,13 @@ mod tests {
     }
 
     #[test]
+    fn axes_without_length_have_one_tick() {
+        for (low, high) in [(1.0, 1.0), (1e20, 1e20 + 1e5), (2.0, 1.0), (3.0, f64::NAN)] {
+            assert_eq!(Ticks::linear(low, high, 5).ticks.len(), 1);
+        }
+    }
+
+    #[test]
     fn logarithmic_labels() {
         assert_eq!(labels(&Ticks::logarithmic(1e-4, 1.0)), ["10^{−4}", "10^{−3}", "10^{−2}", "10^{−1}", "10^{0}"]);
         assert_eq!(labels(&Ticks::logarithmic(0.025, 0.2)), ["0.05", "0.1", "0.2"]);
@@ -146,7 +160,7 @@ mod tests {
         fn ticks_lie_within_their_axis_and_are_few(low in -1e6..1e6f64, span in 1e-5..1e6f64, target in 2usize..12) {
             let high = low + span;
             let ticks = Ticks::linear(low, high, target).ticks;
-            prop_assert!(!ticks.is_empty() && ticks.len() <= target + 1, "{}", ticks.len());
+            prop_assert!(ticks.len() >= 2 && ticks.len() <= target.max(4) + 1, "{}", ticks.len());
             let slack = 1e-6 * span;
             prop_assert!(ticks.iter().all(|t| t.value >= low - slack && t.value <= high + slack));
         }
