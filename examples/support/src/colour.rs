@@ -91,7 +91,7 @@ pub enum Limits {
     /// Zero to the largest value.
     FromZero,
     /// Symmetric about zero, so that the middle of a diverging map means zero. The end is the magnitude that all but
-    /// one value in a hundred stay below: a few cells next to an interface would otherwise set the scale of all others.
+    /// two values in a thousand stay below: a few cells next to an interface would otherwise set the scale of all others.
     Symmetric,
     /// Given ends, for series of pictures to be compared.
     Fixed(f64, f64),
@@ -120,7 +120,7 @@ impl ColourScale {
                 let end = if sizes.is_empty() {
                     0.0
                 } else {
-                    let rank = (sizes.len() - 1) * 99 / 100;
+                    let rank = (sizes.len() - 1) * 998 / 1000;
                     *sizes.select_nth_unstable_by(rank, f64::total_cmp).1
                 };
                 (-end, end)

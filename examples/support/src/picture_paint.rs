@@ -15,6 +15,8 @@ use crate::{
 /// Colours of solids and walls.
 const SOLID: Rgb = Rgb([196, 190, 180]);
 const SOLID_EDGE: Rgb = Rgb([92, 84, 74]);
+/// Colour of tracks.
+const TRACK: Rgb = Rgb([20, 60, 150]);
 /// Thickness of the band that shows a rigid wall, relative to the distance of the walls.
 const WALL: f64 = 0.07;
 /// Pictures wider than this, relative to their height, have their colour bars below.
@@ -45,7 +47,10 @@ pub(crate) fn paint(picture: &Picture, format: &Format) -> Result<Canvas> {
 struct Layout {
     frame: Frame,
     height: usize,
+    /// Size of the type (pixels).
     em: f64,
+    /// The unit of widths of lines in the picture (pixels): the size of the type, less where the picture is low.
+    unit: f64,
     wide: bool,
 }
 
@@ -67,7 +72,8 @@ impl Layout {
             Axis::new(&label, [low[k], high[k]], AxisScale::Linear, ticks)
         };
         let across = if wide { 10 } else { 7 };
-        let (x, y) = (axis(0, "x", across), axis(1, "y", ((across as f64 / shape) as usize).clamp(4, 8)));
+        let rough_height = (width - 8.0 * em) / shape;
+        let (x, y) = (axis(0, "x", across), axis(1, "y", ((rough_height / (2.2 * em)) as usize).clamp(2, 8)));
         let left = Frame::left_margin(&y, em).round();
         let right = if wide { 1.4 } else { 2.2 + Legend::UPRIGHT_MARGIN } * em;
         let top = if picture.title.is_empty() { 1.0 } else { 2.4 } * em;
@@ -75,7 +81,13 @@ impl Layout {
         let inner = (width - left - right).round().max(1.0);
         let area = Rect { left, top: top.round(), width: inner, height: (inner / shape).round().max(1.0) };
         let height = area.bottom() + Frame::bottom_margin(&x, em) + bars;
-        Self { height: height.round() as usize, frame: Frame { area, x, y, em }, em, wide }
+        Self {
+            height: height.round() as usize,
+            frame: Frame { area, x, y, em },
+            em,
+            unit: em.min(area.height / 13.0),
+            wide,
+        }
     }
 
     fn place(&self, p: Vec2) -> Pixel {
@@ -139,9 +151,11 @@ impl Painter<'_> {
 
     fn streamlines(&mut self) -> Result<()> {
         let Some(flow) = &self.picture.flow else { return Ok(()) };
-        let spacing = flow.spacing * self.format.streamline_spacing;
-        let em = self.layout.em;
-        let pen = Pen::new(Rgb::INK, (0.07 * em).max(0.9)).opacity(0.72);
+        // Lines closer than half a size of the type would be a grey area.
+        let least = 0.55 * self.layout.em / self.layout.scale();
+        let spacing = (flow.spacing * self.format.streamline_spacing).max(least);
+        let unit = self.layout.unit;
+        let pen = Pen::new(Rgb::INK, (0.07 * unit).max(0.9)).opacity(0.72);
         for line in streamlines(&flow.velocity, spacing, flow.anchor)? {
             for shift in self.images(&line) {
                 let path = self.path(&line, shift);
@@ -151,7 +165,7 @@ impl Painter<'_> {
                 for k in 0..count {
                     let at = (path.len() * (2 * k + 1)) / (2 * count);
                     if at + 1 < path.len() {
-                        self.head(path[at], path[at + 1], 0.62 * em, Rgb::INK, 0.85);
+                        self.head(path[at], path[at + 1], 0.62 * unit, Rgb::INK, 0.85);
                     }
                 }
             }
@@ -174,7 +188,7 @@ impl Painter<'_> {
 
     fn solids(&mut self) {
         let picture = self.picture;
-        let pen = Pen::new(SOLID_EDGE, (0.1 * self.layout.em).max(1.0));
+        let pen = Pen::new(SOLID_EDGE, (0.1 * self.layout.unit).max(1.0));
         for outlines in &picture.solids {
             let all: Vec<Vec2> = outlines.iter().flatten().copied().collect();
             for shift in self.images(&all) {
@@ -190,7 +204,7 @@ impl Painter<'_> {
 
     fn walls(&mut self) {
         let Some([below, above]) = self.picture.walls else { return };
-        let (area, em) = (self.layout.frame.area, self.layout.em);
+        let (area, unit) = (self.layout.frame.area, self.layout.unit);
         let y = |height: f64| self.layout.frame.place(0.0, height)[1];
         let (lower, upper) = (y(below), y(above));
         let bands = [(area.top, upper, upper), (lower, area.bottom(), lower)];
@@ -201,29 +215,29 @@ impl Painter<'_> {
             }
             self.canvas.fill(&[band.outline().to_vec()], SOLID, 1.0);
             self.canvas.clip(Some(band));
-            let pen = Pen::new(SOLID_EDGE, (0.05 * em).max(0.8)).opacity(0.6);
+            let pen = Pen::new(SOLID_EDGE, (0.05 * unit).max(0.8)).opacity(0.6);
             let mut x = band.left - band.height;
             while x < band.right() {
                 self.canvas.stroke(&[[x, band.bottom()], [x + band.height, band.top]], &pen);
-                x += 0.55 * em;
+                x += 0.55 * unit;
             }
             self.canvas.clip(Some(area));
-            let edge = Pen::new(SOLID_EDGE, (0.13 * em).max(1.2));
+            let edge = Pen::new(SOLID_EDGE, (0.13 * unit).max(1.2));
             self.canvas.stroke(&[[area.left, face], [area.right(), face]], &edge);
         }
     }
 
     fn tracks(&mut self) {
         let picture = self.picture;
-        let em = self.layout.em;
+        let unit = self.layout.unit;
         for track in &picture.tracks {
             for shift in self.images(track) {
                 let path = self.path(track, shift);
-                self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.3 * em).opacity(0.75));
-                self.canvas.stroke(&path, &Pen::new(Rgb([176, 30, 90]), 0.13 * em));
+                self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.3 * unit).opacity(0.75));
+                self.canvas.stroke(&path, &Pen::new(TRACK, 0.13 * unit));
                 if let Some(&start) = path.first() {
-                    self.canvas.disc(start, 0.28 * em, Rgb::WHITE);
-                    self.canvas.disc(start, 0.2 * em, Rgb([176, 30, 90]));
+                    self.canvas.disc(start, 0.28 * unit, Rgb::WHITE);
+                    self.canvas.disc(start, 0.2 * unit, TRACK);
                 }
             }
         }
@@ -231,7 +245,7 @@ impl Painter<'_> {
 
     fn interfaces(&mut self) {
         let picture = self.picture;
-        let em = self.layout.em;
+        let unit = self.layout.unit;
         for curve in &picture.interfaces {
             let colour = |v: &f64| picture.interface_legend.as_ref().map_or(Rgb::INK, |l| l.scale.colour(*v));
             let mut colours: Vec<Rgb> = curve.values.iter().map(colour).collect();
@@ -239,16 +253,16 @@ impl Painter<'_> {
             for shift in self.images(&curve.points) {
                 let mut path = self.path(&curve.points, shift);
                 path.push(path[0]);
-                self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.8 * em).opacity(0.7));
-                self.canvas.stroke(&path, &Pen::new(Rgb::INK, 0.56 * em));
-                self.canvas.stroke_coloured(&path, &colours, 0.42 * em);
+                self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.8 * unit).opacity(0.7));
+                self.canvas.stroke(&path, &Pen::new(Rgb::INK, 0.56 * unit));
+                self.canvas.stroke_coloured(&path, &colours, 0.42 * unit);
             }
         }
     }
 
     fn arrows(&mut self) {
         let picture = self.picture;
-        let em = self.layout.em;
+        let unit = self.layout.unit;
         for &[foot, along] in &picture.arrows {
             let tip = foot + along;
             if !(tip.x.is_finite() && tip.y.is_finite()) {
@@ -257,9 +271,9 @@ impl Painter<'_> {
             for shift in self.images(&[foot, tip]) {
                 let ends = self.path(&[foot, tip], shift);
                 for (colour, width, size) in [(Rgb::WHITE, 0.5, 2.0), (Rgb::INK, 0.22, 1.35)] {
-                    self.canvas.stroke(&ends, &Pen::new(colour, width * em));
+                    self.canvas.stroke(&ends, &Pen::new(colour, width * unit));
                     let [dx, dy] = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
-                    self.head(ends[1], [ends[1][0] + dx, ends[1][1] + dy], size * em, colour, 1.0);
+                    self.head(ends[1], [ends[1][0] + dx, ends[1][1] + dy], size * unit, colour, 1.0);
                 }
             }
         }
@@ -267,6 +281,9 @@ impl Painter<'_> {
 
     fn scale_bar(&mut self) {
         let (area, em) = (self.layout.frame.area, self.layout.em);
+        if area.height < 8.0 * em {
+            return;
+        }
         let frame = &self.layout.frame;
         let longest = (0.17 * (frame.x.high - frame.x.low)).min(0.45 * (frame.y.high - frame.y.low));
         let length = nice_step_below(longest);

@@ -45,7 +45,10 @@ impl Progress {
                 Display::Bar(bar)
             }
         };
-        Self { end, started: Instant::now(), shown: None, display }
+        let started = Instant::now();
+        // A bar appears at once, the first line when a run takes long.
+        let shown = matches!(display, Display::Lines).then_some(started);
+        Self { end, started, shown, display }
     }
 
     /// Tells where the run is: its time, the number of steps so far, and the speed of what moves (length per time).

@@ -107,11 +107,13 @@ impl Tracer<'_> {
         }
         let mut own = Neighbourhood::like(&self.near);
         own.add(seed, 0);
-        let ahead = self.follow(seed, 1.0, &mut own);
-        let closed =
-            ahead.len() as f64 > STEPS && self.near.distance(ahead[ahead.len() - 1], seed) < 0.2 * self.spacing;
-        let mut line: Vec<Vec2> =
-            if closed { Vec::new() } else { self.follow(seed, -1.0, &mut own).into_iter().rev().collect() };
+        let mut ahead = self.follow(seed, 1.0, &mut own);
+        let end = self.closing(&ahead, seed);
+        ahead.extend(end);
+        let mut line: Vec<Vec2> = match end {
+            Some(_) => Vec::new(),
+            None => self.follow(seed, -1.0, &mut own).into_iter().rev().collect(),
+        };
         line.push(seed);
         line.extend(ahead);
         let length: f64 = line.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
@@ -122,6 +124,17 @@ impl Tracer<'_> {
             self.near.add(p, 0);
         }
         Some(line)
+    }
+
+    /// Where a line that returned to its seed, or to an image of it, is to end: there.
+    fn closing(&self, ahead: &[Vec2], seed: Vec2) -> Option<Vec2> {
+        let [.., before, last] = ahead else { return None };
+        let end = self.near.nearest_image(seed, *last);
+        let gap = end - last;
+        let along = (last - before).normalize();
+        let beside = (along.x * gap.y - along.y * gap.x).abs();
+        let near = gap.norm() < (NEAREST_SELF + 2.0 / STEPS) * self.spacing;
+        (near && along.dot(&gap) > 0.0 && beside < 0.1 * self.spacing).then_some(end)
     }
 
     /// The line from `seed` on, downstream (`sign` 1) or upstream (-1), without the seed.
@@ -193,15 +206,19 @@ impl Neighbourhood {
         self.points[j * self.cells[0] + i].push((p, number));
     }
 
-    /// Distance, the shortest over periodic images.
-    fn distance(&self, p: Vec2, q: Vec2) -> f64 {
-        let mut d = p - q;
+    /// The periodic image of `p` that is nearest to `q`.
+    fn nearest_image(&self, mut p: Vec2, q: Vec2) -> Vec2 {
         for k in 0..2 {
             if self.raster.periodic()[k] {
-                d[k] -= self.raster.size()[k] * (d[k] / self.raster.size()[k]).round();
+                p[k] -= self.raster.size()[k] * ((p[k] - q[k]) / self.raster.size()[k]).round();
             }
         }
-        d.norm()
+        p
+    }
+
+    /// Distance, the shortest over periodic images.
+    fn distance(&self, p: Vec2, q: Vec2) -> f64 {
+        (self.nearest_image(p, q) - q).norm()
     }
 
     fn closer(&self, p: Vec2, distance: f64) -> bool {
@@ -243,9 +260,10 @@ mod tests {
             let radius = line[0].norm();
             assert!(line.iter().all(|p| (p.norm() - radius).abs() < 2e-3), "a line leaves its circle of {radius}");
         }
-        // The radii from the anchor outwards.
+        // The radii from the anchor outwards, as closed lines.
         for expected in [0.3, 0.5, 0.7, 0.9] {
-            assert!(lines.iter().any(|l| (l[0].norm() - expected).abs() < 2e-3), "no line at {expected}");
+            let line = lines.iter().find(|l| (l[0].norm() - expected).abs() < 2e-3);
+            assert!(line.is_some_and(|l| l[0] == l[l.len() - 1]), "the line at {expected} is not closed");
         }
     }
 
