@@ -39,7 +39,7 @@ impl Progress {
             (false, false) => Display::Lines,
             (false, true) => {
                 let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
-                if let Ok(style) = ProgressStyle::with_template("{bar:30} {percent:>3} %  {msg}") {
+                if let Ok(style) = ProgressStyle::with_template("[{bar:30}] {percent:>3} %  {msg}") {
                     bar.set_style(style.progress_chars("=> "));
                 }
                 Display::Bar(bar)
@@ -67,8 +67,8 @@ impl Progress {
         let state = state(time, self.end, steps, speed, self.started.elapsed().as_secs_f64());
         match &self.display {
             Display::Bar(bar) => {
-                bar.set_message(state);
                 bar.set_position((fraction * DIVISIONS as f64) as u64);
+                bar.set_message(state);
             }
             Display::Lines => eprintln!("{:>3.0} %  {state}", 100.0 * fraction),
             Display::Nothing => {}
