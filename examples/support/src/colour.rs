@@ -1,0 +1,194 @@
+//! Colours, colour maps and the scales that turn numbers into colours.
+
+use colorous::Gradient;
+
+/// A colour: red, green, blue, each 0 to 255.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Rgb(pub [u8; 3]);
+
+impl Rgb {
+    /// Paper.
+    pub const WHITE: Self = Self([255, 255, 255]);
+    /// Text, axes and frames.
+    pub const INK: Self = Self([34, 38, 46]);
+    /// Secondary lines: grids, reference lines.
+    pub const GREY: Self = Self([128, 134, 144]);
+    /// Grid lines of plots.
+    pub const PALE: Self = Self([226, 229, 234]);
+
+    /// Mixes linearly: `self` at `t = 0`, `other` at `t = 1`.
+    #[must_use]
+    pub fn mix(self, other: Self, t: f64) -> Self {
+        let channel = |k: usize| {
+            let (a, b) = (f64::from(self.0[k]), f64::from(other.0[k]));
+            (a + (b - a) * t.clamp(0.0, 1.0)).round() as u8
+        };
+        Self([channel(0), channel(1), channel(2)])
+    }
+
+    /// The colour as SVG writes it, for instance `#22262e`.
+    #[must_use]
+    pub fn hex(self) -> String {
+        let [r, g, b] = self.0;
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+/// Colours of the series of a plot, in the order of their use: told apart by most colour-blind readers and in print.
+pub const SERIES_COLOURS: [Rgb; 8] = [
+    Rgb([31, 98, 166]),
+    Rgb([206, 74, 38]),
+    Rgb([38, 138, 98]),
+    Rgb([142, 82, 162]),
+    Rgb([214, 150, 20]),
+    Rgb([64, 168, 206]),
+    Rgb([166, 58, 84]),
+    Rgb([92, 96, 104]),
+];
+
+/// A map from 0..1 to colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColourMap {
+    /// Blue, green, pale yellow, orange, red: diverging and close to a rainbow, for the pressure.
+    Rainbow,
+    /// Blue, white, red: diverging, for signed quantities such as the vorticity.
+    BlueWhiteRed,
+    /// Nearly white to dark blue: sequential, for the speed.
+    Blues,
+    /// Dark blue, green, yellow: sequential.
+    Viridis,
+    /// Black, purple, pink, pale yellow: sequential, for the concentration on an interface.
+    Magma,
+}
+
+impl ColourMap {
+    /// The colour at `t`, which is clamped to 0..1; not a number gives grey.
+    #[must_use]
+    pub fn at(self, t: f64) -> Rgb {
+        if t.is_nan() {
+            return Rgb::GREY;
+        }
+        let t = t.clamp(0.0, 1.0);
+        let eval = |gradient: Gradient, t: f64| {
+            let colour = gradient.eval_continuous(t);
+            Rgb([colour.r, colour.g, colour.b])
+        };
+        match self {
+            Self::Rainbow => eval(colorous::SPECTRAL, 1.0 - t),
+            Self::BlueWhiteRed => eval(colorous::RED_BLUE, 1.0 - t),
+            Self::Blues => eval(colorous::YELLOW_GREEN_BLUE, 0.85 * t),
+            Self::Viridis => eval(colorous::VIRIDIS, t),
+            Self::Magma => eval(colorous::MAGMA, t),
+        }
+    }
+}
+
+/// How the ends of a colour scale are chosen from the data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Limits {
+    /// Smallest to largest value.
+    Data,
+    /// Zero to the largest value.
+    FromZero,
+    /// Symmetric about zero, so that the middle of a diverging map means zero. The end is the magnitude that all but
+    /// two values in a thousand stay below: a few cells next to an interface would otherwise set the scale of all others.
+    Symmetric,
+    /// Given ends, for series of pictures to be compared.
+    Fixed(f64, f64),
+}
+
+/// A colour map with the values of its two ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ColourScale {
+    map: ColourMap,
+    low: f64,
+    high: f64,
+}
+
+impl ColourScale {
+    /// The scale of `map` over `values`, of which those that are not finite are left out. Ends that coincide are moved
+    /// apart, so that a constant gets the colour of the middle (or of the end, for [`Limits::FromZero`]).
+    #[must_use]
+    pub fn new(map: ColourMap, limits: Limits, values: &[f64]) -> Self {
+        let finite = || values.iter().copied().filter(|v| v.is_finite());
+        let (low, high) = match limits {
+            Limits::Fixed(low, high) => (low, high),
+            Limits::Data => (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)),
+            Limits::FromZero => (0.0, finite().fold(0.0, f64::max)),
+            Limits::Symmetric => {
+                let mut sizes: Vec<f64> = finite().map(f64::abs).collect();
+                let end = if sizes.is_empty() {
+                    0.0
+                } else {
+                    let rank = (sizes.len() - 1) * 998 / 1000;
+                    *sizes.select_nth_unstable_by(rank, f64::total_cmp).1
+                };
+                (-end, end)
+            }
+        };
+        let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
+        let slack = 1e-12 * low.abs().max(high.abs()).max(1e-300);
+        if high - low > slack {
+            return Self { map, low, high };
+        }
+        let half = if low == 0.0 { 1.0 } else { 0.5 * low.abs() };
+        match limits {
+            Limits::FromZero => Self { map, low: 0.0, high: 1.0 },
+            _ => Self { map, low: low - half, high: high + half },
+        }
+    }
+
+    /// Values at the two ends.
+    #[must_use]
+    pub fn ends(&self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+
+    /// The colour of `value`; values beyond an end get the end's colour.
+    #[must_use]
+    pub fn colour(&self, value: f64) -> Rgb {
+        self.map.at((value - self.low) / (self.high - self.low))
+    }
+
+    /// The colours of `levels` equal bands from the low to the high end: a table for fast lookup, and, with few
+    /// levels, bands whose edges are contour lines.
+    #[must_use]
+    pub fn table(&self, levels: usize) -> Vec<Rgb> {
+        let levels = levels.max(2);
+        (0..levels).map(|k| self.map.at(k as f64 / (levels - 1) as f64)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn symmetric_scale_ignores_a_rare_spike_and_has_its_middle_at_zero() {
+        let mut values: Vec<f64> = (0..1000).map(|k| (f64::from(k) * 0.1).sin()).collect();
+        values[17] = 1e6;
+        let scale = ColourScale::new(ColourMap::Rainbow, Limits::Symmetric, &values);
+        let [low, high] = scale.ends();
+        assert_eq!(low, -high);
+        assert!(high > 0.9 && high <= 1.0, "{high}");
+        assert_eq!(scale.colour(0.0), ColourMap::Rainbow.at(0.5));
+    }
+
+    #[test]
+    fn empty_constant_and_nan_data_give_a_usable_scale() {
+        for values in [vec![], vec![3.0; 4], vec![f64::NAN, f64::INFINITY], vec![0.0]] {
+            for limits in [Limits::Data, Limits::FromZero, Limits::Symmetric] {
+                let [low, high] = ColourScale::new(ColourMap::Viridis, limits, &values).ends();
+                assert!(low.is_finite() && high.is_finite() && low < high, "{values:?} {limits:?}: {low} {high}");
+            }
+        }
+    }
+
+    #[test]
+    fn mixing_ends_at_its_ends() {
+        let (a, b) = (Rgb([10, 20, 30]), Rgb([200, 100, 0]));
+        assert_eq!(a.mix(b, 0.0), a);
+        assert_eq!(a.mix(b, 1.0), b);
+        assert_eq!(a.hex(), "#0a141e");
+    }
+}

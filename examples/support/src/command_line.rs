@@ -1,0 +1,193 @@
+//! The frame of an example: reads the command line, runs, and ends with one sentence where something is wrong.
+
+use std::{error::Error as _, process::ExitCode};
+
+use anyhow::Result;
+use clap::{
+    Parser,
+    error::{ContextKind, ContextValue, ErrorKind},
+};
+
+/// Exit code for a command line that cannot be understood, as is usual; other failures end with 1.
+const MISUSE: u8 = 2;
+
+/// The main function of an example: parses the command line into `Flags` and runs. What goes wrong, in the flags or in
+/// the run, ends as one sentence on the error output and an exit code other than zero.
+///
+/// ```no_run
+/// use support::{BoxFlags, DropletFlags, MethodFlags, OutputFlags};
+///
+/// /// A droplet swims in a periodic box.
+/// #[derive(clap::Parser)]
+/// struct Flags {
+///     #[command(flatten)]
+///     droplet: DropletFlags,
+///     #[command(flatten)]
+///     region: BoxFlags,
+///     #[command(flatten)]
+///     method: MethodFlags,
+///     #[command(flatten)]
+///     output: OutputFlags,
+/// }
+///
+/// fn swim(flags: &Flags) -> anyhow::Result<()> {
+///     let cells = flags.region.cells(&flags.method)?;
+///     println!("{cells} x {cells} cells");
+///     Ok(())
+/// }
+///
+/// fn main() -> std::process::ExitCode {
+///     support::run(swim)
+/// }
+/// ```
+pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
+    let flags = match Flags::try_parse() {
+        Ok(flags) => flags,
+        Err(error) if !error.use_stderr() => {
+            // Help or version; where nobody listens there is nothing to do about it.
+            let _ = error.print();
+            return ExitCode::SUCCESS;
+        }
+        Err(error) => {
+            eprintln!("error: {}", sentence(&error));
+            return ExitCode::from(MISUSE);
+        }
+    };
+    match body(&flags) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {}", one_line(&format!("{error:#}")));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// What is wrong with a command line, in one sentence.
+fn sentence(error: &clap::Error) -> String {
+    let context = |kind: ContextKind| match error.get(kind) {
+        Some(ContextValue::String(text)) => text.clone(),
+        Some(ContextValue::Strings(texts)) => texts.join(", "),
+        _ => String::new(),
+    };
+    // Without the name of the value: `--box <SIDE>`.
+    let flag = context(ContextKind::InvalidArg).split(' ').next().unwrap_or_default().to_string();
+    let value = context(ContextKind::InvalidValue);
+    let valid = context(ContextKind::ValidValue);
+    let text = match error.kind() {
+        ErrorKind::UnknownArgument => {
+            let suggestion = context(ContextKind::SuggestedArg);
+            let hint = if suggestion.is_empty() { String::new() } else { format!("did you mean {suggestion}? ") };
+            format!("there is no flag {flag} ({hint}--help lists them)")
+        }
+        ErrorKind::InvalidValue if value.is_empty() => format!("{flag} needs a value"),
+        ErrorKind::InvalidValue if !valid.is_empty() => format!("{flag} {value} is not one of {valid}"),
+        ErrorKind::ValueValidation => {
+            let reason = error.source().map(ToString::to_string).unwrap_or_else(|| "not valid".into());
+            format!("{flag} {value}: {reason}")
+        }
+        ErrorKind::ArgumentConflict => format!("{flag} is given more than once"),
+        _ => {
+            let whole = error.to_string();
+            let first = whole.lines().next().unwrap_or_default();
+            first.trim_start_matches("error: ").to_string()
+        }
+    };
+    one_line(&text)
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, KernelName, MethodFlags, OutputFlags, Preset, TimeStep,
+    };
+
+    #[derive(Debug, Parser)]
+    struct Flags {
+        #[command(flatten)]
+        droplet: DropletFlags,
+        #[command(flatten)]
+        region: BoxFlags,
+        #[command(flatten)]
+        channel: ChannelFlags,
+        #[command(flatten)]
+        method: MethodFlags,
+        #[command(flatten)]
+        output: OutputFlags,
+    }
+
+    fn parse(line: &str) -> Result<Flags, String> {
+        Flags::try_parse_from(std::iter::once("test").chain(line.split_whitespace())).map_err(|e| sentence(&e))
+    }
+
+    #[test]
+    fn all_flags_with_their_values() {
+        let line = "--activity -4 --excluded-volume 8 --viscosity 10 --box 12 --spacing 0.1 --dt auto --time 250 \
+                    --angle -30 --offset -0.03,0.01 --kernel gaussian6 --preset thesis --initial perturbed --seed 7 \
+                    --no-pictures --out somewhere --width 2 --length 8 --lateral-offset -0.2 --drive zero-flux";
+        let flags = parse(line).unwrap();
+        assert_eq!((flags.droplet.activity, flags.droplet.excluded_volume, flags.droplet.viscosity), (-4.0, 8.0, 10.0));
+        assert_eq!((flags.droplet.angle, flags.droplet.initial, flags.droplet.seed), (-30.0, Initial::Perturbed, 7));
+        assert_eq!((flags.region.side, flags.region.offset), (12.0, [-0.03, 0.01]));
+        assert_eq!((flags.method.spacing, flags.method.time, flags.method.step()), (0.1, 250.0, TimeStep::Auto));
+        assert_eq!((flags.method.kernel(), flags.method.preset), (KernelName::Gaussian6, Preset::Thesis));
+        assert_eq!((flags.channel.lateral_offset, flags.channel.drive), (-0.2, Drive::ZeroFlux));
+        assert!(flags.output.no_pictures && flags.output.out.as_deref() == Some("somewhere".as_ref()));
+    }
+
+    #[test]
+    fn presets_set_what_is_not_said() {
+        let thesis = parse("--preset thesis").unwrap().method;
+        assert_eq!((thesis.step(), thesis.kernel()), (TimeStep::Fixed(1e-3), KernelName::Peskin4));
+        let accurate = parse("").unwrap().method;
+        assert_eq!((accurate.step(), accurate.kernel()), (TimeStep::Auto, KernelName::Bspline));
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_in_one_sentence() {
+        let cases = [
+            ("--viscosity -3", "--viscosity -3: must be a number above 0 and at most 1e6"),
+            ("--viscosity nan", "--viscosity nan: must be a number above 0 and at most 1e6"),
+            ("--box 0", "--box 0: must be a number above 0 and at most 1e6"),
+            ("--dt soon", "--dt soon: must be a number above 0 or 'auto'"),
+            ("--offset 1", "--offset 1: must be two numbers with a comma between them"),
+            ("--preset best", "--preset best is not one of thesis, accurate"),
+            ("--time", "--time needs a value"),
+            ("--time 1 --time 2", "--time is given more than once"),
+            ("--visc 3", "there is no flag --visc (did you mean --viscosity? --help lists them)"),
+            ("--nonsense", "there is no flag --nonsense (--help lists them)"),
+            ("stray", "there is no flag stray (--help lists them)"),
+            ("--seed -1", "--seed -1: must be a whole number from 0 to 18446744073709551615"),
+            ("--activity 1", "--activity 1: must be a number from -1e6 to 0 (contractile activities are negative)"),
+        ];
+        for (line, expected) in cases {
+            assert_eq!(parse(line).unwrap_err(), expected, "{line}");
+        }
+    }
+
+    #[test]
+    fn regions_that_do_not_fit_are_refused() {
+        let cells = |line: &str| {
+            let flags = parse(line).unwrap();
+            flags.region.cells(&flags.method).map_err(|e| e.to_string())
+        };
+        assert_eq!(cells("--box 6 --spacing 0.05"), Ok(120));
+        assert_eq!(cells("--box 6 --spacing 0.1"), Ok(60));
+        for line in
+            ["--box 1.5", "--box 1e5", "--box 6 --spacing 1", "--box 6 --spacing 0.07", "--box 600 --spacing 0.01"]
+        {
+            assert!(cells(line).is_err(), "{line}");
+        }
+        assert!(cells("--time 1 --dt 2").is_err() && cells("--time 1e4 --dt 1e-9").is_err());
+        let channel = |line: &str| {
+            let flags = parse(line).unwrap();
+            flags.channel.cells(&flags.method).map_err(|e| e.to_string())
+        };
+        assert_eq!(channel("--width 2 --length 12 --spacing 0.05"), Ok([240, 40]));
+        assert!(channel("--width 1.9").is_err() && channel("--width 3 --lateral-offset 0.6").is_err());
+    }
+}

@@ -1,0 +1,70 @@
+//! What the examples of motile share: the command line, a progress bar, pictures of flows, animations, plots, and files
+//! for other programs. Everything works on plain data (positions, samples, numbers), so that any scene can use it.
+//!
+//! | for | there are |
+//! |---|---|
+//! | flags | [`run`] around groups such as [`DropletFlags`], [`MethodFlags`], [`BoxFlags`], [`ChannelFlags`], [`OutputFlags`] |
+//! | waiting | [`Progress`] |
+//! | pictures of a flow | [`Picture`] of [`ScalarSamples`] and [`VectorSamples`] on a [`Raster`], drawn in a [`Format`] |
+//! | animations | [`Animation`] |
+//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG |
+//! | results | [`Summary`] (`summary.json` and a table), [`Trajectory`] (CSV) |
+//! | ParaView | [`VtkFile`], [`VtkSeries`] |
+//!
+//! Pictures need no fonts of the system and no C libraries: lines, areas and letters are drawn by [`Canvas`] and
+//! [`Svg`], two implementations of [`Surface`].
+//!
+//! ```
+//! use support::{AxisScale, Figure, Plot, Series};
+//!
+//! let decay = (0..100).map(|k| f64::from(k) * 0.1).map(|t| (t, (-t).exp()));
+//! let plot = Plot::new("Decay").x_axis("time t", AxisScale::Linear).series(Series::line("exp(−t)", decay));
+//! let canvas = Figure::new(1).panel(plot).canvas().expect("one panel of usual size");
+//! assert_eq!(canvas.size(), [1080, 680]);
+//! ```
+
+mod animation;
+mod axes;
+mod base64;
+mod canvas;
+mod colour;
+mod colour_bar;
+mod command_line;
+mod flags;
+mod font;
+mod palette;
+mod parse;
+mod picture;
+mod picture_paint;
+mod plot;
+mod plot_paint;
+mod progress;
+mod raster;
+mod streamlines;
+mod summary;
+mod surface;
+mod svg;
+mod ticks;
+mod trajectory;
+mod vtk;
+
+pub use animation::Animation;
+pub use axes::AxisScale;
+pub use canvas::Canvas;
+pub use colour::{ColourMap, ColourScale, Limits, Rgb, SERIES_COLOURS};
+pub use command_line::run;
+pub use flags::{BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, KernelName, MethodFlags, OutputFlags, Preset};
+pub use parse::{TimeStep, activity, finite, not_negative, pair, positive, seed};
+pub use picture::{Format, Picture};
+pub use plot::{Figure, Marker, Plot, Series};
+pub use progress::Progress;
+pub use raster::{Raster, ScalarSamples, VectorSamples};
+pub use streamlines::streamlines;
+pub use summary::{Summary, make_directory};
+pub use surface::{Anchor, Pen, Pixel, Rect, Surface, TextStyle};
+pub use svg::Svg;
+pub use trajectory::Trajectory;
+pub use vtk::{VtkFile, VtkSeries};
+
+/// A point or vector in the plane.
+pub type Vec2 = nalgebra::Vector2<f64>;

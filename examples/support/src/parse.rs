@@ -1,0 +1,139 @@
+//! Values of command line flags: from text to numbers, or a reason why not.
+
+use std::{fmt, str::FromStr};
+
+/// The time step that is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum TimeStep {
+    /// As large as stability and accuracy allow.
+    Auto,
+    /// This one (time).
+    Fixed(f64),
+}
+
+impl FromStr for TimeStep {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "auto" {
+            return Ok(Self::Auto);
+        }
+        match text.parse::<f64>() {
+            Ok(step) if step.is_finite() && step > 0.0 => Ok(Self::Fixed(step)),
+            _ => Err("must be a number above 0 or 'auto'".into()),
+        }
+    }
+}
+
+impl fmt::Display for TimeStep {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Auto => f.write_str("auto"),
+            Self::Fixed(step) => write!(f, "{step}"),
+        }
+    }
+}
+
+/// Largest magnitude of a number.
+const LARGEST: f64 = 1e6;
+
+/// A number for which `valid` holds, or the rule it breaks.
+fn number(text: &str, rule: &str, valid: impl Fn(f64) -> bool) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(number) if number.is_finite() && number.abs() <= LARGEST && valid(number) => Ok(number),
+        _ => Err(rule.to_string()),
+    }
+}
+
+/// A number of magnitude up to a million.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub fn finite(text: &str) -> Result<f64, String> {
+    number(text, "must be a number from -1e6 to 1e6", |_| true)
+}
+
+/// A number above zero, up to a million.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub fn positive(text: &str) -> Result<f64, String> {
+    number(text, "must be a number above 0 and at most 1e6", |v| v > 0.0)
+}
+
+/// A number from zero to a million.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    number(text, "must be a number from 0 to 1e6", |v| v >= 0.0)
+}
+
+/// A contractile activity: a number from minus a million to zero.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub fn activity(text: &str) -> Result<f64, String> {
+    number(text, "must be a number from -1e6 to 0 (contractile activities are negative)", |v| v <= 0.0)
+}
+
+/// Two numbers of magnitude up to a million with a comma between them.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub fn pair(text: &str) -> Result<[f64; 2], String> {
+    let numbers = text.split_once(',').and_then(|(x, y)| Some([finite(x).ok()?, finite(y).ok()?]));
+    numbers.ok_or_else(|| "must be two numbers with a comma between them".to_string())
+}
+
+/// A whole number that is not negative.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub fn seed(text: &str) -> Result<u64, String> {
+    text.trim().parse().map_err(|_| format!("must be a whole number from 0 to {}", u64::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn time_steps() {
+        assert_eq!("auto".parse(), Ok(TimeStep::Auto));
+        assert_eq!("1e-3".parse(), Ok(TimeStep::Fixed(1e-3)));
+        for text in ["0", "-1", "nan", "inf", "automatic", ""] {
+            assert!(text.parse::<TimeStep>().is_err(), "{text}");
+        }
+        assert_eq!(TimeStep::Fixed(0.002).to_string(), "0.002");
+    }
+
+    #[test]
+    fn pairs() {
+        assert_eq!(pair("-0.5,1e-2"), Ok([-0.5, 0.01]));
+        assert_eq!(pair("1, 2"), Ok([1.0, 2.0]));
+        for text in ["1", "1,", ",1", "1,2,3", "1;2", "nan,0", ""] {
+            assert!(pair(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn signs_and_sizes() {
+        assert_eq!(activity("-2"), Ok(-2.0));
+        assert_eq!(activity("0"), Ok(0.0));
+        assert!(activity("0.5").is_err() && activity("-1e7").is_err());
+        assert!(
+            positive("0").is_err() && positive("1e7").is_err() && positive("NaN").is_err() && positive("x").is_err()
+        );
+        assert!(not_negative("-1e-9").is_err() && not_negative("0").is_ok());
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_come_back(value in -1e6..1e6f64) {
+            prop_assert_eq!(finite(&value.to_string()), Ok(value));
+            prop_assert_eq!(positive(&value.to_string()).is_ok(), value > 0.0);
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! The picture of a flow: what is in it.
+
+use anyhow::{Result, ensure};
+
+use crate::{Canvas, ColourScale, ScalarSamples, Vec2, VectorSamples, colour_bar::Legend};
+
+/// Size and detail of a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Format {
+    /// Width of the image (pixels); its height follows from the shape of the region.
+    pub width: usize,
+    /// Number of colours of the field: few show contour bands, and make animations small.
+    pub levels: usize,
+    /// Factor on the distance between streamlines.
+    pub streamline_spacing: f64,
+    /// Width of the image relative to the size of the type.
+    pub type_sizes: f64,
+}
+
+impl Format {
+    /// 1200 pixels wide, with smooth colours.
+    #[must_use]
+    pub fn full() -> Self {
+        Self { width: 1200, levels: 256, streamline_spacing: 1.0, type_sizes: 58.0 }
+    }
+
+    /// 480 pixels wide, with contour bands and fewer streamlines, for animations.
+    #[must_use]
+    pub fn frame() -> Self {
+        Self { width: 480, levels: 20, streamline_spacing: 1.6, type_sizes: 40.0 }
+    }
+
+    /// The same with another width (pixels).
+    #[must_use]
+    pub fn width(self, width: usize) -> Self {
+        Self { width, ..self }
+    }
+}
+
+/// A closed curve of the plane with a value at each point.
+#[derive(Debug, Clone)]
+pub(crate) struct ColouredCurve {
+    pub(crate) points: Vec<Vec2>,
+    pub(crate) values: Vec<f64>,
+}
+
+/// The picture of a flow: a field in colour, streamlines, interfaces coloured by a value on them, walls, solids,
+/// tracks. Described by what is given to it, drawn by [`Picture::draw`].
+///
+/// Positions are lengths in the units of the axes. In the periodic directions of the fields everything is drawn with
+/// its periodic images, so positions need not be wrapped.
+///
+/// ```
+/// use support::{ColourMap, ColourScale, Format, Limits, Picture, Raster, ScalarSamples, Vec2};
+///
+/// # fn main() -> anyhow::Result<()> {
+/// let raster = Raster::new([-3.0, -3.0], [6.0, 6.0], [60, 60], [true, true])?;
+/// let pressure: Vec<f64> = raster.points().iter().map(|p| p.x.sin() * p.y.cos()).collect();
+/// let scale = ColourScale::new(ColourMap::Rainbow, Limits::Symmetric, &pressure);
+/// let circle: Vec<Vec2> = (0..90).map(|k| f64::from(k) * 4f64.to_radians()).map(|t| Vec2::new(t.cos(), t.sin())).collect();
+/// let concentration: Vec<f64> = circle.iter().map(|p| 1.0 - p.x).collect();
+/// let over_interface = ColourScale::new(ColourMap::Magma, Limits::FromZero, &concentration);
+/// let picture = Picture::new(ScalarSamples::new(raster, pressure)?, scale, "pressure p R_{0}/γ_{0}")
+///     .title("t = 12.5")
+///     .interface_scale(over_interface, "concentration c/c_{0}")
+///     .interface(&circle, &concentration)?;
+/// let canvas = picture.draw(&Format::frame())?;
+/// assert_eq!(canvas.size()[0], 480);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone)]
+pub struct Picture {
+    pub(crate) title: String,
+    pub(crate) field: ScalarSamples,
+    pub(crate) field_legend: Legend,
+    pub(crate) flow: Option<Flow>,
+    pub(crate) view: [[f64; 2]; 2],
+    pub(crate) walls: Option<[f64; 2]>,
+    pub(crate) solids: Vec<Vec<Vec<Vec2>>>,
+    pub(crate) tracks: Vec<Vec<Vec2>>,
+    pub(crate) arrows: Vec<[Vec2; 2]>,
+    pub(crate) interfaces: Vec<ColouredCurve>,
+    pub(crate) interface_legend: Option<Legend>,
+    pub(crate) length_unit: String,
+}
+
+/// The velocity whose streamlines are drawn.
+#[derive(Debug, Clone)]
+pub(crate) struct Flow {
+    pub(crate) velocity: VectorSamples,
+    pub(crate) spacing: f64,
+    pub(crate) anchor: Vec2,
+}
+
+impl Picture {
+    /// A picture of `field` in the colours of `scale`, over the rectangle of its raster; `label` names the field with
+    /// its unit.
+    #[must_use]
+    pub fn new(field: ScalarSamples, scale: ColourScale, label: &str) -> Self {
+        let (low, size) = (field.raster().origin(), field.raster().size());
+        Self {
+            title: String::new(),
+            field,
+            field_legend: Legend { scale, label: label.to_string() },
+            flow: None,
+            view: [low, [low[0] + size[0], low[1] + size[1]]],
+            walls: None,
+            solids: Vec::new(),
+            tracks: Vec::new(),
+            arrows: Vec::new(),
+            interfaces: Vec::new(),
+            interface_legend: None,
+            length_unit: "R_{0}".to_string(),
+        }
+    }
+
+    /// A line of text above the picture, such as the time and the parameters.
+    #[must_use]
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
+    }
+
+    /// The unit of length on axes and scale bar; `R_{0}` if nothing is said.
+    #[must_use]
+    pub fn length_unit(mut self, unit: &str) -> Self {
+        self.length_unit = unit.to_string();
+        self
+    }
+
+    /// Shows the rectangle between two corners instead of that of the raster.
+    ///
+    /// # Errors
+    /// A rectangle that is empty, not finite, or more than 20 times as long as wide.
+    pub fn view(mut self, low: Vec2, high: Vec2) -> Result<Self> {
+        let size = high - low;
+        let finite = low.iter().chain(high.iter()).all(|v| v.is_finite());
+        ensure!(
+            finite && size.min() > 0.0 && size.max() < 20.0 * size.min(),
+            "the rectangle from ({}, {}) to ({}, {}) cannot be shown: it is empty or too narrow",
+            low.x,
+            low.y,
+            high.x,
+            high.y
+        );
+        self.view = [low.into(), high.into()];
+        Ok(self)
+    }
+
+    /// Shows a rectangle of the raster's size with its centre at `centre`: a camera that moves along.
+    ///
+    /// # Errors
+    /// As [`Picture::view`].
+    pub fn centred_on(self, centre: Vec2) -> Result<Self> {
+        let half = Vec2::from(self.field.raster().size()) * 0.5;
+        self.view(centre - half, centre + half)
+    }
+
+    /// Draws streamlines of `velocity`, about `spacing` (length) apart, the first of them through `anchor`: with an
+    /// anchor that moves along with what moves, the lines do not flicker in animations.
+    #[must_use]
+    pub fn streamlines(mut self, velocity: VectorSamples, spacing: f64, anchor: Vec2) -> Self {
+        self.flow = Some(Flow { velocity, spacing, anchor });
+        self
+    }
+
+    /// The colours of interfaces; `label` names the value on them.
+    #[must_use]
+    pub fn interface_scale(mut self, scale: ColourScale, label: &str) -> Self {
+        self.interface_legend = Some(Legend { scale, label: label.to_string() });
+        self
+    }
+
+    /// Draws the closed curve through `points` with the colours of the `values` at them, as
+    /// [`Picture::interface_scale`] says; black without one.
+    ///
+    /// # Errors
+    /// Numbers of points and values that differ, or fewer than three.
+    pub fn interface(mut self, points: &[Vec2], values: &[f64]) -> Result<Self> {
+        ensure!(
+            points.len() == values.len() && points.len() > 2,
+            "an interface of {} points with {} values cannot be drawn",
+            points.len(),
+            values.len()
+        );
+        self.interfaces.push(ColouredCurve { points: points.to_vec(), values: values.to_vec() });
+        Ok(self)
+    }
+
+    /// Draws rigid walls below and above the given heights; the view is widened to show them.
+    #[must_use]
+    pub fn walls(mut self, below: f64, above: f64) -> Self {
+        self.walls = Some([below, above]);
+        self
+    }
+
+    /// Draws a solid: closed outlines, of which one within another is a hole.
+    #[must_use]
+    pub fn solid(mut self, outlines: &[Vec<Vec2>]) -> Self {
+        self.solids.push(outlines.to_vec());
+        self
+    }
+
+    /// Draws a path, such as that of a centroid.
+    #[must_use]
+    pub fn track(mut self, path: &[Vec2]) -> Self {
+        self.tracks.push(path.to_vec());
+        self
+    }
+
+    /// Draws an arrow from `foot`, `along` long (length).
+    #[must_use]
+    pub fn arrow(mut self, foot: Vec2, along: Vec2) -> Self {
+        self.arrows.push([foot, along]);
+        self
+    }
+
+    /// Draws the picture.
+    ///
+    /// # Errors
+    /// An image too small or too large, or streamlines too dense.
+    pub fn draw(&self, format: &Format) -> Result<Canvas> {
+        crate::picture_paint::paint(self, format)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ColourMap, Limits, Raster, Rgb};
+
+    const SCALE: (ColourMap, f64, f64) = (ColourMap::Viridis, 0.0, 1.0);
+
+    fn scale() -> ColourScale {
+        ColourScale::new(SCALE.0, Limits::Fixed(SCALE.1, SCALE.2), &[])
+    }
+
+    /// A field that is 0 in the left and 1 in the right half of a square box around the origin.
+    fn halves() -> Picture {
+        let raster = Raster::new([-3.0, -3.0], [6.0, 6.0], [60, 60], [true, true]).unwrap();
+        let values = raster.points().iter().map(|p| if p.x < 0.0 { 0.0 } else { 1.0 }).collect();
+        Picture::new(ScalarSamples::new(raster, values).unwrap(), scale(), "step")
+    }
+
+    fn count(canvas: &Canvas, colour: Rgb) -> usize {
+        canvas.pixels().iter().filter(|&&p| p == colour).count()
+    }
+
+    #[test]
+    fn the_field_fills_its_halves_and_the_view_shifts_it() {
+        let format = Format::frame();
+        let (low, high) = (SCALE.0.at(0.0), SCALE.0.at(1.0));
+        let canvas = halves().draw(&format).unwrap();
+        let (left, right) = (count(&canvas, low) as f64, count(&canvas, high) as f64);
+        assert!(left > 40_000.0 && (left / right - 1.0).abs() < 0.1, "{left} {right}");
+        let shifted = halves().view(Vec2::new(0.2, -3.0), Vec2::new(2.8, 3.0)).unwrap().draw(&format).unwrap();
+        // What is left of the colour of the low end is in its colour bar.
+        assert!(count(&shifted, low) < 400, "{}", count(&shifted, low));
+    }
+
+    #[test]
+    fn an_interface_across_the_border_shows_on_both_sides() {
+        let circle = |x: f64| -> Vec<Vec2> {
+            (0..90).map(|k| f64::from(k) * 4f64.to_radians()).map(|t| Vec2::new(x + t.cos(), t.sin())).collect()
+        };
+        let ink = |x: f64| {
+            let picture = halves().interface(&circle(x), &[0.5; 90]).unwrap();
+            count(&picture.draw(&Format::frame().width(800)).unwrap(), Rgb::INK) as f64
+        };
+        let (inside, across, far) = (ink(1.5), ink(3.0), ink(3.0 - 60.0));
+        assert!((across / inside - 1.0).abs() < 0.05, "{across} {inside}");
+        assert!((far / across - 1.0).abs() < 1e-3, "{far} {across}");
+    }
+
+    #[test]
+    fn bad_sizes_views_and_interfaces_are_refused() {
+        assert!(halves().draw(&Format::frame().width(10)).is_err());
+        assert!(halves().draw(&Format::frame().width(1_000_000)).is_err());
+        assert!(halves().view(Vec2::new(0.0, 0.0), Vec2::new(0.0, 1.0)).is_err());
+        assert!(halves().view(Vec2::new(0.0, 0.0), Vec2::new(f64::NAN, 1.0)).is_err());
+        assert!(halves().interface(&[Vec2::zeros(); 4], &[0.0; 3]).is_err());
+    }
+
+    #[test]
+    fn values_that_are_not_numbers_do_no_harm() {
+        let raster = Raster::new([0.0, 0.0], [4.0, 2.0], [8, 4], [true, false]).unwrap();
+        let field = ScalarSamples::new(raster, vec![f64::NAN; 32]).unwrap();
+        let flow = VectorSamples::new(raster, vec![Vec2::new(f64::NAN, 0.0); 32]).unwrap();
+        let picture = Picture::new(field, scale(), "nothing")
+            .walls(0.0, 2.0)
+            .streamlines(flow, 0.2, Vec2::new(1.0, 1.0))
+            .track(&[Vec2::new(f64::NAN, 1.0), Vec2::new(1.0, 1.0)])
+            .arrow(Vec2::zeros(), Vec2::new(f64::INFINITY, 0.0))
+            .interface(&[Vec2::new(f64::NAN, 0.0); 3], &[f64::NAN; 3])
+            .unwrap();
+        assert!(picture.draw(&Format::frame()).is_ok());
+    }
+}

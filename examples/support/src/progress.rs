@@ -1,0 +1,125 @@
+//! How far a run is.
+
+use std::{
+    io::IsTerminal,
+    time::{Duration, Instant},
+};
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Least time between two updates of the bar, and between two lines where there is no terminal.
+const BAR_INTERVAL: Duration = Duration::from_millis(80);
+const LINE_INTERVAL: Duration = Duration::from_secs(15);
+/// Divisions of the bar.
+const DIVISIONS: u64 = 1000;
+
+/// A progress bar on the error output with the state of the run, its pace and the time left. Where the output is not
+/// a terminal, a line now and then; hidden, nothing.
+#[derive(Debug)]
+pub struct Progress {
+    end: f64,
+    started: Instant,
+    shown: Option<Instant>,
+    display: Display,
+}
+
+#[derive(Debug)]
+enum Display {
+    Bar(ProgressBar),
+    Lines,
+    Nothing,
+}
+
+impl Progress {
+    /// A run from time 0 to `end`.
+    #[must_use]
+    pub fn new(end: f64, hidden: bool) -> Self {
+        let display = match (hidden, std::io::stderr().is_terminal()) {
+            (true, _) => Display::Nothing,
+            (false, false) => Display::Lines,
+            (false, true) => {
+                let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
+                if let Ok(style) = ProgressStyle::with_template("[{bar:30}] {percent:>3} %  {msg}") {
+                    bar.set_style(style.progress_chars("=> "));
+                }
+                Display::Bar(bar)
+            }
+        };
+        let started = Instant::now();
+        // A bar appears at once, the first line when a run takes long.
+        let shown = matches!(display, Display::Lines).then_some(started);
+        Self { end, started, shown, display }
+    }
+
+    /// Tells where the run is: its time, the number of steps so far, and the speed of what moves (length per time).
+    /// To be called after every step: it mostly returns at once.
+    pub fn update(&mut self, time: f64, steps: usize, speed: f64) {
+        let interval = match self.display {
+            Display::Bar(_) => BAR_INTERVAL,
+            Display::Lines => LINE_INTERVAL,
+            Display::Nothing => return,
+        };
+        if self.shown.is_some_and(|shown| shown.elapsed() < interval) {
+            return;
+        }
+        self.shown = Some(Instant::now());
+        let fraction = (time / self.end).clamp(0.0, 1.0);
+        let state = state(time, self.end, steps, speed, self.started.elapsed().as_secs_f64());
+        match &self.display {
+            Display::Bar(bar) => {
+                bar.set_position((fraction * DIVISIONS as f64) as u64);
+                bar.set_message(state);
+            }
+            Display::Lines => eprintln!("{:>3.0} %  {state}", 100.0 * fraction),
+            Display::Nothing => {}
+        }
+    }
+
+    /// Wall clock time since the start (seconds).
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        if let Display::Bar(bar) = &self.display {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// The state of a run in words.
+fn state(time: f64, end: f64, steps: usize, speed: f64, seconds: f64) -> String {
+    let pace = if seconds > 0.0 { steps as f64 / seconds } else { 0.0 };
+    let left = if time > 0.0 { clock(seconds * (end - time).max(0.0) / time) } else { "?".into() };
+    format!("t = {time:.2} of {end}  speed {speed:.4}  {pace:.0} steps/s  {left} left")
+}
+
+/// Seconds as minutes and seconds, or hours, minutes and seconds.
+fn clock(seconds: f64) -> String {
+    let whole = seconds.round().clamp(0.0, 359_999.0) as u64;
+    let (h, m, s) = (whole / 3600, whole / 60 % 60, whole % 60);
+    if h > 0 { format!("{h}:{m:02}:{s:02}") } else { format!("{m}:{s:02}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_follows_from_the_pace() {
+        let text = state(15.0, 60.0, 3000, 0.1386, 20.0);
+        assert_eq!(text, "t = 15.00 of 60  speed 0.1386  150 steps/s  1:00 left");
+        assert!(state(0.0, 60.0, 0, f64::NAN, 0.0).ends_with("? left"));
+        assert_eq!(clock(3723.4), "1:02:03");
+    }
+
+    #[test]
+    fn hidden_progress_says_nothing() {
+        let mut progress = Progress::new(1.0, true);
+        progress.update(0.5, 10, 0.1);
+        assert!(progress.shown.is_none());
+        progress.finish();
+    }
+}

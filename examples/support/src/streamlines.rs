@@ -1,0 +1,302 @@
+//! Evenly spaced streamlines.
+//!
+//! After B. Jobard and W. Lefer, "Creating evenly-spaced streamlines of arbitrary density" (1997): each new line starts
+//! at a fixed distance beside one that is there, and ends where it comes too near another.
+
+use std::collections::VecDeque;
+
+use anyhow::{Result, ensure};
+
+use crate::{Raster, Vec2, VectorSamples};
+
+/// Ends of a line: how near, in units of the spacing, it may come to others and to an earlier part of itself.
+const NEAREST_OTHER: f64 = 0.55;
+const NEAREST_SELF: f64 = 0.3;
+/// Steps per spacing.
+const STEPS: f64 = 8.0;
+/// Lines shorter than this many spacings are left out.
+const SHORTEST: f64 = 1.6;
+/// Longest line, in spacings; closed lines end before by meeting themselves.
+const LONGEST: f64 = 400.0;
+/// Velocities below this share of the largest one have no direction worth drawing.
+const STAGNANT: f64 = 1e-4;
+
+/// Streamlines of `field` that are about `spacing` (length) apart, each a list of points (length) in the direction of
+/// the flow. The first passes through `anchor`, and the others follow from it, so that with an anchor that moves with
+/// the flow the lines move along. In periodic directions lines run on beyond the borders, unwrapped.
+///
+/// # Errors
+/// A spacing that is not positive and finite, or so small that there would be more than a million cells of it.
+pub fn streamlines(field: &VectorSamples, spacing: f64, anchor: Vec2) -> Result<Vec<Vec<Vec2>>> {
+    let raster = field.raster();
+    let area = raster.size()[0] * raster.size()[1];
+    ensure!(
+        spacing.is_finite() && spacing > 0.0 && area / (spacing * spacing) < 1e6,
+        "streamlines cannot be {spacing} apart in a rectangle of {:?}",
+        raster.size()
+    );
+    let fastest = field.values().iter().map(Vec2::norm).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    if fastest == 0.0 {
+        return Ok(Vec::new());
+    }
+    let mut tracer = Tracer { field, spacing, slowest: STAGNANT * fastest, near: Neighbourhood::new(raster, spacing) };
+    let mut lines: Vec<Vec<Vec2>> = Vec::new();
+    let mut parents: VecDeque<usize> = VecDeque::new();
+    // Seeds beside the lines, and, when those are used up, wherever there is room left.
+    let mut spare = spare_seeds(raster, spacing, anchor).into_iter();
+    loop {
+        while let Some(parent) = parents.pop_front() {
+            for seed in seeds_beside(&lines[parent], spacing) {
+                if let Some(line) = tracer.line(seed) {
+                    parents.push_back(lines.len());
+                    lines.push(line);
+                }
+            }
+        }
+        let Some(seed) = spare.next() else { return Ok(lines) };
+        if let Some(line) = tracer.line(seed) {
+            parents.push_back(lines.len());
+            lines.push(line);
+        }
+    }
+}
+
+/// Points at both sides of a line, one a spacing.
+fn seeds_beside(line: &[Vec2], spacing: f64) -> Vec<Vec2> {
+    let every = STEPS as usize;
+    let beside = |pair: &[Vec2]| {
+        let along = pair[1] - pair[0];
+        let normal = Vec2::new(-along.y, along.x) * (1.001 * spacing / along.norm().max(1e-300));
+        [pair[0] + normal, pair[0] - normal]
+    };
+    line.windows(2).step_by(every).flat_map(beside).collect()
+}
+
+/// A lattice of points over the raster, the one at the anchor first.
+fn spare_seeds(raster: &Raster, spacing: f64, anchor: Vec2) -> Vec<Vec2> {
+    let [nx, ny] = [0, 1].map(|k| (raster.size()[k] / spacing).ceil() as usize);
+    let [dx, dy] = [raster.size()[0] / nx as f64, raster.size()[1] / ny as f64];
+    let mut seeds = vec![anchor];
+    for j in 0..ny {
+        for i in 0..nx {
+            let mut seed = anchor + Vec2::new(i as f64 * dx, j as f64 * dy);
+            for k in 0..2 {
+                let start = raster.origin()[k];
+                seed[k] = start + (seed[k] - start).rem_euclid(raster.size()[k]);
+            }
+            seeds.push(seed);
+        }
+    }
+    seeds
+}
+
+/// Follows the field and keeps lines apart.
+struct Tracer<'a> {
+    field: &'a VectorSamples,
+    spacing: f64,
+    slowest: f64,
+    near: Neighbourhood,
+}
+
+impl Tracer<'_> {
+    /// The streamline through `seed`, unless that is too near a line or the line comes out too short; it is then part
+    /// of the neighbourhood.
+    fn line(&mut self, seed: Vec2) -> Option<Vec<Vec2>> {
+        if !self.field.raster().covers(seed) || self.near.closer(seed, self.spacing) {
+            return None;
+        }
+        let mut own = Neighbourhood::like(&self.near);
+        own.add(seed, 0);
+        let mut ahead = self.follow(seed, 1.0, &mut own);
+        let end = self.closing(&ahead, seed);
+        ahead.extend(end);
+        let mut line: Vec<Vec2> = match end {
+            Some(_) => Vec::new(),
+            None => self.follow(seed, -1.0, &mut own).into_iter().rev().collect(),
+        };
+        line.push(seed);
+        line.extend(ahead);
+        let length: f64 = line.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+        if length < SHORTEST * self.spacing {
+            return None;
+        }
+        for &p in &line {
+            self.near.add(p, 0);
+        }
+        Some(line)
+    }
+
+    /// Where a line that returned to its seed, or to an image of it, is to end: there.
+    fn closing(&self, ahead: &[Vec2], seed: Vec2) -> Option<Vec2> {
+        let [.., before, last] = ahead else { return None };
+        let end = self.near.nearest_image(seed, *last);
+        let gap = end - last;
+        let along = (last - before).normalize();
+        let beside = (along.x * gap.y - along.y * gap.x).abs();
+        let near = gap.norm() < (NEAREST_SELF + 2.0 / STEPS) * self.spacing;
+        (near && along.dot(&gap) > 0.0 && beside < 0.1 * self.spacing).then_some(end)
+    }
+
+    /// The line from `seed` on, downstream (`sign` 1) or upstream (-1), without the seed.
+    fn follow(&self, seed: Vec2, sign: f64, own: &mut Neighbourhood) -> Vec<Vec2> {
+        let step = self.spacing / STEPS;
+        let limit = (LONGEST * STEPS) as i64;
+        let mut line = Vec::new();
+        let mut p = seed;
+        for count in 1..limit {
+            let Some(next) = self.step(p, sign * step) else { break };
+            // Upstream points are numbered -1, -2, ...: what is near along the line may be near in space.
+            let number = if sign > 0.0 { count } else { -count };
+            let apart = (2.0 * STEPS) as i64;
+            if self.near.closer(next, NEAREST_OTHER * self.spacing)
+                || own.closer_than_along(next, NEAREST_SELF * self.spacing, number, apart)
+            {
+                break;
+            }
+            own.add(next, number);
+            line.push(next);
+            p = next;
+        }
+        line
+    }
+
+    /// One step of given length along the field (classical Runge-Kutta on its direction), if the field is known there.
+    fn step(&self, p: Vec2, length: f64) -> Option<Vec2> {
+        let direction = |p: Vec2| {
+            let v = if self.field.raster().covers(p) { self.field.at(p) } else { return None };
+            let speed = v.norm();
+            (speed > self.slowest).then(|| v / speed)
+        };
+        let a = direction(p)?;
+        let b = direction(p + a * (0.5 * length))?;
+        let c = direction(p + b * (0.5 * length))?;
+        let d = direction(p + c * length)?;
+        let next = p + (a + b * 2.0 + c * 2.0 + d) * (length / 6.0);
+        self.field.raster().covers(next).then_some(next)
+    }
+}
+
+/// Points sorted into cells of at least one spacing, for questions of nearness; periodic as the raster is.
+struct Neighbourhood {
+    raster: Raster,
+    cells: [usize; 2],
+    points: Vec<Vec<(Vec2, i64)>>,
+}
+
+impl Neighbourhood {
+    fn new(raster: &Raster, spacing: f64) -> Self {
+        let cells = [0, 1].map(|k| ((raster.size()[k] / spacing) as usize).max(1));
+        Self { raster: *raster, cells, points: vec![Vec::new(); cells[0] * cells[1]] }
+    }
+
+    fn like(other: &Self) -> Self {
+        Self { raster: other.raster, cells: other.cells, points: vec![Vec::new(); other.points.len()] }
+    }
+
+    fn cell(&self, p: Vec2) -> [usize; 2] {
+        [0, 1].map(|k| {
+            let t = (p[k] - self.raster.origin()[k]) / self.raster.size()[k];
+            let t = if self.raster.periodic()[k] { t.rem_euclid(1.0) } else { t.clamp(0.0, 1.0) };
+            ((t * self.cells[k] as f64) as usize).min(self.cells[k] - 1)
+        })
+    }
+
+    fn add(&mut self, p: Vec2, number: i64) {
+        let [i, j] = self.cell(p);
+        self.points[j * self.cells[0] + i].push((p, number));
+    }
+
+    /// The periodic image of `p` that is nearest to `q`.
+    fn nearest_image(&self, mut p: Vec2, q: Vec2) -> Vec2 {
+        for k in 0..2 {
+            if self.raster.periodic()[k] {
+                p[k] -= self.raster.size()[k] * ((p[k] - q[k]) / self.raster.size()[k]).round();
+            }
+        }
+        p
+    }
+
+    /// Distance, the shortest over periodic images.
+    fn distance(&self, p: Vec2, q: Vec2) -> f64 {
+        (self.nearest_image(p, q) - q).norm()
+    }
+
+    fn closer(&self, p: Vec2, distance: f64) -> bool {
+        self.any_near(p, |q, _| self.distance(p, q) < distance)
+    }
+
+    /// As [`Self::closer`], leaving out points numbered within `apart` of `number`.
+    fn closer_than_along(&self, p: Vec2, distance: f64, number: i64, apart: i64) -> bool {
+        self.any_near(p, |q, n| (n - number).abs() > apart && self.distance(p, q) < distance)
+    }
+
+    fn any_near(&self, p: Vec2, mut test: impl FnMut(Vec2, i64) -> bool) -> bool {
+        let at = self.cell(p);
+        let around = |k: usize| {
+            let (n, periodic) = (self.cells[k] as i64, self.raster.periodic()[k]);
+            (-1..=1).map(move |d| at[k] as i64 + d).filter_map(move |c| {
+                let inside = (0..n).contains(&c);
+                (inside || periodic).then(|| c.rem_euclid(n) as usize)
+            })
+        };
+        around(1).any(|j| around(0).any(|i| self.points[j * self.cells[0] + i].iter().any(|&(q, n)| test(q, n))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sampled(periodic: bool, flow: impl Fn(Vec2) -> Vec2) -> VectorSamples {
+        let raster = Raster::new([-1.0, -1.0], [2.0, 2.0], [96, 96], [periodic; 2]).unwrap();
+        VectorSamples::new(raster, raster.points().into_iter().map(flow).collect()).unwrap()
+    }
+
+    #[test]
+    fn lines_of_a_rotation_are_circles_at_the_spacing() {
+        let field = sampled(false, |p| Vec2::new(-p.y, p.x));
+        let lines = streamlines(&field, 0.2, Vec2::new(0.3, 0.0)).unwrap();
+        for line in &lines {
+            let radius = line[0].norm();
+            assert!(line.iter().all(|p| (p.norm() - radius).abs() < 2e-3), "a line leaves its circle of {radius}");
+        }
+        // The radii from the anchor outwards, as closed lines.
+        for expected in [0.3, 0.5, 0.7, 0.9] {
+            let line = lines.iter().find(|l| (l[0].norm() - expected).abs() < 2e-3);
+            assert!(line.is_some_and(|l| l[0] == l[l.len() - 1]), "the line at {expected} is not closed");
+        }
+    }
+
+    #[test]
+    fn lines_keep_apart_and_fill_a_periodic_box() {
+        let pi = std::f64::consts::PI;
+        let field = sampled(true, |p| Vec2::new((pi * p.y).sin(), (pi * p.x).sin()));
+        let spacing = 0.15;
+        let lines = streamlines(&field, spacing, Vec2::zeros()).unwrap();
+        let near = Neighbourhood::new(field.raster(), spacing);
+        for (k, a) in lines.iter().enumerate() {
+            for b in &lines[k + 1..] {
+                let closest = a
+                    .iter()
+                    .flat_map(|&p| b.iter().map(move |&q| (p, q)))
+                    .map(|(p, q)| near.distance(p, q))
+                    .fold(f64::INFINITY, f64::min);
+                assert!(closest >= NEAREST_OTHER * spacing * 0.999, "{closest}");
+            }
+        }
+        // Nowhere is there room for a circle much wider than the spacing.
+        let mut filled = Neighbourhood::new(field.raster(), 2.5 * spacing);
+        lines.iter().flatten().for_each(|&p| filled.add(p, 0));
+        let gaps = field.raster().points().into_iter().filter(|&p| !filled.closer(p, 2.0 * spacing)).count();
+        assert_eq!(gaps, 0);
+    }
+
+    #[test]
+    fn a_fluid_at_rest_has_no_streamlines_and_a_bad_spacing_is_refused() {
+        let field = sampled(true, |_| Vec2::zeros());
+        assert!(streamlines(&field, 0.1, Vec2::zeros()).unwrap().is_empty());
+        for spacing in [0.0, -1.0, f64::NAN, 1e-9] {
+            assert!(streamlines(&field, spacing, Vec2::zeros()).is_err());
+        }
+    }
+}
