@@ -13,7 +13,9 @@ mod polygon;
 mod positivity;
 mod spline;
 mod tension;
+mod theory;
 mod transport;
+mod units;
 
 pub use crossing::{CrossingFinder, first_crossing};
 pub use curve::{Curve, markers_from_points};
@@ -31,4 +33,6 @@ pub use observables::{
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
 pub use positivity::{Repair, repair_positivity};
 pub use tension::{ConstantTension, ContractileTension, Tension, TensionWarning};
+pub use theory::{LinearTheory, ModeFlow, RoundDroplet, SquirmerFlow, equivalent_radius};
 pub use transport::{Transport, cell_peclet};
+pub use units::{Quantity, Units};
