@@ -220,3 +220,6 @@ const CONCENTRATION_MODES: [(usize, &str); 6] = [
     (5, "concentration_mode_5"),
     (6, "concentration_mode_6"),
 ];
+
+#[cfg(test)]
+mod tests;
