@@ -16,6 +16,9 @@ use crate::{InterfaceError, first_crossing};
 /// Fewest markers of an interface.
 pub(crate) const MINIMUM_MARKERS: usize = 8;
 
+/// Most markers of an interface.
+const MAXIMUM_MARKERS: usize = 10_000_000;
+
 /// Points that a smooth curve is checked and measured on.
 const SAMPLES: usize = 8192;
 
@@ -260,10 +263,19 @@ impl Curve {
     /// (spacing)^2 times its curvature / 12.
     ///
     /// # Errors
-    /// Fewer than eight markers; so few that the polygon crosses itself; a curve whose chords could not be made equal;
+    /// Fewer than eight or more than ten million markers; so few that the polygon crosses itself; a curve whose chords could not be made equal;
     /// rotations or translations that are not finite.
     pub fn markers(&self, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
         enough("markers", count, MINIMUM_MARKERS)?;
+        if count > MAXIMUM_MARKERS {
+            let (minimum, maximum) = (MINIMUM_MARKERS as f64, MAXIMUM_MARKERS as f64);
+            return Err(InterfaceError::OutOfRange {
+                name: "the number of markers",
+                value: count as f64,
+                minimum,
+                maximum,
+            });
+        }
         finite("the rotation", self.rotation)?;
         all_points_finite("the translation", &[self.translation])?;
         let mut markers = if let Shape::Circle(_) = self.shape {

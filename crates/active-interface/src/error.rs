@@ -94,6 +94,9 @@ pub enum InterfaceError {
         /// The other segment.
         second: usize,
     },
+    /// A polygon that crosses itself, so that its moments of area are not those of a shape.
+    #[error("the second moments of area of the polygon are not positive: it crosses itself")]
+    Crossed,
     /// Two successive points of a curve coincide.
     #[error("points {index} and the next one of the curve coincide: remove one of them")]
     CoincidentPoints {
