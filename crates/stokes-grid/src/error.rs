@@ -62,4 +62,10 @@ pub enum StokesError {
         /// The constructor to use.
         remedy: &'static str,
     },
+    /// A result beyond the range of double precision.
+    #[error("{name} is beyond the range of double precision: scale the forces down")]
+    Overflow {
+        /// The quantity.
+        name: &'static str,
+    },
 }

@@ -1,6 +1,6 @@
 //! What every Stokes solver does.
 
-use crate::{CentreField, Grid, StaggeredField, StokesError};
+use crate::{CentreField, Grid, StaggeredField, StokesError, WallMotion};
 
 /// What one solve needed and found.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -37,6 +37,12 @@ pub trait StokesSolver: std::fmt::Debug + Send {
 
     /// Dynamic viscosity eta (stress times time).
     fn viscosity(&self) -> f64;
+
+    /// How the walls of a channel move; at rest in a periodic box.
+    fn walls(&self) -> &WallMotion {
+        static AT_REST: WallMotion = WallMotion::AT_REST;
+        &AT_REST
+    }
 
     /// The velocity for a force density; it is discretely divergence free.
     ///

@@ -1,0 +1,366 @@
+//! The active droplet.
+
+use std::sync::Arc;
+
+use ib_core::{Hydrodynamics, Medium, StepLimit, System, Vec2};
+
+use crate::error::{not_negative, positive};
+use crate::filter::WiggleFilter;
+use crate::geometry::{Geometry, signed_area};
+use crate::{
+    CrossingFinder, Flux, InterfaceError, InterfaceState, Repair, Tension, TensionWarning, Transport, cell_peclet,
+};
+
+/// Least number of markers of a droplet.
+pub const MINIMUM_MARKERS: usize = 8;
+
+/// Above this cell Peclet number the edge of the concentration is not resolved (interface.md section 3).
+pub const PECLET_LIMIT: f64 = 0.5;
+
+/// How the markers of an interface move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Motion {
+    /// With the fluid's normal velocity (its mean removed, so that the area stays) and a tangential velocity of their
+    /// own that keeps them equally spaced; the default.
+    Equidistributed {
+        /// Rate at which unequal spacing relaxes (1/time).
+        relaxation: f64,
+        /// Whether wiggles shorter than the kernel are filtered after each step; without it they grow in long runs.
+        filter: bool,
+    },
+    /// With the fluid's full velocity (thesis (2.8)), markers being inserted where they thin out and removed where they
+    /// crowd.
+    WithFluid,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Self::Equidistributed { relaxation: 5.0, filter: true }
+    }
+}
+
+/// What a user should know of a run, though it can go on.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DropletWarning {
+    /// The markers are too far apart for the edge of the concentration.
+    #[error(
+        "the cell Peclet number is {peclet:.2}, above {PECLET_LIMIT}: the edge of the concentration is not resolved, use a \
+         marker spacing below {spacing:.2e}"
+    )]
+    CellPeclet {
+        /// `ds max|V_t - W| / D`.
+        peclet: f64,
+        /// The spacing that would do (length).
+        spacing: f64,
+    },
+    /// The tension law has no plateau.
+    #[error(transparent)]
+    Tension(#[from] TensionWarning),
+}
+
+/// A droplet: a closed fluid interface that may carry active particles, which raise its tension (thesis section 2.1).
+///
+/// The unknowns are the marker positions and the particle numbers n_k of the segments between them; c_k = n_k / l_k.
+/// Force of marker k on the fluid: `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (thesis (2.5), (2.31); t_k along segment
+/// k), whose sum over the curve is zero. Particles move with the fluid along the interface and diffuse (thesis (2.3)).
+#[derive(Debug)]
+pub struct ActiveDroplet {
+    pub(crate) name: String,
+    pub(crate) markers: Vec<Vec2>,
+    pub(crate) numbers: Vec<f64>,
+    pub(crate) tension: Arc<dyn Tension>,
+    pub(crate) motion: Motion,
+    pub(crate) diffusion: f64,
+    pub(crate) stabilised: bool,
+    pub(crate) keeps_area: bool,
+    pub(crate) viscosity_inside: Option<f64>,
+    pub(crate) target_spacing: f64,
+    pub(crate) initial_area: f64,
+    pub(crate) geometry: Geometry,
+    pub(crate) concentrations: Vec<f64>,
+    pub(crate) tensions: Vec<f64>,
+    pub(crate) slip: Vec<f64>,
+    pub(crate) motions: Vec<Vec2>,
+    pub(crate) transport: Option<Transport>,
+    /// Diffusivities at the markers of the stabiliser, and of stabiliser and diffusion together (length^2 per time).
+    pub(crate) stabiliser: Vec<f64>,
+    pub(crate) diffusivities: Vec<f64>,
+    /// Geometry of a state that is not the droplet's present one, for the implicit operator.
+    pub(crate) other_markers: Vec<Vec2>,
+    pub(crate) other_geometry: Geometry,
+    pub(crate) filter: WiggleFilter,
+    pub(crate) crossing: CrossingFinder,
+    pub(crate) repair: Repair,
+    pub(crate) redistributed: (usize, usize),
+}
+
+impl ActiveDroplet {
+    /// A droplet from its markers (equally spaced, see [`crate::Curve`]; turned around if clockwise), the particle numbers
+    /// of the segments that follow them, the tension law and the particles' diffusion constant along the interface
+    /// (length squared per time).
+    ///
+    /// # Errors
+    /// Fewer than [`MINIMUM_MARKERS`] markers, lists of different length, positions that are not finite, coincide,
+    /// or cross, negative or non-finite numbers, a negative diffusion constant.
+    pub fn new(
+        markers: &[Vec2],
+        numbers: Vec<f64>,
+        tension: impl Tension + 'static,
+        diffusion: f64,
+    ) -> Result<Self, InterfaceError> {
+        crate::error::length("particle numbers", markers.len(), numbers.len())?;
+        crate::error::all_finite("the particle numbers", &numbers)?;
+        for &number in &numbers {
+            not_negative("a particle number", number)?;
+        }
+        not_negative("the diffusion constant", diffusion)?;
+        let transport = Transport::new(markers.len().max(MINIMUM_MARKERS), Flux::Weno5)?;
+        Self::build(markers, numbers, Arc::new(tension), diffusion, Some(transport))
+    }
+
+    /// A droplet without particles, of constant tension (force): it relaxes and is carried along.
+    ///
+    /// # Errors
+    /// As [`ActiveDroplet::new`], and a tension that is negative or not finite.
+    pub fn passive(markers: &[Vec2], tension: f64) -> Result<Self, InterfaceError> {
+        Self::build(markers, Vec::new(), Arc::new(crate::ConstantTension::new(tension)?), 0.0, None)
+    }
+
+    fn build(
+        markers: &[Vec2],
+        numbers: Vec<f64>,
+        tension: Arc<dyn Tension>,
+        diffusion: f64,
+        transport: Option<Transport>,
+    ) -> Result<Self, InterfaceError> {
+        let markers = crate::markers_from_points(markers)?;
+        let initial_area = signed_area(&markers);
+        let mut droplet = Self {
+            name: "droplet".to_owned(),
+            tension,
+            motion: Motion::default(),
+            diffusion,
+            stabilised: true,
+            keeps_area: false,
+            viscosity_inside: None,
+            target_spacing: 0.0,
+            initial_area,
+            geometry: Geometry::default(),
+            concentrations: Vec::new(),
+            tensions: Vec::new(),
+            slip: vec![0.0; markers.len()],
+            motions: Vec::new(),
+            transport,
+            stabiliser: Vec::new(),
+            diffusivities: Vec::new(),
+            other_markers: Vec::new(),
+            other_geometry: Geometry::default(),
+            filter: WiggleFilter::default(),
+            crossing: CrossingFinder::new(),
+            repair: Repair::default(),
+            redistributed: (0, 0),
+            markers,
+            numbers,
+        };
+        droplet.update()?;
+        droplet.target_spacing = droplet.geometry.mean_length();
+        Ok(droplet)
+    }
+
+    /// The same droplet with a name for messages.
+    #[must_use]
+    pub fn with_name(mut self, name: impl Into<String>) -> Self {
+        self.name = name.into();
+        self
+    }
+
+    /// The same droplet with markers that move in another way.
+    #[must_use]
+    pub fn with_motion(mut self, motion: Motion) -> Self {
+        self.motion = motion;
+        self
+    }
+
+    /// The same droplet with another flux of its particles.
+    ///
+    /// # Errors
+    /// None for a droplet that was made.
+    pub fn with_flux(mut self, flux: Flux) -> Result<Self, InterfaceError> {
+        if let Some(transport) = &self.transport {
+            self.transport = Some(Transport::new(transport.len(), flux)?);
+        }
+        Ok(self)
+    }
+
+    /// The same droplet with its area put back to the initial one after each step, by an equal normal displacement of all markers (off by
+    /// default: the motion keeps the area but for the error of the time step).
+    #[must_use]
+    pub fn with_area_constraint(mut self, on: bool) -> Self {
+        self.keeps_area = on;
+        self
+    }
+
+    /// The same droplet with or without the stabiliser of interface.md section 4 (on by default), which makes the fast
+    /// relaxation of crowded particles implicit.
+    #[must_use]
+    pub fn with_stabiliser(mut self, on: bool) -> Self {
+        self.stabilised = on;
+        self
+    }
+
+    /// The same droplet filled with a fluid of another viscosity (stress times time) than its surroundings.
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite.
+    pub fn with_viscosity_inside(mut self, viscosity: f64) -> Result<Self, InterfaceError> {
+        self.viscosity_inside = Some(positive("the viscosity inside", viscosity)?);
+        Ok(self)
+    }
+
+    /// Marker positions (length), counter-clockwise, not wrapped into a periodic box.
+    #[must_use]
+    pub fn markers(&self) -> &[Vec2] {
+        &self.markers
+    }
+
+    /// Particle numbers of the segments; segment k runs from marker k to the next. Empty for a passive droplet.
+    #[must_use]
+    pub fn particle_numbers(&self) -> &[f64] {
+        &self.numbers
+    }
+
+    /// Concentrations on the segments (particles per length).
+    #[must_use]
+    pub fn concentrations(&self) -> &[f64] {
+        &self.concentrations
+    }
+
+    /// Tensions of the segments (force).
+    #[must_use]
+    pub fn tensions(&self) -> &[f64] {
+        &self.tensions
+    }
+
+    /// Lengths of the segments (length).
+    #[must_use]
+    pub fn segment_lengths(&self) -> &[f64] {
+        &self.geometry.lengths
+    }
+
+    /// Area of the polygon at the start (length squared).
+    #[must_use]
+    pub fn initial_area(&self) -> f64 {
+        self.initial_area
+    }
+
+    /// The tension law.
+    #[must_use]
+    pub fn tension_law(&self) -> &dyn Tension {
+        self.tension.as_ref()
+    }
+
+    /// Diffusion constant of the particles (length squared per time).
+    #[must_use]
+    pub fn diffusion(&self) -> f64 {
+        self.diffusion
+    }
+
+    /// Viscosity of the fluid inside (stress times time), `None` where it is that of the surroundings.
+    #[must_use]
+    pub fn viscosity_inside(&self) -> Option<f64> {
+        self.viscosity_inside
+    }
+
+    /// What [`crate::observe`] needs, from the last evaluation of the system that the droplet is body number `index` of.
+    #[must_use]
+    pub fn interface_state<'a, H: Hydrodynamics>(&'a self, system: &'a System<H>, index: usize) -> InterfaceState<'a> {
+        let all = system.markers();
+        let range = all.groups()[index].range.clone();
+        let outside = system.hydrodynamics().medium().viscosity;
+        InterfaceState {
+            markers: &self.markers,
+            forces: &all.forces[range.clone()],
+            velocities: &all.velocities[range],
+            numbers: &self.numbers,
+            viscosities: [self.viscosity_inside.unwrap_or(outside), outside],
+        }
+    }
+
+    /// How often particle numbers had to be kept from becoming negative.
+    #[must_use]
+    pub fn repair(&self) -> Repair {
+        self.repair
+    }
+
+    /// Markers inserted and removed since the start.
+    #[must_use]
+    pub fn redistributed(&self) -> (usize, usize) {
+        self.redistributed
+    }
+
+    /// The cell Peclet number `ds max|V_t - W| / D` of the last evaluation; 0 for a passive droplet.
+    ///
+    /// # Errors
+    /// None for a droplet that was made.
+    pub fn cell_peclet(&self) -> Result<f64, InterfaceError> {
+        if self.transport.is_none() || self.diffusion == 0.0 {
+            return Ok(0.0);
+        }
+        cell_peclet(&self.slip, &self.geometry.lengths, self.diffusion)
+    }
+
+    /// What a user should know at the present state.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<DropletWarning> {
+        let mut warnings: Vec<_> = self.tension.warning().map(DropletWarning::from).into_iter().collect();
+        if let Ok(peclet) = self.cell_peclet()
+            && peclet > PECLET_LIMIT
+        {
+            let spacing = self.geometry.mean_length() * PECLET_LIMIT / peclet;
+            warnings.push(DropletWarning::CellPeclet { peclet, spacing });
+        }
+        warnings
+    }
+
+    /// Brings everything that follows from markers and particle numbers up to date.
+    pub(crate) fn update(&mut self) -> Result<(), InterfaceError> {
+        self.geometry.update(&self.markers);
+        let count = self.markers.len();
+        self.concentrations.resize(count, 0.0);
+        self.tensions.resize(count, 0.0);
+        for (k, c) in self.concentrations.iter_mut().enumerate() {
+            *c = self.numbers.get(k).map_or(0.0, |n| n / self.geometry.lengths[k]);
+        }
+        self.tension.values(&self.concentrations, &mut self.tensions)
+    }
+
+    /// Mean of the viscosities on both sides, on which the speed of an interface depends (stress times time).
+    pub(crate) fn mean_viscosity(&self, medium: &Medium) -> f64 {
+        self.viscosity_inside.map_or(medium.viscosity, |inside| 0.5 * (inside + medium.viscosity))
+    }
+
+    /// The stable steps; see [`ib_core::Body::step_limits`].
+    pub(crate) fn limits(&self, medium: &Medium) -> Vec<StepLimit> {
+        let viscosity = self.mean_viscosity(medium);
+        let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
+        let mut limits = vec![StepLimit {
+            dt: 2.0 * viscosity / (medium.interface_stiffness * tension),
+            reason: "the surface tension",
+        }];
+        if self.transport.is_some() {
+            let scale = medium.spacing.unwrap_or(self.geometry.mean_length());
+            // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.
+            let coupling = self.concentrations.iter().map(|&c| c * self.tension.slope(c).abs()).fold(0.0_f64, f64::max);
+            let remainder = if self.stabilised { 8.0 } else { 2.5 };
+            limits.push(StepLimit {
+                dt: remainder * scale * viscosity / coupling,
+                reason: "the coupling of concentration and tension",
+            });
+            let slip = self.slip.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
+            // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, holds up to about two segments a step.
+            limits.push(StepLimit { dt: 1.8 * self.geometry.mean_length() / slip, reason: "the particles' transport" });
+        }
+        limits
+    }
+}

@@ -1,0 +1,241 @@
+//! The droplet as a body of a scene.
+
+use ib_core::{Body, BodyError, MarkerKind, Medium, StepLimit, Vec2};
+
+use crate::droplet::MINIMUM_MARKERS;
+use crate::geometry::{equidistribute, outward, signed_area};
+use crate::redistribution::redistribute;
+use crate::{ActiveDroplet, InterfaceError, Motion, Transport, repair_positivity};
+
+impl From<InterfaceError> for BodyError {
+    fn from(error: InterfaceError) -> Self {
+        Self::Other(Box::new(error))
+    }
+}
+
+impl Body for ActiveDroplet {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn kind(&self) -> MarkerKind {
+        let viscosity_inside = self.viscosity_inside;
+        match self.motion {
+            Motion::Equidistributed { .. } => MarkerKind::Interface { viscosity_inside },
+            Motion::WithFluid => MarkerKind::UnevenInterface { viscosity_inside },
+        }
+    }
+
+    fn marker_count(&self) -> usize {
+        self.markers.len()
+    }
+
+    fn write_markers(&self, positions: &mut [Vec2]) {
+        positions.copy_from_slice(&self.markers);
+    }
+
+    fn write_forces(&mut self, _medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        let count = self.markers.len();
+        let mut before = self.tensions[count - 1] * self.geometry.directions[count - 1];
+        for (k, force) in forces.iter_mut().enumerate() {
+            let here = self.tensions[k] * self.geometry.directions[k];
+            *force = here - before;
+            before = here;
+        }
+        Ok(())
+    }
+
+    fn state_len(&self) -> usize {
+        2 * self.markers.len() + self.numbers.len()
+    }
+
+    fn write_state(&self, state: &mut [f64]) {
+        let (positions, numbers) = state.split_at_mut(2 * self.markers.len());
+        for (pair, marker) in positions.chunks_exact_mut(2).zip(&self.markers) {
+            pair.copy_from_slice(marker.as_slice());
+        }
+        numbers.copy_from_slice(&self.numbers);
+    }
+
+    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
+        // The count differs from the present one only where a step with insertion is taken back.
+        let count = if self.transport.is_some() { state.len() / 3 } else { state.len() / 2 };
+        if let Some(index) = state.iter().position(|value| !value.is_finite()) {
+            let what = if index < 2 * count { "marker coordinate" } else { "particle number" };
+            return Err(BodyError::NonFinite { what, index, value: state[index] });
+        }
+        let (positions, numbers) = state.split_at(2 * count);
+        self.resize(count)?;
+        for (marker, pair) in self.markers.iter_mut().zip(positions.chunks_exact(2)) {
+            *marker = Vec2::new(pair[0], pair[1]);
+        }
+        self.numbers.copy_from_slice(numbers);
+        Ok(self.update()?)
+    }
+
+    fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
+        let count = self.markers.len();
+        self.motions.resize(count, Vec2::zeros());
+        self.slip.resize(count, 0.0);
+        match self.motion {
+            Motion::Equidistributed { relaxation, .. } => {
+                equidistribute(&self.geometry, velocities, relaxation, &mut self.motions, &mut self.slip);
+            }
+            Motion::WithFluid => {
+                self.motions.copy_from_slice(velocities);
+                self.slip.fill(0.0);
+            }
+        }
+        let (positions, numbers) = rate.split_at_mut(2 * count);
+        for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {
+            pair.copy_from_slice(motion.as_slice());
+        }
+        numbers.fill(0.0);
+        if let Some(transport) = self.transport.as_mut() {
+            // Lengths of all lists are those of the state, so these cannot fail; what the stabiliser adds implicitly is
+            // taken off here.
+            let lengths = &self.geometry.lengths;
+            let advected = transport.add_advection(&self.numbers, lengths, &self.slip, numbers);
+            let stabilised = if self.stabiliser.len() == count {
+                transport.add_diffusion(lengths, &self.stabiliser, &self.numbers, -1.0, numbers)
+            } else {
+                Ok(())
+            };
+            debug_assert!(advected.is_ok() && stabilised.is_ok());
+        }
+    }
+
+    fn begin_step(&mut self, medium: &Medium, _dt: f64) -> Result<(), BodyError> {
+        let count = self.markers.len();
+        self.diffusivities.resize(count, 0.0);
+        self.diffusivities.fill(self.diffusion);
+        self.stabiliser.clear();
+        if self.transport.is_none() || !self.stabilised {
+            return Ok(());
+        }
+        self.stabiliser.resize(count, 0.0);
+        let scale = 0.25 * medium.spacing.unwrap_or(self.geometry.mean_length()) / self.mean_viscosity(medium);
+        let stiffness = |c: f64| scale * c * (-self.tension.slope(c)).max(0.0);
+        let mut before = stiffness(self.concentrations[count - 1]);
+        for ((face, all), &c) in self.stabiliser.iter_mut().zip(&mut self.diffusivities).zip(&self.concentrations) {
+            let here = stiffness(c);
+            *face = 0.5 * (before + here);
+            *all += *face;
+            before = here;
+        }
+        Ok(())
+    }
+
+    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        self.read_other(state);
+        let split = 2 * self.markers.len();
+        if let Some(transport) = self.transport.as_mut() {
+            let lengths = &self.other_geometry.lengths;
+            let added =
+                transport.add_diffusion(lengths, &self.diffusivities, &state[split..], factor, &mut out[split..]);
+            debug_assert!(added.is_ok());
+        }
+    }
+
+    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        self.read_other(state);
+        let split = 2 * self.markers.len();
+        if let Some(transport) = self.transport.as_mut() {
+            let lengths = &self.other_geometry.lengths;
+            // A state that is not finite or has collapsed segments is refused when it is read.
+            let solved = transport.solve_diffusion(lengths, &self.diffusivities, factor, &mut state[split..]);
+            if solved.is_err() {
+                state[split..].fill(f64::NAN);
+            }
+        }
+    }
+
+    fn end_step(&mut self, medium: &Medium, dt: f64) -> Result<(), BodyError> {
+        match self.motion {
+            Motion::Equidistributed { filter: true, .. } => {
+                if let Some(spacing) = medium.spacing {
+                    let rate = 0.5 * dt / (self.mean_viscosity(medium) * spacing);
+                    let (tensions, count) = (&self.tensions, self.tensions.len());
+                    let strength =
+                        |k: usize| 0.5 * rate * (tensions[k] + tensions[if k == 0 { count - 1 } else { k - 1 }]);
+                    self.filter.apply(&mut self.markers, &self.geometry, spacing, strength)?;
+                    self.update()?;
+                }
+            }
+            Motion::Equidistributed { .. } => {}
+            Motion::WithFluid => {
+                let (inserted, removed) =
+                    redistribute(&mut self.markers, &mut self.numbers, self.target_spacing, MINIMUM_MARKERS);
+                if inserted + removed > 0 {
+                    self.redistributed.0 += inserted;
+                    self.redistributed.1 += removed;
+                    self.resize(self.markers.len())?;
+                    self.update()?;
+                }
+            }
+        }
+        if self.keeps_area {
+            self.restore_area()?;
+        }
+        if self.transport.is_some() {
+            let repair = repair_positivity(&mut self.numbers)?;
+            if repair.segments > 0 {
+                self.repair.accumulate(repair);
+                self.update()?;
+            }
+        }
+        if let Some((first, second)) = self.crossing.first_crossing(&self.markers)? {
+            return Err(BodyError::SelfCrossing { first, second });
+        }
+        Ok(())
+    }
+
+    fn step_limits(&self, medium: &Medium) -> Vec<StepLimit> {
+        self.limits(medium)
+    }
+}
+
+impl ActiveDroplet {
+    /// Makes all lists fit `count` markers.
+    fn resize(&mut self, count: usize) -> Result<(), InterfaceError> {
+        self.markers.resize(count, Vec2::zeros());
+        if let Some(transport) = &self.transport {
+            self.numbers.resize(count, 0.0);
+            if transport.len() != count {
+                self.transport = Some(Transport::new(count, transport.flux())?);
+            }
+        }
+        if self.diffusivities.len() != count {
+            self.diffusivities.resize(count, self.diffusion);
+        }
+        if self.slip.len() != count {
+            self.slip.resize(count, 0.0);
+        }
+        Ok(())
+    }
+
+    /// The geometry of a state of the present length that is not the droplet's own.
+    fn read_other(&mut self, state: &[f64]) {
+        if self.transport.is_none() {
+            return;
+        }
+        self.other_markers.clear();
+        self.other_markers
+            .extend(state[..2 * self.markers.len()].chunks_exact(2).map(|pair| Vec2::new(pair[0], pair[1])));
+        self.other_geometry.update(&self.other_markers);
+    }
+
+    /// Moves all markers along their normals by the same distance so that the area is the initial one (twice, the second time for the
+    /// quadratic part).
+    fn restore_area(&mut self) -> Result<(), InterfaceError> {
+        for _ in 0..2 {
+            let missing = self.initial_area - signed_area(&self.markers);
+            let total: f64 = self.geometry.weights.iter().sum();
+            for (marker, tau) in self.markers.iter_mut().zip(&self.geometry.tangents) {
+                *marker += missing / total * outward(*tau);
+            }
+            self.update()?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,59 @@
+//! The filter of wiggles that the grid does not see.
+
+use ib_core::Vec2;
+
+use crate::geometry::{Geometry, outward};
+use crate::{CirculantTridiagonal, InterfaceError};
+
+/// Relaxes wiggles of markers shorter than the kernel (interface.md section 3). The kernel's transform vanishes at the
+/// wave number 2 pi / h, so that tension does not see them while the converging surface flow amplifies them.
+///
+/// `e = (1 - S)^2 X`, `S = (1 - l^2 d_ss)^-1`, l = h/2; each marker moves by `-r (e . n) n`, `r = a / (1 + a)`,
+/// `a = dt gamma / (2 eta h)`; the area that this would change is put back evenly.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct WiggleFilter {
+    once: Vec<Vec2>,
+    twice: Vec<Vec2>,
+}
+
+impl WiggleFilter {
+    /// Filters equally spaced `markers`; `strength(k)` is the rate gamma/(2 eta h) times the step at marker k.
+    pub(crate) fn apply(
+        &mut self,
+        markers: &mut [Vec2],
+        geometry: &Geometry,
+        spacing: f64,
+        strength: impl Fn(usize) -> f64,
+    ) -> Result<(), InterfaceError> {
+        let smoothing = CirculantTridiagonal::smoothing(0.5 * spacing, geometry.mean_length())?;
+        for list in [&mut self.once, &mut self.twice] {
+            list.resize(markers.len(), Vec2::zeros());
+        }
+        // Relative to one marker: droplets that have travelled far lose no digits.
+        let origin = markers[0];
+        for (out, marker) in self.once.iter_mut().zip(markers.iter()) {
+            *out = marker - origin;
+        }
+        for _ in 0..2 {
+            self.twice.copy_from_slice(&self.once);
+            smoothing.solve(&mut self.twice);
+            for (value, smooth) in self.once.iter_mut().zip(&self.twice) {
+                *value -= smooth;
+            }
+        }
+        let (mut swept, mut total) = (0.0, 0.0);
+        for (k, (wiggle, tau)) in self.once.iter_mut().zip(&geometry.tangents).enumerate() {
+            let a = strength(k).max(0.0);
+            let normal = outward(*tau);
+            let shift = -a / (1.0 + a) * wiggle.dot(&normal);
+            *wiggle = shift * normal;
+            swept += shift * geometry.weights[k];
+            total += geometry.weights[k];
+        }
+        let mean = swept / total;
+        for ((marker, shift), tau) in markers.iter_mut().zip(&self.once).zip(&geometry.tangents) {
+            *marker += shift - mean * outward(*tau);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,122 @@
+//! Lengths, directions and velocities along a closed polygon of markers.
+
+use ib_core::Vec2;
+
+/// Geometry of a closed polygon, marker k followed by segment k.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Geometry {
+    /// Lengths of the segments (length).
+    pub(crate) lengths: Vec<f64>,
+    /// Unit vectors along the segments.
+    pub(crate) directions: Vec<Vec2>,
+    /// `(X_{k+1} - X_{k-1}) / 2` at the markers (length): turned by a right angle clockwise it is the outward normal
+    /// times the arc weight, of which the polygon's area rate is exactly `sum X_k' . n_k w_k`.
+    pub(crate) chords: Vec<Vec2>,
+    /// Lengths of the chords, the arc weights w_k (length).
+    pub(crate) weights: Vec<f64>,
+    /// Unit tangents at the markers, along the chords; the outward normal is (tau_y, -tau_x).
+    pub(crate) tangents: Vec<Vec2>,
+    /// Sum of the lengths of the segments (length).
+    pub(crate) perimeter: f64,
+}
+
+impl Geometry {
+    pub(crate) fn update(&mut self, markers: &[Vec2]) {
+        let count = markers.len();
+        for list in [&mut self.directions, &mut self.chords, &mut self.tangents] {
+            list.resize(count, Vec2::zeros());
+        }
+        self.lengths.resize(count, 0.0);
+        self.weights.resize(count, 0.0);
+        self.perimeter = 0.0;
+        for k in 0..count {
+            let (before, here) = (markers[if k == 0 { count - 1 } else { k - 1 }], markers[k]);
+            let after = markers[if k + 1 == count { 0 } else { k + 1 }];
+            let segment = after - here;
+            let length = segment.norm();
+            self.perimeter += length;
+            self.lengths[k] = length;
+            self.directions[k] = segment / length;
+            let chord = 0.5 * (after - before);
+            let weight = chord.norm();
+            self.chords[k] = chord;
+            self.weights[k] = weight;
+            self.tangents[k] = chord / weight;
+        }
+    }
+
+    pub(crate) fn mean_length(&self) -> f64 {
+        self.perimeter / self.lengths.len() as f64
+    }
+}
+
+/// Outward normal of a tangent of a counter-clockwise curve.
+#[inline]
+pub(crate) fn outward(tangent: Vec2) -> Vec2 {
+    Vec2::new(tangent.y, -tangent.x)
+}
+
+/// Area of the polygon (length squared), positive if counter-clockwise.
+pub(crate) fn signed_area(markers: &[Vec2]) -> f64 {
+    // Relative to the first marker: no cancellation for droplets that have travelled far.
+    let Some(&origin) = markers.first() else { return 0.0 };
+    let mut twice = 0.0;
+    for pair in markers.windows(2) {
+        let (a, b) = (pair[0] - origin, pair[1] - origin);
+        twice += a.x * b.y - a.y * b.x;
+    }
+    0.5 * twice
+}
+
+/// Velocities of markers that follow the interface normally and stay equally spaced (interface.md section 3):
+///
+/// * normal velocity `V_n = U . n` less its mean over the arc weights, which keeps the polygon's area;
+/// * tangential velocity W with `W_{k+1} - W_k = mean(q) - q_k + rho (mean(l) - l_k)`, where
+///   `q_k = ((V_n n)_{k+1} - (V_n n)_k) . t_k` is the stretching of segment k by the normal motion, and
+///   `mean(W) = mean(V_t)`, so that markers turn with the fluid.
+///
+/// Writes the marker velocities to `motion` and `V_t - W`, the fluid's velocity along the interface relative to the
+/// markers, to `slip`.
+pub(crate) fn equidistribute(
+    geometry: &Geometry,
+    velocities: &[Vec2],
+    relaxation: f64,
+    motion: &mut [Vec2],
+    slip: &mut [f64],
+) {
+    let count = velocities.len();
+    let mut flux = 0.0;
+    let mut total = 0.0;
+    let mut mean_tangential = 0.0;
+    for ((u, tau), w) in velocities.iter().zip(&geometry.tangents).zip(&geometry.weights) {
+        flux += u.dot(&outward(*tau)) * w;
+        total += w;
+        mean_tangential += u.dot(tau);
+    }
+    let mean_normal = flux / total;
+    mean_tangential /= count as f64;
+    for ((u, tau), out) in velocities.iter().zip(&geometry.tangents).zip(motion.iter_mut()) {
+        let normal = outward(*tau);
+        *out = (u.dot(&normal) - mean_normal) * normal;
+    }
+    let stretching = |motion: &[Vec2], k: usize| {
+        (motion[if k + 1 == count { 0 } else { k + 1 }] - motion[k]).dot(&geometry.directions[k])
+    };
+    let mean_stretching = (0..count).map(|k| stretching(motion, k)).sum::<f64>() / count as f64;
+    let mean_length = geometry.mean_length();
+    // W up to a constant, kept in `slip` for now.
+    let mut w = 0.0;
+    let mut sum = 0.0;
+    for k in 0..count {
+        slip[k] = w;
+        sum += w;
+        w += mean_stretching - stretching(motion, k) + relaxation * (mean_length - geometry.lengths[k]);
+    }
+    let shift = mean_tangential - sum / count as f64;
+    for (k, out) in motion.iter_mut().enumerate() {
+        let tau = geometry.tangents[k];
+        let w = slip[k] + shift;
+        *out += w * tau;
+        slip[k] = velocities[k].dot(&tau) - w;
+    }
+}

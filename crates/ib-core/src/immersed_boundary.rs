@@ -1,0 +1,228 @@
+//! The immersed boundary method: a grid between markers.
+
+use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, StokesSolver};
+
+use crate::correction::{MobilityCorrection, Setting};
+use crate::sampling;
+use crate::{
+    Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, Kernel, MarkerKind, Markers, Medium,
+    MobilityDeficit, Transfer, Vec2,
+};
+
+/// How far beyond a wall a marker may lie, in grid spacings.
+const WALL_TOLERANCE: f64 = 0.25;
+
+/// Velocities of markers by spreading their forces to a grid, solving the Stokes equations there and interpolating
+/// (thesis section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).
+#[derive(Debug)]
+pub struct ImmersedBoundary<S, K> {
+    solver: S,
+    transfer: Transfer<K>,
+    density: StaggeredField,
+    velocity: StaggeredField,
+    correction: Option<MobilityCorrection>,
+    stiffness: f64,
+    variance: f64,
+    work: FlowWork,
+}
+
+impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
+    /// The method on the grid of `solver`, with the mobility correction.
+    #[must_use]
+    pub fn new(solver: S, kernel: K) -> Self {
+        Self::build(solver, kernel, true)
+    }
+
+    /// The method without the mobility correction, as in the thesis.
+    #[must_use]
+    pub fn uncorrected(solver: S, kernel: K) -> Self {
+        Self::build(solver, kernel, false)
+    }
+
+    fn build(solver: S, kernel: K, corrected: bool) -> Self {
+        let grid = *solver.grid();
+        let deficit = MobilityDeficit::new(&kernel);
+        let stiffness = deficit.interface_stiffness(corrected) / grid.spacing();
+        // c(theta) at q = 0 is sqrt(variance_eff / pi)-like: the tangential velocity profile is the kernel smeared twice.
+        let constant = deficit.at(0.0).tangential;
+        Self {
+            transfer: Transfer::new(grid, kernel),
+            density: StaggeredField::zeros(grid),
+            velocity: StaggeredField::zeros(grid),
+            correction: corrected.then(|| MobilityCorrection::new(deficit)),
+            stiffness,
+            variance: std::f64::consts::PI * constant * constant,
+            work: FlowWork::default(),
+            solver,
+        }
+    }
+
+    /// The grid.
+    #[must_use]
+    pub fn grid(&self) -> &Grid {
+        self.solver.grid()
+    }
+
+    /// The Stokes solver.
+    #[must_use]
+    pub fn solver(&self) -> &S {
+        &self.solver
+    }
+
+    /// The kernel.
+    #[must_use]
+    pub fn kernel(&self) -> &K {
+        self.transfer.kernel()
+    }
+
+    /// Whether the mobility correction is on.
+    #[must_use]
+    pub fn is_corrected(&self) -> bool {
+        self.correction.is_some()
+    }
+
+    /// The velocity on the grid (length per time) of the last evaluation.
+    #[must_use]
+    pub fn velocity_field(&self) -> &StaggeredField {
+        &self.velocity
+    }
+
+    /// The force density on the grid (force per volume) of the last evaluation.
+    #[must_use]
+    pub fn force_field(&self) -> &StaggeredField {
+        &self.density
+    }
+
+    /// The pressure at the cell centres for the last evaluation (force per length; periodic part, mean zero).
+    ///
+    /// # Errors
+    /// Those of the solver.
+    pub fn pressure_field(&mut self) -> Result<CentreField, FlowError> {
+        let mut pressure = CentreField::zeros(*self.solver.grid());
+        self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
+        Ok(pressure)
+    }
+
+    /// The flow on the grid for given positions and forces, without velocities at markers.
+    fn solve(&mut self, positions: &[Vec2], forces: &[Vec2]) -> Result<SolveReport, FlowError> {
+        self.transfer.locate(positions);
+        self.density.fill(0.0);
+        self.transfer.spread(forces, &mut self.density);
+        let before = self.solver.work();
+        let report = self.solver.solve(&self.density, &mut self.velocity)?;
+        let after = self.solver.work();
+        let transforms = |work: stokes_grid::Work| work.forward_transforms + work.inverse_transforms;
+        self.work.stokes_solves += after.solves - before.solves;
+        self.work.transforms += transforms(after) - transforms(before);
+        self.work.iterations += after.iterations - before.iterations;
+        self.work.markers_spread += positions.len();
+        Ok(report)
+    }
+
+    /// Refuses markers that are not finite or too far beyond a wall, and forces that are not finite.
+    fn check(&self, markers: &Markers) -> Result<(), FlowError> {
+        let walls = self.walls();
+        let allowed = WALL_TOLERANCE * self.grid().spacing();
+        for (body, group) in markers.groups().iter().enumerate() {
+            let positions = &markers.positions[group.range.clone()];
+            let forces = &markers.forces[group.range.clone()];
+            for (marker, (position, force)) in positions.iter().zip(forces).enumerate() {
+                for (what, v) in [("the position", position), ("the force", force)] {
+                    if !(v.x.is_finite() && v.y.is_finite()) {
+                        return Err(FlowError::NonFinite { what, body, marker, x: v.x, y: v.y });
+                    }
+                }
+                if let Some([bottom, top]) = walls {
+                    let depth = (bottom - position.y).max(position.y - top);
+                    if depth > allowed {
+                        let (x, y) = (position.x, position.y);
+                        return Err(FlowError::BeyondWall { body, marker, x, y, depth, allowed });
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn walls(&self) -> Option<[f64; 2]> {
+        let grid = self.grid();
+        let bottom = grid.origin()[1];
+        grid.has_walls().then(|| [bottom, bottom + grid.lengths()[1]])
+    }
+}
+
+impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
+    fn medium(&self) -> Medium {
+        let grid = self.grid();
+        let [lx, ly] = grid.lengths();
+        let walls = self.walls();
+        Medium {
+            domain: Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls },
+            viscosity: self.solver.viscosity(),
+            spacing: Some(grid.spacing()),
+            interface_stiffness: self.stiffness,
+        }
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+        self.check(markers)?;
+        for group in markers.groups() {
+            if let MarkerKind::Interface { viscosity_inside: Some(value) }
+            | MarkerKind::UnevenInterface { viscosity_inside: Some(value) } = group.kind
+                && value != self.solver.viscosity()
+            {
+                return Err(FlowError::Parameter {
+                    name: "viscosity inside an interface",
+                    value,
+                    remedy: "the grid method takes interfaces of equal viscosity only: give that of the surroundings",
+                });
+            }
+        }
+        let report = self.solve(&markers.positions, &markers.forces)?;
+        self.transfer.interpolate(&self.velocity, &mut markers.velocities);
+        self.work.evaluations += 1;
+        let setting = Setting {
+            spacing: self.grid().spacing(),
+            origin: self.grid().origin(),
+            viscosity: self.solver.viscosity(),
+            walls: self.walls(),
+            variance: self.variance,
+        };
+        if let Some(correction) = self.correction.as_mut() {
+            for index in 0..markers.groups().len() {
+                let group = &markers.groups()[index];
+                if matches!(group.kind, MarkerKind::Interface { .. }) {
+                    let range = group.range.clone();
+                    correction.apply(
+                        &setting,
+                        &markers.positions[range.clone()],
+                        &markers.forces[range.clone()],
+                        &mut markers.velocities[range],
+                    )?;
+                    self.work.corrections += 1;
+                }
+            }
+        }
+        Ok(FlowReport {
+            iterations: report.iterations,
+            residual: report.residual,
+            mean_pressure_gradient: report.mean_pressure_gradient,
+        })
+    }
+
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        if points.len() != out.len() {
+            let (expected, found) = (points.len(), out.len());
+            return Err(FlowError::WrongLength { name: "the samples", expected, found });
+        }
+        self.check(markers)?;
+        self.solve(&markers.positions, &markers.forces)?;
+        let pressure = self.pressure_field()?;
+        sampling::sample(&self.velocity, &pressure, points, out);
+        Ok(())
+    }
+
+    fn work(&self) -> FlowWork {
+        self.work
+    }
+}

@@ -1,0 +1,77 @@
+//! Regularised delta functions.
+
+mod any;
+mod bspline;
+mod classical;
+mod gaussian;
+
+pub use any::AnyKernel;
+pub use bspline::{CompositeBSpline, CubicQuadratic};
+pub use classical::{Peskin4, Roma3};
+pub use gaussian::Gaussian6;
+
+/// Most grid points in one direction that a kernel of this crate reaches.
+pub const MAX_SUPPORT: usize = 6;
+
+/// The role of a direction for a staggered velocity component: the x velocity has x as its normal direction (it lives
+/// on faces normal to x) and y as its tangential one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Along the component.
+    Normal,
+    /// Across the component.
+    Tangential,
+}
+
+/// A regularised delta function as a product of one-dimensional functions,
+/// `delta_h(x) = phi_n(x/h) phi_t(y/h) / h^2` for the x component, normal and tangential exchanged for the y component
+/// (thesis (2.35)).
+pub trait Kernel: std::fmt::Debug + Clone + Send + Sync {
+    /// Its name on command lines and in files.
+    fn name(&self) -> &'static str;
+
+    /// Grid points reached in one direction, at most [`MAX_SUPPORT`].
+    fn support(&self, role: Role) -> usize;
+
+    /// Weights of the points `first, first + 1, ...` of a lattice of integers for a marker at `r` (in units of h);
+    /// returns `first`. Only the first [`Kernel::support`] entries of `weights` are written.
+    fn weights(&self, role: Role, r: f64, weights: &mut [f64; MAX_SUPPORT]) -> i64;
+
+    /// The one-dimensional function itself at distance `r` (in units of h); even.
+    fn value(&self, role: Role, r: f64) -> f64;
+
+    /// Fourier transform `integral of phi(r) cos(theta r) dr` at wave number `theta` (in units of 1/h).
+    fn transform(&self, role: Role, theta: f64) -> f64 {
+        cosine_transform(|r| self.value(role, r), 0.5 * self.support(role) as f64, theta)
+    }
+}
+
+/// `2 integral_0^reach f(r) cos(theta r) dr` for f smooth between half integers, by composite Gauss quadrature.
+fn cosine_transform(f: impl Fn(f64) -> f64, reach: f64, theta: f64) -> f64 {
+    // Panels short enough that ten Gauss points resolve the cosine to round-off.
+    let panels_per_half = (theta.abs() / 8.0).ceil().max(1.0) as usize;
+    let panels = (2.0 * reach).round() as usize * panels_per_half;
+    let width = reach / panels as f64;
+    let mut sum = 0.0;
+    for p in 0..panels {
+        for (x, w) in crate::quadrature::GAUSS_10 {
+            let r = width * (p as f64 + 0.5 * (1.0 + x));
+            sum += 0.5 * width * w * f(r) * (theta * r).cos();
+        }
+    }
+    2.0 * sum
+}
+
+/// Writes `value(r - first - i)` for every point of an even support, and returns the first point.
+fn tabulate(support: usize, r: f64, weights: &mut [f64; MAX_SUPPORT], value: impl Fn(f64) -> f64) -> i64 {
+    // Even supports start 'support/2 - 1' below the floor, odd ones are centred on the nearest point.
+    let first =
+        if support.is_multiple_of(2) { r.floor() - (support / 2 - 1) as f64 } else { r.round() - (support / 2) as f64 };
+    for (i, weight) in weights.iter_mut().enumerate().take(support) {
+        *weight = value(r - first - i as f64);
+    }
+    first as i64
+}
+
+#[cfg(test)]
+mod tests;

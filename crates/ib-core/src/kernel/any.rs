@@ -1,0 +1,75 @@
+//! A kernel chosen at run time.
+
+use super::{CompositeBSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Role, Roma3};
+
+/// A kernel chosen at run time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AnyKernel {
+    /// [`Peskin4`].
+    Peskin4,
+    /// [`Roma3`].
+    Roma3,
+    /// [`Gaussian6`].
+    Gaussian6,
+    /// [`CompositeBSpline<3>`]: quadratic/linear.
+    BSpline3,
+    /// [`CompositeBSpline<4>`]: cubic/quadratic, the default.
+    BSpline4,
+    /// [`CompositeBSpline<5>`]: quartic/cubic.
+    BSpline5,
+    /// [`CompositeBSpline<6>`]: quintic/quartic.
+    BSpline6,
+}
+
+impl AnyKernel {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Peskin4, Self::Roma3, Self::Gaussian6, Self::BSpline3, Self::BSpline4, Self::BSpline5, Self::BSpline6];
+}
+
+macro_rules! dispatch {
+    ($self:ident, $method:ident ( $($argument:expr),* )) => {
+        match $self {
+            AnyKernel::Peskin4 => Peskin4.$method($($argument),*),
+            AnyKernel::Roma3 => Roma3.$method($($argument),*),
+            AnyKernel::Gaussian6 => Gaussian6.$method($($argument),*),
+            AnyKernel::BSpline3 => CompositeBSpline::<3>.$method($($argument),*),
+            AnyKernel::BSpline4 => CompositeBSpline::<4>.$method($($argument),*),
+            AnyKernel::BSpline5 => CompositeBSpline::<5>.$method($($argument),*),
+            AnyKernel::BSpline6 => CompositeBSpline::<6>.$method($($argument),*),
+        }
+    };
+}
+
+impl Kernel for AnyKernel {
+    fn name(&self) -> &'static str {
+        dispatch!(self, name())
+    }
+
+    fn support(&self, role: Role) -> usize {
+        dispatch!(self, support(role))
+    }
+
+    fn weights(&self, role: Role, r: f64, weights: &mut [f64; MAX_SUPPORT]) -> i64 {
+        dispatch!(self, weights(role, r, weights))
+    }
+
+    fn value(&self, role: Role, r: f64) -> f64 {
+        dispatch!(self, value(role, r))
+    }
+
+    fn transform(&self, role: Role, theta: f64) -> f64 {
+        dispatch!(self, transform(role, theta))
+    }
+}
+
+impl std::str::FromStr for AnyKernel {
+    type Err = crate::FlowError;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        Self::ALL.into_iter().find(|kernel| kernel.name() == name).ok_or(crate::FlowError::Unsupported {
+            what: "a kernel of that name",
+            remedy: "use peskin4, roma3, gaussian6, bspline3, bspline4, bspline5 or bspline6",
+        })
+    }
+}

@@ -1,0 +1,325 @@
+//! What spreading, the grid and interpolation take from the mobility of an interface.
+
+use crate::quadrature::GAUSS_10;
+use crate::{Kernel, Role};
+
+/// Largest tabulated wave number (in units of 1/h); above it the grid does not respond at all.
+const LAST: f64 = 6.3;
+/// Intervals of the table, uniform in the square root of the wave number: the functions bend fastest near zero.
+const INTERVALS: usize = 40;
+/// Wave numbers across the interface beyond which the kernels' transforms no longer matter.
+const CUT: f64 = 50.0;
+
+/// Deficits of the discrete mobility of a flat interface, per kernel (interface.md section 1).
+///
+/// A force of wave number q along a flat interface moves it, in Stokes flow without boundaries, at `F / (4 eta q)`,
+/// tangentially and normally alike. Spreading, the discrete Laplacian and interpolation reduce that to
+/// `R F / (4 eta q)`, averaged over positions on the grid, with (all wave numbers in units of 1/h; tangent t, normal n,
+/// k the wave number across the interface, `(k_x, k_y) = q t + k n`, `d_j = 2 sin(k_j / 2)`, w_u and w_v the Fourier
+/// transforms of the kernels of the two velocity components)
+///
+/// `R_t = 4 q / (2 pi) integral dk (t_x w_u d_y - t_y w_v d_x)^2 / (d_x^2 + d_y^2)^2`, and `R_n` with n for t.
+///
+/// Stored are the first coefficients of `G = (1 - R) / (4 q)` in cos(4 angle) and, for G_t, cos(8 angle).
+#[derive(Debug, Clone)]
+pub struct MobilityDeficit {
+    /// Rows at equal steps of sqrt(q): mean, slope and curvature of G_t, mean and slope of G_n.
+    table: Vec<[f64; 5]>,
+    /// First grid harmonic of an interface along the grid, at equal steps of the wave number.
+    harmonic: Vec<f64>,
+    /// The second grid harmonic over the first at small wave numbers.
+    second_harmonic: f64,
+}
+
+/// Wave number (in units of 1/h) above which the grid harmonic is negligible.
+const HARMONIC_LAST: f64 = 6.0;
+/// Intervals of the table of the grid harmonic.
+const HARMONIC_INTERVALS: usize = 48;
+
+/// The deficits of one wave number, in units of h: with `z = n_x^4 + n_y^4 - 3/4 = cos(4 angle) / 4`,
+/// `G = mean + slope z + curvature (32 z^2 - 1)`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deficit {
+    /// Mean of the tangential deficit.
+    pub tangential: f64,
+    /// Slope of the tangential deficit.
+    pub tangential_slope: f64,
+    /// Curvature of the tangential deficit.
+    pub tangential_curvature: f64,
+    /// Mean of the normal deficit.
+    pub normal: f64,
+    /// Slope of the normal deficit.
+    pub normal_slope: f64,
+}
+
+impl MobilityDeficit {
+    /// Tabulates the deficits of a kernel (some milliseconds).
+    #[must_use]
+    pub fn new<K: Kernel>(kernel: &K) -> Self {
+        let transforms = Transforms::new(kernel);
+        let table = (0..=INTERVALS)
+            .map(|i| {
+                let root = LAST.sqrt() * i as f64 / INTERVALS as f64;
+                let q = (root * root).max(1e-6);
+                // n_x^4 + n_y^4 - 3/4 = cos(4 angle) / 4: the first Fourier coefficients, by the trapezoidal rule.
+                let mut row = [0.0; 5];
+                for (step, weight) in [0.125, 0.25, 0.25, 0.25, 0.125].into_iter().enumerate() {
+                    let phase = 0.25 * std::f64::consts::PI * step as f64;
+                    let (tangential, normal) = deficits(&transforms, q, 0.25 * phase);
+                    row[0] += weight * tangential;
+                    row[1] += weight * 8.0 * phase.cos() * tangential;
+                    row[2] += weight * 2.0 * (2.0 * phase).cos() * tangential;
+                    row[3] += weight * normal;
+                    row[4] += weight * 8.0 * phase.cos() * normal;
+                }
+                row
+            })
+            .collect();
+        let harmonic = (0..=HARMONIC_INTERVALS)
+            .map(|i| harmonic(&transforms, 1.0, (HARMONIC_LAST * i as f64 / HARMONIC_INTERVALS as f64).max(1e-6)))
+            .collect();
+        let second_harmonic = harmonic_ratio(&transforms);
+        Self { table, harmonic, second_harmonic }
+    }
+
+    /// The grid harmonic at wave number `q` (in units of 1/h): the part of the tangential mobility of an interface
+    /// along the grid lines that follows its position between them,
+    ///
+    /// `H(q) = 1 / (2 pi) integral dk w_u(q, k) d_y(k) w_u(q, k + 2 pi) d_y(k + 2 pi) / (d_x^2 + d_y^2)^2`,
+    ///
+    /// so that a tangential force F e^{iqx} at the height y moves it by `(h/eta) F (R/(4q) + 2 H cos(2 pi y/h))`.
+    #[must_use]
+    pub fn harmonic(&self, q: f64) -> f64 {
+        let position = q.abs() / HARMONIC_LAST * HARMONIC_INTERVALS as f64;
+        let i = position as usize;
+        if i >= HARMONIC_INTERVALS {
+            return 0.0;
+        }
+        let s = position - i as f64;
+        let before = self.harmonic[if i == 0 { 1 } else { i - 1 }];
+        let after = self.harmonic[(i + 2).min(HARMONIC_INTERVALS)];
+        let (a, b) = (self.harmonic[i], self.harmonic[i + 1]);
+        a + s
+            * (0.5 * (b - before)
+                + s * (before - 2.5 * a + 2.0 * b - 0.5 * after + s * (1.5 * (a - b) + 0.5 * (after - before))))
+    }
+
+    /// The deficits at wave number `q` (in units of 1/h).
+    #[must_use]
+    pub fn at(&self, q: f64) -> Deficit {
+        if q >= LAST {
+            let all = 0.25 / q;
+            return Deficit {
+                tangential: all,
+                tangential_slope: 0.0,
+                tangential_curvature: 0.0,
+                normal: all,
+                normal_slope: 0.0,
+            };
+        }
+        let position = (q.max(0.0) / LAST).sqrt() * INTERVALS as f64;
+        let i = (position as usize).min(INTERVALS - 1);
+        let s = position - i as f64;
+        // Cubic through the four nearest rows, one-sided at the ends.
+        let base = i.saturating_sub(1).min(INTERVALS - 3);
+        let x = s + (i - base) as f64;
+        let weights = [
+            -(x - 1.0) * (x - 2.0) * (x - 3.0) / 6.0,
+            x * (x - 2.0) * (x - 3.0) / 2.0,
+            -x * (x - 1.0) * (x - 3.0) / 2.0,
+            x * (x - 1.0) * (x - 2.0) / 6.0,
+        ];
+        let mut row = [0.0; 5];
+        for (weight, entry) in weights.iter().zip(&self.table[base..base + 4]) {
+            for (sum, value) in row.iter_mut().zip(entry) {
+                *sum += weight * value;
+            }
+        }
+        let [tangential, tangential_slope, tangential_curvature, normal, normal_slope] = row;
+        Deficit { tangential, tangential_slope, tangential_curvature, normal, normal_slope }
+    }
+
+    /// The second grid harmonic over the first, `H_2 / H`, for forces that vary slowly; H_2 is H with 4 pi for 2 pi and multiplies
+    /// `cos(4 pi y/h)`.
+    #[must_use]
+    pub fn second_harmonic(&self) -> f64 {
+        self.second_harmonic
+    }
+
+    /// The fastest relaxation of a nearly flat interface on the grid, in units of tension/(viscosity h): the maximum
+    /// over wave numbers and directions of `q^2` times the discrete normal mobility, with or without the correction.
+    #[must_use]
+    pub fn interface_stiffness(&self, corrected: bool) -> f64 {
+        let mut fastest: f64 = 0.0;
+        for i in 1..=400 {
+            let q = 0.03 * i as f64;
+            let deficit = self.at(q);
+            for direction in [-0.25, 0.0, 0.25] {
+                let missing = deficit.normal + direction * deficit.normal_slope;
+                let restored = if corrected { missing * normal_taper(q) } else { 0.0 };
+                fastest = fastest.max(q * q * (0.25 / q - missing + restored));
+            }
+        }
+        fastest
+    }
+}
+
+/// Keeps the normal correction from making the shortest wavelengths stiff: `exp(-(q/2)^4)`.
+#[must_use]
+pub(crate) fn normal_taper(q: f64) -> f64 {
+    (-(0.5 * q).powi(4)).exp()
+}
+
+/// (G_t, G_n) at wave number q for an interface whose normal makes `angle` with the x axis.
+fn deficits(transforms: &Transforms, q: f64, angle: f64) -> (f64, f64) {
+    let (sin, cos) = angle.sin_cos();
+    let (normal, tangent) = ([cos, sin], [-sin, cos]);
+    // (1 - R)/(4q) = (1/2 pi) integral of [exact integrand - discrete integrand]: no cancellation at small q.
+    let difference = |k: f64| {
+        let (kx, ky) = (q * tangent[0] + k * normal[0], q * tangent[1] + k * normal[1]);
+        let (dx, dy) = (2.0 * (0.5 * kx).sin(), 2.0 * (0.5 * ky).sin());
+        let d2 = dx * dx + dy * dy;
+        let wu = transforms.at(Role::Normal, kx) * transforms.at(Role::Tangential, ky);
+        let wv = transforms.at(Role::Tangential, kx) * transforms.at(Role::Normal, ky);
+        let k2 = q * q + k * k;
+        let discrete = |along: [f64; 2]| {
+            // At an alias of the zero wave number the kernels vanish faster than the Laplacian.
+            if d2 < 1e-18 { 0.0 } else { ((along[0] * wu * dy - along[1] * wv * dx) / d2).powi(2) }
+        };
+        ((k / k2).powi(2) - discrete(tangent), (q / k2).powi(2) - discrete(normal))
+    };
+    let mut sum = (0.0, 0.0);
+    let mut panel = |a: f64, b: f64| {
+        for (x, w) in GAUSS_10 {
+            let k = 0.5 * (a + b) + 0.5 * (b - a) * x;
+            let weight = 0.5 * (b - a) * w;
+            for k in [k, -k] {
+                let (t, n) = difference(k);
+                sum.0 += weight * t;
+                sum.1 += weight * n;
+            }
+        }
+    };
+    // Panels that grow from the scale q, on which the integrand varies near zero; short ones over the first aliases.
+    let (mut a, mut width) = (0.0, q.clamp(1e-6, 0.5));
+    while a < CUT {
+        panel(a, a + width);
+        a += width;
+        width = (2.0 * width).min(if a < 13.0 { 0.25 } else { 0.5 });
+    }
+    // Beyond the cut only the exact integrands remain; with both signs of k.
+    let tail_t = 2.0 * (0.5 / q * (q / a).atan() + 0.5 * a / (q * q + a * a));
+    let tail_n = 2.0 * (0.5 / q * (q / a).atan() - 0.5 * a / (q * q + a * a));
+    let scale = 0.5 / std::f64::consts::PI;
+    (scale * (sum.0 + tail_t), scale * (sum.1 + tail_n))
+}
+
+fn harmonic_ratio(transforms: &Transforms) -> f64 {
+    let (first, second) = (harmonic(transforms, 1.0, 1e-3), harmonic(transforms, 2.0, 1e-3));
+    if first == 0.0 { 0.0 } else { second / first }
+}
+
+/// The grid harmonic number `order` of an interface along x; see [`MobilityDeficit::harmonic`].
+fn harmonic(transforms: &Transforms, order: f64, q: f64) -> f64 {
+    let dx2 = (2.0 * (0.5 * q).sin()).powi(2);
+    let along = transforms.at(Role::Normal, q);
+    let bracket = |k: f64| along * transforms.at(Role::Tangential, k) * 2.0 * (0.5 * k).sin();
+    let mut sum = 0.0;
+    // Symmetric about k = -pi order, where both factors are largest.
+    let mut a = 0.0;
+    while a < CUT - 7.0 {
+        let width = if a < 10.0 { 0.2 } else { 0.5 };
+        for (x, w) in GAUSS_10 {
+            let k = -std::f64::consts::PI * order + a + 0.5 * width * (1.0 + x);
+            let d2 = dx2 + (2.0 * (0.5 * k).sin()).powi(2);
+            if d2 > 1e-18 {
+                let other = k + std::f64::consts::TAU * order;
+                sum += 0.5 * width * w * 2.0 * bracket(k) * bracket(other) / (d2 * d2);
+            }
+        }
+        a += width;
+    }
+    0.5 * sum / std::f64::consts::PI
+}
+
+/// Fourier transforms of the two roles of a kernel, tabulated once because the quadrature asks for them a million
+/// times.
+struct Transforms {
+    normal: Vec<f64>,
+    tangential: Vec<f64>,
+}
+
+impl Transforms {
+    const STEP: f64 = 0.01;
+
+    fn new<K: Kernel>(kernel: &K) -> Self {
+        // |k_x| reaches CUT + LAST + one panel in any direction.
+        let count = ((CUT + LAST + 2.0) / Self::STEP) as usize + 4;
+        let tabulate = |role| (0..count).map(|i| kernel.transform(role, Self::STEP * i as f64)).collect();
+        Self { normal: tabulate(Role::Normal), tangential: tabulate(Role::Tangential) }
+    }
+
+    /// Cubic interpolation (error below 1e-8 at this step); the transforms are even.
+    fn at(&self, role: Role, theta: f64) -> f64 {
+        let table = match role {
+            Role::Normal => &self.normal,
+            Role::Tangential => &self.tangential,
+        };
+        let position = theta.abs() / Self::STEP;
+        let i = position as usize;
+        let Some(&[b, c, d]) = table.get(i..i + 3).and_then(|w| <&[f64; 3]>::try_from(w).ok()) else { return 0.0 };
+        let a = table[if i == 0 { 1 } else { i - 1 }];
+        let x = position - i as f64;
+        let (m, n, o) = (x - 1.0, x - 2.0, x + 1.0);
+        -a * x * m * n / 6.0 + 0.5 * b * o * m * n - 0.5 * c * o * x * n + d * o * x * m / 6.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{CubicQuadratic, Gaussian6, Peskin4};
+
+    #[test]
+    fn cubic_quadratic_table() {
+        // (q, A_t, B_t, A_n, B_n) of the flat-interface analysis, independently computed to four digits.
+        let expected = [
+            (0.05, 0.2539, -0.0839, 0.0051, 0.0001),
+            (0.1, 0.2488, -0.0698, 0.0101, 0.0004),
+            (0.5, 0.2115, -0.0032, 0.0434, 0.0045),
+            (1.0, 0.1723, 0.0165, 0.0704, 0.0057),
+            (2.0, 0.1162, 0.0065, 0.0867, -0.0021),
+            (4.0, 0.0625, 0.0, 0.0618, -0.0009),
+            (6.0, 0.0417, 0.0, 0.0417, 0.0),
+        ];
+        let table = MobilityDeficit::new(&CubicQuadratic::default());
+        for (q, at, bt, an, bn) in expected {
+            let d = table.at(q);
+            assert!((d.tangential - at).abs() < 3e-4, "q {q}: {d:?}");
+            assert!((d.normal - an).abs() < 3e-4, "q {q}: {d:?}");
+            assert!((d.tangential_slope - bt).abs() < 2e-3, "q {q}: {d:?}");
+            assert!((d.normal_slope - bn).abs() < 1e-3, "q {q}: {d:?}");
+        }
+    }
+
+    #[test]
+    fn zero_wave_number_is_the_kink_constant() {
+        // Direct quadrature of the same integral at q = 0 (a script with 1.2e5 trapezoidal points), 0 and 45 degrees.
+        for (table, along, across) in [
+            (MobilityDeficit::new(&CubicQuadratic::default()), 0.2333, 0.2833),
+            (MobilityDeficit::new(&Peskin4), 0.381, 0.395),
+        ] {
+            let d = table.at(0.0);
+            assert!((d.tangential + 0.25 * d.tangential_slope - along).abs() < 3e-3, "{d:?}");
+            assert!((d.tangential - 0.25 * d.tangential_slope - across).abs() < 3e-3, "{d:?}");
+        }
+    }
+
+    #[test]
+    fn stiffness_of_the_kernels() {
+        let of = |deficit: MobilityDeficit| deficit.interface_stiffness(false);
+        assert!((of(MobilityDeficit::new(&Peskin4)) - 0.125).abs() < 0.01);
+        assert!((of(MobilityDeficit::new(&CubicQuadratic::default())) - 0.188).abs() < 0.01);
+        assert!(of(MobilityDeficit::new(&Gaussian6)) < 0.12);
+    }
+}

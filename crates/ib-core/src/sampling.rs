@@ -1,0 +1,62 @@
+//! Values of grid fields between grid points.
+
+use stokes_grid::{CentreField, Grid, StaggeredField};
+
+use crate::{FlowSample, Vec2};
+
+/// A field on a shifted lattice of a grid, continued beyond walls by symmetry.
+struct Lattice<'a> {
+    values: &'a [f64],
+    grid: &'a Grid,
+    /// Position of entry (0, 0) in cells from the grid's lower left corner.
+    shift: [f64; 2],
+    /// Sign of the continuation beyond a wall.
+    parity: f64,
+}
+
+impl Lattice<'_> {
+    fn value(&self, column: i64, row: i64) -> f64 {
+        let (nx, ny) = (self.grid.nx() as i64, self.grid.ny() as i64);
+        let column = column.rem_euclid(nx);
+        let (row, sign) = if !self.grid.has_walls() {
+            (row.rem_euclid(ny), 1.0)
+        } else if self.shift[1] == 0.0 {
+            let r = row.rem_euclid(2 * ny);
+            if r <= ny { (r, 1.0) } else { (2 * ny - r, self.parity) }
+        } else {
+            let r = row.rem_euclid(2 * ny);
+            if r < ny { (r, 1.0) } else { (2 * ny - 1 - r, self.parity) }
+        };
+        sign * self.values[(row * nx + column) as usize]
+    }
+
+    /// Value and gradient (per cell) by bilinear interpolation at a position in cells.
+    fn bilinear(&self, position: [f64; 2]) -> (f64, [f64; 2]) {
+        let (x, y) = (position[0] - self.shift[0], position[1] - self.shift[1]);
+        let (i, j) = (x.floor(), y.floor());
+        let (s, t) = (x - i, y - j);
+        let (i, j) = (i as i64, j as i64);
+        let [a, b, c, d] = [self.value(i, j), self.value(i + 1, j), self.value(i, j + 1), self.value(i + 1, j + 1)];
+        let value = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d);
+        (value, [(1.0 - t) * (b - a) + t * (d - c), (1.0 - s) * (c - a) + s * (d - b)])
+    }
+}
+
+/// Fills `out` with the flow at `points`: velocity and pressure bilinear between grid points, and the gradient of that.
+pub(crate) fn sample(velocity: &StaggeredField, pressure: &CentreField, points: &[Vec2], out: &mut [FlowSample]) {
+    let grid = velocity.grid();
+    let (h, origin) = (grid.spacing(), grid.origin());
+    let u = Lattice { values: velocity.x(), grid, shift: [0.0, 0.5], parity: -1.0 };
+    let v = Lattice { values: velocity.y(), grid, shift: [0.5, 0.0], parity: -1.0 };
+    let p = Lattice { values: pressure.values(), grid, shift: [0.5, 0.5], parity: 1.0 };
+    for (point, out) in points.iter().zip(out) {
+        let position = [(point.x - origin[0]) / h, (point.y - origin[1]) / h];
+        let (ux, du) = u.bilinear(position);
+        let (uy, dv) = v.bilinear(position);
+        *out = FlowSample {
+            velocity: Vec2::new(ux, uy),
+            pressure: p.bilinear(position).0,
+            gradient: [du.map(|d| d / h), dv.map(|d| d / h)],
+        };
+    }
+}

@@ -1,0 +1,278 @@
+//! Bodies in a fluid: the system of equations that an integrator advances.
+
+use std::any::Any;
+
+use crate::{Body, BodyError, FlowReport, FlowSample, Hydrodynamics, Markers, SceneError, StepLimit, Vec2};
+
+/// The bodies of a scene, the fluid between them, and the time.
+///
+/// Integrators advance it, observers look at it.
+#[derive(Debug)]
+pub struct System<H> {
+    hydrodynamics: H,
+    bodies: Vec<Box<dyn Body>>,
+    markers: Markers,
+    time: f64,
+    steps: usize,
+    report: FlowReport,
+    /// Whether the markers hold the flow of the bodies' present state.
+    current: bool,
+}
+
+impl<H: Hydrodynamics> System<H> {
+    pub(crate) fn new(hydrodynamics: H) -> Self {
+        Self {
+            hydrodynamics,
+            bodies: Vec::new(),
+            markers: Markers::new(),
+            time: 0.0,
+            steps: 0,
+            report: FlowReport::default(),
+            current: false,
+        }
+    }
+
+    pub(crate) fn push(&mut self, body: Box<dyn Body>) -> usize {
+        self.markers.push_group(body.marker_count(), body.kind());
+        self.bodies.push(body);
+        self.current = false;
+        self.bodies.len() - 1
+    }
+
+    /// Time since the start.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Steps since the start.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    pub(crate) fn advance_clock(&mut self, dt: f64) {
+        self.time += dt;
+        self.steps += 1;
+    }
+
+    /// What computes the flow.
+    #[must_use]
+    pub fn hydrodynamics(&self) -> &H {
+        &self.hydrodynamics
+    }
+
+    /// The bodies, in the order in which they were added.
+    pub fn bodies(&self) -> impl Iterator<Item = &dyn Body> {
+        self.bodies.iter().map(AsRef::as_ref)
+    }
+
+    /// The first body of type B, if there is one.
+    #[must_use]
+    pub fn find<B: Body>(&self) -> Option<&B> {
+        self.bodies.iter().find_map(|body| (body.as_ref() as &dyn Any).downcast_ref())
+    }
+
+    pub(crate) fn body_at(&self, index: usize) -> &dyn Any {
+        self.bodies[index].as_ref()
+    }
+
+    pub(crate) fn body_at_mut(&mut self, index: usize) -> &mut dyn Any {
+        // Whoever holds the body mutably may change it.
+        self.current = false;
+        self.bodies[index].as_mut()
+    }
+
+    /// Positions, forces and velocities of all markers as of the last evaluation; [`System::evaluate`] makes them those
+    /// of the present state.
+    #[must_use]
+    pub fn markers(&self) -> &Markers {
+        &self.markers
+    }
+
+    /// What the last evaluation needed and found.
+    #[must_use]
+    pub fn report(&self) -> &FlowReport {
+        &self.report
+    }
+
+    /// Computes forces and velocities at the present state, unless they are known already.
+    ///
+    /// # Errors
+    /// Those of the bodies' forces and of the flow.
+    pub fn evaluate(&mut self) -> Result<&Markers, SceneError> {
+        if !self.current {
+            self.fit_markers();
+            self.compute_flow()?;
+            self.current = true;
+        }
+        Ok(&self.markers)
+    }
+
+    /// The flow at `points` in the present state; see [`Hydrodynamics::sample`].
+    ///
+    /// # Errors
+    /// Those of [`System::evaluate`] and of the sampling.
+    pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), SceneError> {
+        self.evaluate()?;
+        let time = self.time;
+        self.hydrodynamics.sample(&self.markers, points, out).map_err(|source| SceneError::Flow { time, source })
+    }
+
+    /// The smallest of the bodies' stable time steps at the present state, with the body's name.
+    #[must_use]
+    pub fn step_limit(&self) -> Option<(StepLimit, &str)> {
+        let medium = self.hydrodynamics.medium();
+        self.bodies
+            .iter()
+            .flat_map(|body| body.step_limits(&medium).into_iter().map(|limit| (limit, body.name())))
+            .min_by(|a, b| a.0.dt.total_cmp(&b.0.dt))
+    }
+
+    /// Makes the groups of markers fit the bodies, whose numbers of markers may have changed at the end of a step.
+    fn fit_markers(&mut self) {
+        let groups = self.markers.groups();
+        let fits = groups.len() == self.bodies.len()
+            && groups.iter().zip(&self.bodies).all(|(g, b)| g.range.len() == b.marker_count() && g.kind == b.kind());
+        if !fits {
+            self.markers.clear();
+            for body in &self.bodies {
+                self.markers.push_group(body.marker_count(), body.kind());
+            }
+        }
+    }
+
+    fn compute_flow(&mut self) -> Result<(), SceneError> {
+        let (medium, time) = (self.hydrodynamics.medium(), self.time);
+        for (index, body) in self.bodies.iter_mut().enumerate() {
+            let range = self.markers.groups()[index].range.clone();
+            body.write_markers(&mut self.markers.positions[range.clone()]);
+            body.write_forces(&medium, &mut self.markers.forces[range])
+                .map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        self.report =
+            self.hydrodynamics.velocities(&mut self.markers).map_err(|source| SceneError::Flow { time, source })?;
+        Ok(())
+    }
+
+    /// Length of the state of all bodies.
+    #[must_use]
+    pub fn state_len(&self) -> usize {
+        self.bodies.iter().map(|body| body.state_len()).sum()
+    }
+
+    /// Copies the state of all bodies to `state`, resizing it.
+    pub fn write_state(&self, state: &mut Vec<f64>) {
+        state.resize(self.state_len(), 0.0);
+        let mut start = 0;
+        for body in &self.bodies {
+            let end = start + body.state_len();
+            body.write_state(&mut state[start..end]);
+            start = end;
+        }
+    }
+
+    /// Gives the bodies a state whose parts have the lengths `lengths` (one a body).
+    pub(crate) fn restore(&mut self, lengths: &[usize], state: &[f64]) -> Result<(), SceneError> {
+        let mut start = 0;
+        self.current = false;
+        for (body, length) in self.bodies.iter_mut().zip(lengths) {
+            body.read_state(&state[start..start + length])
+                .map_err(|source| body_error(self.time, body.as_ref(), source))?;
+            start += length;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn write_lengths(&self, lengths: &mut Vec<usize>) {
+        lengths.clear();
+        lengths.extend(self.bodies.iter().map(|body| body.state_len()));
+    }
+
+    /// The explicit rate of change of `state`.
+    ///
+    /// # Errors
+    /// Those of the bodies and of the flow.
+    pub fn rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError> {
+        self.read_state(state)?;
+        self.compute_flow()?;
+        self.rate_here(rate);
+        Ok(())
+    }
+
+    /// The explicit rate of change at the present state, whose flow is computed only if it is not known yet.
+    ///
+    /// # Errors
+    /// Those of the bodies and of the flow.
+    pub fn present_rate(&mut self, rate: &mut [f64]) -> Result<(), SceneError> {
+        self.evaluate()?;
+        self.rate_here(rate);
+        Ok(())
+    }
+
+    fn rate_here(&mut self, rate: &mut [f64]) {
+        let mut start = 0;
+        for (body, group) in self.bodies.iter_mut().zip(self.markers.groups()) {
+            let end = start + body.state_len();
+            body.rate(&self.markers.velocities[group.range.clone()], &mut rate[start..end]);
+            start = end;
+        }
+    }
+
+    /// Gives the bodies a state of their present lengths.
+    ///
+    /// # Errors
+    /// A state that a body refuses.
+    pub fn read_state(&mut self, state: &[f64]) -> Result<(), SceneError> {
+        self.current = false;
+        let time = self.time;
+        let mut start = 0;
+        for body in &mut self.bodies {
+            let end = start + body.state_len();
+            body.read_state(&state[start..end]).map_err(|source| body_error(time, body.as_ref(), source))?;
+            start = end;
+        }
+        Ok(())
+    }
+
+    /// Adds `factor * L(state) state` to `out`; see [`Body::add_implicit`].
+    pub fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        let mut start = 0;
+        for body in &mut self.bodies {
+            let end = start + body.state_len();
+            body.add_implicit(&state[start..end], factor, &mut out[start..end]);
+            start = end;
+        }
+    }
+
+    /// Solves `y - factor L(state) y = state` in place; see [`Body::solve_implicit`].
+    pub fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        let mut start = 0;
+        for body in &mut self.bodies {
+            let end = start + body.state_len();
+            body.solve_implicit(factor, &mut state[start..end]);
+            start = end;
+        }
+    }
+
+    pub(crate) fn begin_step(&mut self, dt: f64) -> Result<(), SceneError> {
+        let (medium, time) = (self.hydrodynamics.medium(), self.time);
+        for body in &mut self.bodies {
+            body.begin_step(&medium, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn end_step(&mut self, dt: f64) -> Result<(), SceneError> {
+        let (medium, time) = (self.hydrodynamics.medium(), self.time);
+        self.current = false;
+        for body in &mut self.bodies {
+            body.end_step(&medium, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        Ok(())
+    }
+}
+
+fn body_error(time: f64, body: &dyn Body, source: BodyError) -> SceneError {
+    SceneError::Body { time, body: body.name().to_owned(), source }
+}

@@ -1,0 +1,111 @@
+//! Spreading and interpolation as an adjoint pair, in boxes and channels, for every kernel.
+
+use ib_core::{AnyKernel, Kernel, Transfer, Vec2};
+use proptest::prelude::*;
+use stokes_grid::{Grid, StaggeredField};
+
+/// A field of reproducible pseudo-random values in [-1, 1), zero on walls for the y component.
+fn noise(grid: Grid, seed: u64) -> StaggeredField {
+    let mut field = StaggeredField::zeros(grid);
+    let mut state = seed.wrapping_add(1);
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let (nx, rows) = (grid.nx(), grid.node_rows());
+    let (x, y) = field.components_mut();
+    x.iter_mut().for_each(|v| *v = next());
+    y.iter_mut().for_each(|v| *v = next());
+    if grid.has_walls() {
+        y[..nx].fill(0.0);
+        y[nx * (rows - 1)..].fill(0.0);
+    }
+    field
+}
+
+fn inner(a: &StaggeredField, b: &StaggeredField) -> f64 {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    dot(a.x(), b.x()) + dot(a.y(), b.y())
+}
+
+fn check(grid: Grid, kernel: AnyKernel, positions: &[Vec2], forces: &[Vec2], seed: u64) -> Result<(), TestCaseError> {
+    let mut transfer = Transfer::new(grid, kernel);
+    transfer.locate(positions);
+    let mut density = StaggeredField::zeros(grid);
+    transfer.spread(forces, &mut density);
+    let velocity = noise(grid, seed);
+    let mut velocities = vec![Vec2::zeros(); positions.len()];
+    transfer.interpolate(&velocity, &mut velocities);
+    let h2 = grid.spacing() * grid.spacing();
+    let on_grid = h2 * inner(&density, &velocity);
+    let at_markers: f64 = forces.iter().zip(&velocities).map(|(f, u)| f.dot(u)).sum();
+    let scale: f64 = forces.iter().map(|f| f.norm()).sum();
+    prop_assert!((on_grid - at_markers).abs() < 1e-13 * (1.0 + scale), "{}: {on_grid} {at_markers}", kernel.name());
+    if !grid.has_walls() {
+        let total: Vec2 = forces.iter().sum();
+        let sum = |values: &[f64]| h2 * values.iter().sum::<f64>();
+        let error = (total - Vec2::new(sum(density.x()), sum(density.y()))).norm();
+        prop_assert!(error < 1e-12 * (1.0 + scale), "the total force arrives");
+    }
+    Ok(())
+}
+
+fn vectors(range: f64) -> impl Strategy<Value = Vec<Vec2>> {
+    prop::collection::vec((-range..range, -range..range).prop_map(|(x, y)| Vec2::new(x, y)), 7)
+}
+
+proptest! {
+    #[test]
+    fn adjoint_in_a_box(positions in vectors(30.0), forces in vectors(5.0), seed in 0..1000_u64) {
+        let grid = Grid::periodic(17, 12, 0.37).unwrap();
+        for kernel in AnyKernel::ALL {
+            check(grid, kernel, &positions, &forces, seed)?;
+        }
+    }
+
+    #[test]
+    fn adjoint_in_a_box_smaller_than_the_kernel(positions in vectors(3.0), forces in vectors(5.0), seed in 0..1000_u64) {
+        let grid = Grid::periodic(3, 2, 0.5).unwrap();
+        for kernel in AnyKernel::ALL {
+            check(grid, kernel, &positions, &forces, seed)?;
+        }
+    }
+
+    #[test]
+    fn adjoint_in_a_channel(positions in vectors(1.0), forces in vectors(5.0), seed in 0..1000_u64) {
+        let grid = Grid::channel(14, 8, 0.25).unwrap();
+        for kernel in AnyKernel::ALL {
+            check(grid, kernel, &positions, &forces, seed)?;
+        }
+    }
+}
+
+/// A field that is odd (x) and even (y) about the walls interpolates to zero on them; one that is constant inside a
+/// box to the constant anywhere.
+#[test]
+fn walls_and_constants() {
+    let channel = Grid::channel(16, 9, 0.2).unwrap();
+    let velocity = noise(channel, 3);
+    let top = channel.origin()[1] + channel.lengths()[1];
+    for kernel in AnyKernel::ALL {
+        let positions: Vec<Vec2> =
+            (0..20).flat_map(|i| [channel.origin()[1], top].map(|y| Vec2::new(0.137 * f64::from(i), y))).collect();
+        let mut transfer = Transfer::new(channel, kernel);
+        transfer.locate(&positions);
+        let mut velocities = vec![Vec2::zeros(); positions.len()];
+        transfer.interpolate(&velocity, &mut velocities);
+        for u in &velocities {
+            assert!(u.x.abs() < 1e-14, "{}: no slip, {u}", kernel.name());
+        }
+
+        let grid = Grid::periodic(10, 11, 0.3).unwrap();
+        let mut constant = StaggeredField::zeros(grid);
+        constant.fill(1.5);
+        let mut transfer = Transfer::new(grid, kernel);
+        transfer.locate(&positions);
+        transfer.interpolate(&constant, &mut velocities);
+        for u in &velocities {
+            assert!((u - Vec2::new(1.5, 1.5)).norm() < 1e-13);
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! The streamfunction solver of a channel.
+
+use num_complex::Complex64;
+
+use crate::channel_modes::ChannelModes;
+use crate::checks::{check_finite, check_grid, check_viscosity};
+use crate::mean_flow::MeanFlow;
+use crate::rows::RowTransform;
+use crate::sums::sum;
+use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, Wall, WallMotion, Work};
+
+/// Stokes flow with one viscosity in a channel, periodic in x with no-slip walls in y, by its streamfunction psi:
+///
+/// `eta (d2x + d2y)^2 psi = curl f`, `u = d psi/dy`, `v = -d psi/dx`,
+///
+/// with the differences of the staggered grid and the ghost velocity `u[-1] = 2 U - u[0]` behind a wall of velocity U, which is
+/// the same as `psi[-1] = psi[1] - 2 h U`. The solution is that of the whole discrete system of momentum and continuity to
+/// round-off; nothing is iterated.
+///
+/// Per wave number of x it takes two tridiagonal sweeps for the Dirichlet problems `lap w = curl f / eta`, `lap psi = w` and a
+/// 2 x 2 system for the two wall values of w (minus the vorticity there) that make the walls no-slip. There is no transform in y:
+/// one forward and one inverse transform in x, each fused with half of the sweeps.
+///
+/// **Forces on the walls.** The y components in the first and last row lie on the walls; they are ignored (a wall takes up any
+/// force on it).
+///
+/// **Mean flow.** [`Drive`] says whether the mean pressure gradient or the flux is prescribed; [`SolveReport`] has the mean
+/// pressure gradient, [`crate::flux`] the flux. The y velocity has no mean on any row.
+///
+/// **Sizes.** Every size is correct. Only `nx` is transformed: even values with no prime factors but 2, 3 and 5 are fast; `ny`
+/// may be anything.
+#[derive(Debug)]
+pub struct ChannelStokes {
+    grid: Grid,
+    viscosity: f64,
+    drive: Drive,
+    walls: WallMotion,
+    wall_spectra: [Vec<Complex64>; 2],
+    modes: ChannelModes,
+    mean: MeanFlow,
+    rows: RowTransform,
+    spectrum: Vec<Complex64>,
+    below: Vec<f64>,
+    mean_u: Vec<f64>,
+    work: Work,
+}
+
+impl ChannelStokes {
+    /// A solver for a channel and a viscosity eta (stress times time), with walls at rest and no mean pressure gradient.
+    ///
+    /// # Errors
+    /// A periodic grid, or a viscosity that is not positive and finite.
+    pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
+        check_viscosity(viscosity)?;
+        if !grid.has_walls() {
+            return Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" });
+        }
+        let (nx, ny) = (grid.nx(), grid.ny());
+        let rows = RowTransform::new(nx);
+        let width = rows.width();
+        Ok(Self {
+            grid,
+            viscosity,
+            drive: Drive::default(),
+            walls: WallMotion::AT_REST,
+            wall_spectra: [vec![Complex64::ZERO; width], vec![Complex64::ZERO; width]],
+            modes: ChannelModes::new(nx, ny),
+            mean: MeanFlow::new(&grid, viscosity),
+            rows,
+            spectrum: vec![Complex64::ZERO; width * (ny - 1)],
+            below: vec![0.0; nx],
+            mean_u: vec![0.0; ny],
+            work: Work::default(),
+        })
+    }
+
+    /// Chooses what drives the flow in the solutions to come.
+    ///
+    /// # Errors
+    /// A value that is not finite.
+    pub fn set_drive(&mut self, drive: Drive) -> Result<(), StokesError> {
+        drive.check()?;
+        self.drive = drive;
+        Ok(())
+    }
+
+    /// What drives the flow.
+    #[must_use]
+    pub fn drive(&self) -> Drive {
+        self.drive
+    }
+
+    /// Moves the walls in the solutions to come.
+    ///
+    /// # Errors
+    /// Walls of a channel with another number of cells.
+    pub fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
+        walls.check(&self.grid)?;
+        for (wall, spectrum) in [Wall::Bottom, Wall::Top].into_iter().zip(&mut self.wall_spectra) {
+            walls.spectrum(wall, &mut self.rows, spectrum);
+        }
+        self.walls = walls;
+        Ok(())
+    }
+}
+
+impl StokesSolver for ChannelStokes {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn viscosity(&self) -> f64 {
+        self.viscosity
+    }
+
+    fn walls(&self) -> &WallMotion {
+        &self.walls
+    }
+
+    fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
+        check_grid(&self.grid, force.grid(), "the force")?;
+        check_grid(&self.grid, velocity.grid(), "the velocity")?;
+        let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
+        let width = self.rows.width();
+        let (fx, fy) = (force.x(), force.y());
+
+        // On the way up: the curl, its transform, and the elimination of the first Dirichlet problem. With h curl f on the
+        // right and psi / h on the left the stencils are bare differences; the transform's 1 / nx goes in here too.
+        let scale = h * h / (self.viscosity * nx as f64);
+        let mut total_y = 0.0;
+        self.mean_u[0] = sum(&fx[..nx]) / nx as f64;
+        for j in 1..ny {
+            let (fx_below, fx, fy) = (&fx[(j - 1) * nx..][..nx], &fx[j * nx..][..nx], &fy[j * nx..][..nx]);
+            self.mean_u[j] = sum(fx) / nx as f64;
+            total_y += sum(fy);
+            let (below, rest) = self.spectrum.split_at_mut((j - 1) * width);
+            let row = &mut rest[..width];
+            self.rows.forward(|out| curl(out, fx_below, fx, fy, scale), row);
+            self.modes.eliminate(j, &below[below.len().saturating_sub(width)..], row);
+        }
+        // The sum of a row with a value that is not finite is not finite.
+        check_finite("the sum of the force", self.mean_u.iter().sum::<f64>() + total_y)?;
+
+        let [bottom, top] = &self.wall_spectra;
+        self.modes.descend(&mut self.spectrum, bottom, top);
+        let walls = [self.walls.mean(Wall::Bottom), self.walls.mean(Wall::Top)];
+        let gradient = self.mean.solve(self.drive, walls, &mut self.mean_u);
+
+        // On the way up again: the second Dirichlet problem, the transform back and the differences.
+        let (u, v) = velocity.components_mut();
+        v[..nx].fill(0.0);
+        v[ny * nx..].fill(0.0);
+        self.below.fill(0.0);
+        for (j, row) in (1..ny).zip(self.spectrum.chunks_exact_mut(width)) {
+            self.modes.ascend(j, row);
+            let psi = self.rows.inverse(row);
+            // An overflow anywhere on the way reaches every value of this row.
+            if j == 1 && !psi[0].is_finite() {
+                return Err(StokesError::Overflow { name: "the velocity" });
+            }
+            let u = &mut u[(j - 1) * nx..][..nx];
+            let v = &mut v[j * nx..][..nx];
+            for (v, psi) in v.iter_mut().zip(psi.windows(2)) {
+                *v = psi[0] - psi[1];
+            }
+            v[nx - 1] = psi[nx - 1] - psi[0];
+            for ((u, psi), below) in u.iter_mut().zip(psi).zip(&mut self.below) {
+                *u = self.mean_u[j - 1] + (psi - *below);
+                *below = *psi;
+            }
+        }
+        for (u, below) in u[(ny - 1) * nx..].iter_mut().zip(&self.below) {
+            *u = self.mean_u[ny - 1] - below;
+        }
+
+        self.work.solves += 1;
+        self.work.forward_transforms += 1;
+        self.work.inverse_transforms += 1;
+        Ok(SolveReport { mean_pressure_gradient: [gradient, 0.0], ..SolveReport::default() })
+    }
+
+    /// From the momentum balance along x, `grad p = eta lap u + fx`, with one transform there and back; no Poisson problem.
+    fn pressure(
+        &mut self,
+        force: &StaggeredField,
+        velocity: &StaggeredField,
+        pressure: &mut CentreField,
+    ) -> Result<(), StokesError> {
+        check_grid(&self.grid, force.grid(), "the force")?;
+        check_grid(&self.grid, velocity.grid(), "the velocity")?;
+        check_grid(&self.grid, pressure.grid(), "the pressure")?;
+        let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
+        let (fx, fy, u) = (force.x(), force.y(), velocity.x());
+
+        // The part that does not depend on x balances the mean force along y.
+        let mut means = 0.0;
+        let mut mean = 0.0;
+        for j in 1..ny {
+            mean += h * sum(&fy[j * nx..][..nx]) / nx as f64;
+            means += mean;
+        }
+        mean = -means / ny as f64;
+
+        let row = &mut self.spectrum[..self.rows.width()];
+        let stress = self.viscosity / (h * h);
+        for j in 0..ny {
+            if j > 0 {
+                mean += h * sum(&fy[j * nx..][..nx]) / nx as f64;
+            }
+            let middle = &u[j * nx..][..nx];
+            let fx = &fx[j * nx..][..nx];
+            let fill = |out: &mut [f64]| {
+                for (i, out) in out.iter_mut().enumerate() {
+                    let below =
+                        if j > 0 { u[(j - 1) * nx + i] } else { 2.0 * self.walls.at(Wall::Bottom, i) - middle[i] };
+                    let above =
+                        if j + 1 < ny { u[(j + 1) * nx + i] } else { 2.0 * self.walls.at(Wall::Top, i) - middle[i] };
+                    let (left, right) = (if i > 0 { i - 1 } else { nx - 1 }, if i + 1 < nx { i + 1 } else { 0 });
+                    let laplacian = (middle[left] - middle[i])
+                        + (middle[right] - middle[i])
+                        + (below - middle[i])
+                        + (above - middle[i]);
+                    *out = stress * laplacian + fx[i];
+                }
+            };
+            self.rows.forward(fill, row);
+            // Division by the symbol (1 - exp(-I theta)) / h of the difference, theta = 2 pi m / nx.
+            for (m, value) in row.iter_mut().enumerate().skip(1) {
+                let half_angle = std::f64::consts::PI * m as f64 / nx as f64;
+                *value *= Complex64::new(0.5, -0.5 / half_angle.tan()) * (h / nx as f64);
+            }
+            row[0] = Complex64::new(mean, 0.0);
+            pressure.values_mut()[j * nx..][..nx].copy_from_slice(self.rows.inverse(row));
+        }
+        self.work.forward_transforms += 1;
+        self.work.inverse_transforms += 1;
+        Ok(())
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+}
+
+/// A row of the curl of a force, times `scale`: `(fy[i] - fy[i-1]) - (fx[i] - fx_below[i])`.
+fn curl(out: &mut [f64], fx_below: &[f64], fx: &[f64], fy: &[f64], scale: f64) {
+    let last = fy.len() - 1;
+    out[0] = scale * ((fy[0] - fy[last]) - (fx[0] - fx_below[0]));
+    for (((out, fy), fx), fx_below) in out[1..].iter_mut().zip(fy.windows(2)).zip(&fx[1..]).zip(&fx_below[1..]) {
+        *out = scale * ((fy[1] - fy[0]) - (fx - fx_below));
+    }
+}

@@ -1,0 +1,196 @@
+//! What follows from a velocity field.
+//!
+//! Each function checks that its fields share a grid and then writes `out`; nothing is allocated.
+
+use crate::checks::check_grid;
+use crate::sums::sum;
+use crate::{CentreField, NodeField, StaggeredField, StokesError, Wall, WallMotion};
+
+/// The divergence `du/dx + dv/dy` (1/time) at the centres: round-off for the solvers of this crate.
+///
+/// # Errors
+/// Fields of different grids.
+pub fn divergence(velocity: &StaggeredField, out: &mut CentreField) -> Result<(), StokesError> {
+    let grid = *velocity.grid();
+    check_grid(&grid, out.grid(), "the divergence")?;
+    divergence_unchecked(velocity, out);
+    Ok(())
+}
+
+/// [`divergence`] of fields known to share a grid.
+pub(crate) fn divergence_unchecked(velocity: &StaggeredField, out: &mut CentreField) {
+    let grid = *velocity.grid();
+    let (nx, h) = (grid.nx(), grid.spacing());
+    for (j, out) in out.values_mut().chunks_exact_mut(nx).enumerate() {
+        let u = &velocity.x()[j * nx..][..nx];
+        let (v, v_above) = v_rows(velocity, j);
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = ((u[right(i, nx)] - u[i]) + (v_above[i] - v[i])) / h;
+        }
+    }
+}
+
+/// The normal strain rates `D_xx = du/dx` and `D_yy = dv/dy` (1/time) at the centres.
+///
+/// # Errors
+/// Fields of different grids.
+pub fn normal_strain_rates(
+    velocity: &StaggeredField,
+    xx: &mut CentreField,
+    yy: &mut CentreField,
+) -> Result<(), StokesError> {
+    let grid = *velocity.grid();
+    check_grid(&grid, xx.grid(), "the strain rate")?;
+    check_grid(&grid, yy.grid(), "the strain rate")?;
+    let (nx, h) = (grid.nx(), grid.spacing());
+    for (j, (xx, yy)) in xx.values_mut().chunks_exact_mut(nx).zip(yy.values_mut().chunks_exact_mut(nx)).enumerate() {
+        let u = &velocity.x()[j * nx..][..nx];
+        let (v, v_above) = v_rows(velocity, j);
+        for i in 0..nx {
+            xx[i] = (u[right(i, nx)] - u[i]) / h;
+            yy[i] = (v_above[i] - v[i]) / h;
+        }
+    }
+    Ok(())
+}
+
+/// The shear strain rate `D_xy = (du/dy + dv/dx) / 2` (1/time) at the nodes. On a wall it is the one that balances momentum
+/// with the flow, see [`wall_shear_stress`]; `walls` are those of the solver, at rest in a periodic box.
+///
+/// # Errors
+/// Fields of different grids, or walls that do not belong to them.
+pub fn shear_strain_rate(
+    velocity: &StaggeredField,
+    walls: &WallMotion,
+    out: &mut NodeField,
+) -> Result<(), StokesError> {
+    cross_differences(velocity, walls, out, |u_slope, v_slope| 0.5 * (u_slope + v_slope))
+}
+
+/// The vorticity `dv/dx - du/dy` (1/time) at the nodes, which is minus the Laplacian of the streamfunction; `walls` are those
+/// of the solver, at rest in a periodic box.
+///
+/// # Errors
+/// Fields of different grids, or walls that do not belong to them.
+pub fn vorticity(velocity: &StaggeredField, walls: &WallMotion, out: &mut NodeField) -> Result<(), StokesError> {
+    cross_differences(velocity, walls, out, |u_slope, v_slope| v_slope - u_slope)
+}
+
+/// `combine(du/dy, dv/dx)` at the nodes.
+fn cross_differences(
+    velocity: &StaggeredField,
+    walls: &WallMotion,
+    out: &mut NodeField,
+    combine: impl Fn(f64, f64) -> f64,
+) -> Result<(), StokesError> {
+    let grid = *velocity.grid();
+    check_grid(&grid, out.grid(), "the field at the nodes")?;
+    walls.check(&grid)?;
+    let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
+    let u = |i: usize, j: usize| velocity.x()[j * nx + i];
+    for (j, out) in out.values_mut().chunks_exact_mut(nx).enumerate() {
+        let v = &velocity.y()[j * nx..][..nx];
+        for (i, out) in out.iter_mut().enumerate() {
+            let u_step = if grid.has_walls() && j == 0 {
+                2.0 * (u(i, 0) - walls.at(Wall::Bottom, i))
+            } else if grid.has_walls() && j == ny {
+                2.0 * (walls.at(Wall::Top, i) - u(i, ny - 1))
+            } else {
+                u(i, j) - u(i, if j > 0 { j - 1 } else { ny - 1 })
+            };
+            let v_step = v[i] - v[if i > 0 { i - 1 } else { nx - 1 }];
+            *out = combine(u_step / h, v_step / h);
+        }
+    }
+    Ok(())
+}
+
+/// The streamfunction (area per time) at the nodes, `u = d psi/dy`, `v = -d psi/dx`, of a velocity without divergence, by
+/// summation; accurate to a few units of round-off times the number of cells in a row.
+///
+/// In a channel psi is zero on the bottom wall and the flux on the top one. In a periodic box the mean velocity, which has no
+/// periodic streamfunction, is left out, and psi has mean zero.
+///
+/// # Errors
+/// Fields of different grids.
+pub fn streamfunction(velocity: &StaggeredField, out: &mut NodeField) -> Result<(), StokesError> {
+    let grid = *velocity.grid();
+    check_grid(&grid, out.grid(), "the streamfunction")?;
+    let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
+    let psi = out.values_mut();
+    if grid.has_walls() {
+        psi[..nx].fill(0.0);
+        for (k, u) in velocity.x().iter().enumerate() {
+            psi[k + nx] = psi[k] + h * u;
+        }
+        return Ok(());
+    }
+    let cells = (nx * ny) as f64;
+    let (mean_u, mean_v) = (sum(velocity.x()) / cells, sum(velocity.y()) / cells);
+    psi[0] = 0.0;
+    for j in 0..ny {
+        if j > 0 {
+            psi[j * nx] = psi[(j - 1) * nx] + h * (velocity.x()[(j - 1) * nx] - mean_u);
+        }
+        for k in j * nx + 1..(j + 1) * nx {
+            psi[k] = psi[k - 1] - h * (velocity.y()[k - 1] - mean_v);
+        }
+    }
+    let mean = sum(psi) / cells;
+    for psi in psi {
+        *psi -= mean;
+    }
+    Ok(())
+}
+
+/// The flux along x (area per time): the integral of u over y, averaged over x.
+#[must_use]
+pub fn flux(velocity: &StaggeredField) -> f64 {
+    sum(velocity.x()) * velocity.grid().spacing() / velocity.grid().nx() as f64
+}
+
+/// The shear stress on the fluid at a wall (force per length in 2D), `eta du/dy`, at the columns of nodes; `out` has `nx`
+/// values.
+///
+/// It is `2 eta (u - U) / h` with the velocity u half a cell from the wall, the value that balances momentum with the forces in
+/// the fluid exactly: force per length on the fluid is plus this at the top, minus this at the bottom. It is second-order accurate.
+///
+/// # Errors
+/// A periodic grid, walls of another grid, or an `out` of the wrong length.
+pub fn wall_shear_stress(
+    velocity: &StaggeredField,
+    viscosity: f64,
+    walls: &WallMotion,
+    wall: Wall,
+    out: &mut [f64],
+) -> Result<(), StokesError> {
+    let grid = *velocity.grid();
+    if !grid.has_walls() {
+        return Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" });
+    }
+    walls.check(&grid)?;
+    let (nx, h) = (grid.nx(), grid.spacing());
+    if out.len() != nx {
+        return Err(StokesError::WrongLength { name: "the wall shear stress", expected: nx, found: out.len() });
+    }
+    let (row, sign) = match wall {
+        Wall::Bottom => (0, 1.0),
+        Wall::Top => (grid.ny() - 1, -1.0),
+    };
+    for (i, (out, u)) in out.iter_mut().zip(&velocity.x()[row * nx..]).enumerate() {
+        *out = sign * 2.0 * viscosity * (u - walls.at(wall, i)) / h;
+    }
+    Ok(())
+}
+
+/// The y velocities below and above row `j` of centres.
+fn v_rows(velocity: &StaggeredField, j: usize) -> (&[f64], &[f64]) {
+    let grid = velocity.grid();
+    let nx = grid.nx();
+    let above = if j + 1 == grid.node_rows() { 0 } else { j + 1 };
+    (&velocity.y()[j * nx..][..nx], &velocity.y()[above * nx..][..nx])
+}
+
+fn right(i: usize, nx: usize) -> usize {
+    if i + 1 == nx { 0 } else { i + 1 }
+}

@@ -1,0 +1,182 @@
+//! The streamfunction solver of a doubly periodic box.
+
+use crate::checks::{check_finite, check_grid, check_viscosity};
+use crate::sums::sum;
+use crate::{CentreField, Grid, RealFft2, SolveReport, StaggeredField, StokesError, StokesSolver, Symbol, Work};
+
+/// Stokes flow in a doubly periodic box with one viscosity, by its streamfunction psi:
+///
+/// `eta (d2x + d2y)^2 psi = curl f`, `u = d psi/dy`, `v = -d psi/dx`,
+///
+/// with the differences of the staggered grid, so that the discrete divergence vanishes to round-off. It is the same discrete
+/// solution as that of the projection method (thesis (2.21)-(2.30), `ProjectionStokes`), for one forward and one inverse
+/// transform of a real field in place of three and three.
+///
+/// **Mean force and mean velocity.** The velocity has exactly the prescribed mean, zero unless
+/// [`PeriodicStokes::set_mean_velocity`] says otherwise. A uniform force moves nothing: it is balanced by a uniform pressure
+/// gradient, which [`SolveReport::mean_pressure_gradient`] has.
+///
+/// **Sizes.** Every size is correct, as [`RealFft2`] has it; even `nx` and numbers of cells with no prime factors but 2, 3 and 5
+/// are fast.
+#[derive(Debug)]
+pub struct PeriodicStokes {
+    grid: Grid,
+    viscosity: f64,
+    mean_velocity: [f64; 2],
+    transform: RealFft2,
+    biharmonic: Symbol,
+    poisson: Option<Symbol>,
+    first: Vec<f64>,
+    previous: Vec<f64>,
+    work: Work,
+}
+
+impl PeriodicStokes {
+    /// A solver for a periodic grid and a viscosity eta (stress times time).
+    ///
+    /// # Errors
+    /// A grid with walls, or a viscosity that is not positive and finite.
+    pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
+        check_viscosity(viscosity)?;
+        if grid.has_walls() {
+            return Err(StokesError::WrongBoundary { needed: "a periodic box", remedy: "Grid::periodic" });
+        }
+        let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
+        // With h curl f on the right and psi / h on the left both stencils are bare differences.
+        let biharmonic = Symbol::inverse_biharmonic(nx, ny, h * h / viscosity);
+        Ok(Self {
+            grid,
+            viscosity,
+            mean_velocity: [0.0; 2],
+            transform: RealFft2::new(nx, ny)?,
+            biharmonic,
+            poisson: None,
+            first: vec![0.0; nx],
+            previous: vec![0.0; nx],
+            work: Work::default(),
+        })
+    }
+
+    /// Prescribes the mean velocity (length per time) of the solutions to come: a uniform flow that is added to them.
+    ///
+    /// # Errors
+    /// A component that is not finite.
+    pub fn set_mean_velocity(&mut self, mean: [f64; 2]) -> Result<(), StokesError> {
+        mean.into_iter().try_for_each(|value| check_finite("mean velocity", value))?;
+        self.mean_velocity = mean;
+        Ok(())
+    }
+
+    /// The prescribed mean velocity (length per time).
+    #[must_use]
+    pub fn mean_velocity(&self) -> [f64; 2] {
+        self.mean_velocity
+    }
+}
+
+impl StokesSolver for PeriodicStokes {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn viscosity(&self) -> f64 {
+        self.viscosity
+    }
+
+    fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
+        check_grid(&self.grid, force.grid(), "the force")?;
+        check_grid(&self.grid, velocity.grid(), "the velocity")?;
+        let (nx, ny) = (self.grid.nx(), self.grid.ny());
+        let (fx, fy) = (force.x(), force.y());
+        let mut total = [0.0; 2];
+        self.transform.forward_rows(|j, row| {
+            let below = (j + ny - 1) % ny * nx;
+            let (fx_below, fx, fy) = (&fx[below..below + nx], &fx[j * nx..][..nx], &fy[j * nx..][..nx]);
+            row[0] = (fy[0] - fy[nx - 1]) - (fx[0] - fx_below[0]);
+            for (((out, fy), fx), fx_below) in row[1..].iter_mut().zip(fy.windows(2)).zip(&fx[1..]).zip(&fx_below[1..])
+            {
+                *out = (fy[1] - fy[0]) - (fx - fx_below);
+            }
+            total[0] += sum(fx);
+            total[1] += sum(fy);
+        });
+        // The sum of a row with a value that is not finite is not finite.
+        total.into_iter().try_for_each(|value| check_finite("the sum of the force", value))?;
+        self.transform.filter_columns(&self.biharmonic);
+
+        let [mean_u, mean_v] = self.mean_velocity;
+        let (u, v) = velocity.components_mut();
+        let (first, previous) = (&mut self.first, &mut self.previous);
+        let mut finite = true;
+        self.transform.inverse_rows(|j, psi| {
+            // An overflow anywhere in the transforms reaches every value of every row.
+            finite &= j > 0 || psi[0].is_finite();
+            if !finite {
+                return;
+            }
+            let v = &mut v[j * nx..][..nx];
+            for (v, psi) in v.iter_mut().zip(psi.windows(2)) {
+                *v = mean_v - (psi[1] - psi[0]);
+            }
+            v[nx - 1] = mean_v - (psi[0] - psi[nx - 1]);
+            if j == 0 {
+                first.copy_from_slice(psi);
+            } else {
+                difference(&mut u[(j - 1) * nx..][..nx], previous, psi, mean_u);
+            }
+            previous.copy_from_slice(psi);
+        });
+        if !finite {
+            return Err(StokesError::Overflow { name: "the velocity" });
+        }
+        difference(&mut u[(ny - 1) * nx..], previous, first, mean_u);
+
+        self.work.solves += 1;
+        self.work.forward_transforms += 1;
+        self.work.inverse_transforms += 1;
+        let cells = (nx * ny) as f64;
+        Ok(SolveReport { mean_pressure_gradient: total.map(|f| f / cells), ..SolveReport::default() })
+    }
+
+    /// One Poisson problem, `lap p = div f`; the velocity is not needed.
+    fn pressure(
+        &mut self,
+        force: &StaggeredField,
+        velocity: &StaggeredField,
+        pressure: &mut CentreField,
+    ) -> Result<(), StokesError> {
+        check_grid(&self.grid, force.grid(), "the force")?;
+        check_grid(&self.grid, velocity.grid(), "the velocity")?;
+        check_grid(&self.grid, pressure.grid(), "the pressure")?;
+        let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
+        let poisson = self.poisson.get_or_insert_with(|| Symbol::inverse_laplacian(nx, ny, -h));
+        let (fx, fy) = (force.x(), force.y());
+        let out = pressure.values_mut();
+        self.transform.filter(
+            poisson,
+            |j, row| {
+                let above = (j + 1) % ny * nx;
+                let (fx, fy, fy_above) = (&fx[j * nx..][..nx], &fy[j * nx..][..nx], &fy[above..][..nx]);
+                for (i, out) in row.iter_mut().enumerate() {
+                    let right = if i + 1 == nx { 0 } else { i + 1 };
+                    *out = (fx[right] - fx[i]) + (fy_above[i] - fy[i]);
+                }
+            },
+            |j, row| out[j * nx..][..nx].copy_from_slice(row),
+        );
+        self.work.forward_transforms += 1;
+        self.work.inverse_transforms += 1;
+        Ok(())
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+}
+
+/// `out = mean + upper - lower`.
+fn difference(out: &mut [f64], lower: &[f64], upper: &[f64], mean: f64) {
+    for ((out, lower), upper) in out.iter_mut().zip(lower).zip(upper) {
+        *out = mean + (upper - lower);
+    }
+}

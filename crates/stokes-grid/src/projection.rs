@@ -1,0 +1,149 @@
+//! The thesis' projection method.
+
+use crate::checks::{check_finite, check_grid, check_viscosity};
+use crate::projection_channel::ChannelProjection;
+use crate::projection_periodic::PeriodicProjection;
+use crate::sums::sum;
+use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
+
+/// Stokes flow with one viscosity by projection, thesis (2.21)-(2.30), in a periodic box or in a channel:
+///
+/// `eta lap v* = -f` (2.22), `lap phi = div v*` (2.23), `v = v* - grad phi` (2.29), `p = -eta lap phi`.
+///
+/// (The thesis' (2.30) lacks the minus sign, without which the momentum balance does not hold.) The solution is that of the
+/// whole discrete system, the same as that of [`crate::PeriodicStokes`] and [`crate::ChannelStokes`], which need less work: this
+/// is the reference, and the way the thesis went.
+///
+/// **Periodic box.** Three forward and three inverse transforms. The velocity has mean zero, a mean force is balanced by a
+/// uniform pressure gradient, which the report has.
+///
+/// **Channel.** The transform in x is real; across, v* goes by sines on the nodes (DST-I), u* by sines in the cells (DST-II, III),
+/// phi by cosines (DCT-II, III), each of which diagonalises its Laplacian. In place of the thesis' lagged wall value, the
+/// tangential value of v* on the two walls that makes v no-slip comes from a 2 x 2 system per wave number, so that one pass is
+/// exact. Forces along y in the first and last row lie on the walls and are ignored. [`Drive`] and [`WallMotion`] are as in
+/// [`crate::ChannelStokes`].
+///
+/// **Sizes.** Every size is correct; in both directions numbers of cells with no prime factors but 2, 3 and 5 are fast, and
+/// `nx` should be even.
+#[derive(Debug)]
+pub struct ProjectionStokes {
+    grid: Grid,
+    viscosity: f64,
+    region: Region,
+    work: Work,
+}
+
+#[derive(Debug)]
+enum Region {
+    Periodic(Box<PeriodicProjection>),
+    Channel(Box<ChannelProjection>),
+}
+
+impl ProjectionStokes {
+    /// A solver for a grid, periodic or a channel, and a viscosity eta (stress times time). A channel has walls at rest and no
+    /// mean pressure gradient.
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite.
+    pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
+        check_viscosity(viscosity)?;
+        let region = if grid.has_walls() {
+            Region::Channel(Box::new(ChannelProjection::new(grid, viscosity)))
+        } else {
+            Region::Periodic(Box::new(PeriodicProjection::new(grid, viscosity)?))
+        };
+        Ok(Self { grid, viscosity, region, work: Work::default() })
+    }
+
+    /// Chooses what drives the flow along a channel in the solutions to come.
+    ///
+    /// # Errors
+    /// A periodic box, or a value that is not finite.
+    pub fn set_drive(&mut self, drive: Drive) -> Result<(), StokesError> {
+        drive.check()?;
+        self.channel()?.set_drive(drive);
+        Ok(())
+    }
+
+    /// Moves the walls of a channel in the solutions to come.
+    ///
+    /// # Errors
+    /// A periodic box, or walls of a channel with another number of cells.
+    pub fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
+        let grid = self.grid;
+        let channel = self.channel()?;
+        walls.check(&grid)?;
+        channel.set_walls(walls);
+        Ok(())
+    }
+
+    fn channel(&mut self) -> Result<&mut ChannelProjection, StokesError> {
+        match &mut self.region {
+            Region::Channel(channel) => Ok(channel),
+            Region::Periodic(_) => Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" }),
+        }
+    }
+
+    fn check(&self, force: &StaggeredField, velocity: &Grid) -> Result<(), StokesError> {
+        check_grid(&self.grid, force.grid(), "the force")?;
+        check_grid(&self.grid, velocity, "the velocity")?;
+        let inner = if self.grid.has_walls() {
+            self.grid.nx()..self.grid.nx() * self.grid.ny()
+        } else {
+            0..self.grid.nx() * self.grid.ny()
+        };
+        // The sum of values that are not all finite is not finite.
+        check_finite("the sum of the force", sum(force.x()) + sum(&force.y()[inner]))
+    }
+}
+
+impl StokesSolver for ProjectionStokes {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn viscosity(&self) -> f64 {
+        self.viscosity
+    }
+
+    fn walls(&self) -> &WallMotion {
+        static AT_REST: WallMotion = WallMotion::AT_REST;
+        match &self.region {
+            Region::Channel(channel) => channel.walls(),
+            Region::Periodic(_) => &AT_REST,
+        }
+    }
+
+    fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
+        self.check(force, velocity.grid())?;
+        self.work.solves += 1;
+        let mean_pressure_gradient = match &mut self.region {
+            Region::Periodic(periodic) => periodic.solve(force, velocity, &mut self.work),
+            Region::Channel(channel) => channel.solve(force, velocity, &mut self.work),
+        };
+        if !(velocity.x()[0].is_finite() && velocity.y()[self.grid.nx()].is_finite()) {
+            return Err(StokesError::Overflow { name: "the velocity" });
+        }
+        Ok(SolveReport { mean_pressure_gradient, ..SolveReport::default() })
+    }
+
+    /// From the potential, `p = -eta lap phi`; the velocity is not needed, v* is computed again.
+    fn pressure(
+        &mut self,
+        force: &StaggeredField,
+        velocity: &StaggeredField,
+        pressure: &mut CentreField,
+    ) -> Result<(), StokesError> {
+        self.check(force, velocity.grid())?;
+        check_grid(&self.grid, pressure.grid(), "the pressure")?;
+        match &mut self.region {
+            Region::Periodic(periodic) => periodic.pressure(force, pressure, &mut self.work),
+            Region::Channel(channel) => channel.pressure(force, pressure, &mut self.work),
+        }
+        Ok(())
+    }
+
+    fn work(&self) -> Work {
+        self.work
+    }
+}

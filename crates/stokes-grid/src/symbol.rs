@@ -1,0 +1,67 @@
+//! Symmetric operators with constant coefficients, in wave numbers.
+
+use num_complex::Complex64;
+
+/// A real factor for each wave number that does not change when a wave number changes its sign: the effect of a symmetric
+/// linear operator with constant coefficients, to be applied by [`crate::RealFft2::filter`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Symbol {
+    nx: usize,
+    ny: usize,
+    values: Vec<f64>,
+}
+
+impl Symbol {
+    /// Minus the inverse of h^2 times the five-point Laplacian, times `factor`; the constant goes to zero.
+    pub(crate) fn inverse_laplacian(nx: usize, ny: usize, factor: f64) -> Self {
+        Self::new(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny) })
+    }
+
+    /// The inverse of h^4 times the square of the five-point Laplacian, times `factor`; the constant goes to zero.
+    pub(crate) fn inverse_biharmonic(nx: usize, ny: usize, factor: f64) -> Self {
+        Self::new(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny).powi(2) })
+    }
+
+    /// The factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by symmetry. The `1 / (nx ny)` of a
+    /// transform there and back is put in here, so that a factor of one everywhere gives the identity.
+    pub fn new(nx: usize, ny: usize, factor: impl Fn(usize, usize) -> f64) -> Self {
+        let scale = 1.0 / (nx as f64 * ny as f64);
+        let mut values = Vec::with_capacity((nx / 2 + 1) * (ny / 2 + 1));
+        for m in 0..=nx / 2 {
+            values.extend((0..=ny / 2).map(|n| scale * factor(m, n)));
+        }
+        Self { nx, ny, values }
+    }
+
+    pub(crate) fn fits(&self, nx: usize, ny: usize) -> bool {
+        self.nx == nx && self.ny == ny
+    }
+
+    fn column(&self, m: usize) -> &[f64] {
+        let rows = self.ny / 2 + 1;
+        &self.values[m * rows..(m + 1) * rows]
+    }
+
+    /// Multiplies one column of a spectrum: entries n and ny - n by the same factor.
+    pub(crate) fn apply(&self, m: usize, column: &mut [Complex64]) {
+        let factors = self.column(m);
+        let (low, high) = column.split_at_mut(factors.len());
+        for (value, &factor) in low.iter_mut().zip(factors) {
+            *value *= factor;
+        }
+        for (value, &factor) in high.iter_mut().rev().zip(&factors[1..]) {
+            *value *= factor;
+        }
+    }
+}
+
+/// `(2 sin(pi m / n))^2`: minus h^2 times the symbol of the three-point second difference.
+pub(crate) fn second_difference(m: usize, n: usize) -> f64 {
+    let s = 2.0 * (std::f64::consts::PI * m as f64 / n as f64).sin();
+    s * s
+}
+
+/// Minus h^2 times the symbol of the five-point Laplacian, thesis (2.28).
+fn laplacian(m: usize, n: usize, nx: usize, ny: usize) -> f64 {
+    second_difference(m, nx) + second_difference(n, ny)
+}

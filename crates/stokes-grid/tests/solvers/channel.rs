@@ -1,0 +1,230 @@
+//! Both channel solvers against a direct solution of the whole discrete system, against each other, and where the discrete
+//! solution is known.
+
+use crate::common::{distance, largest, random_force, relative_distance, residuals};
+use crate::dense;
+use approx::assert_abs_diff_eq;
+use stokes_grid::{
+    CentreField, ChannelStokes, Drive, Grid, ProjectionStokes, SolveReport, StaggeredField, StokesError, StokesSolver,
+    Wall, WallMotion, flux, wall_shear_stress,
+};
+
+const DRIVES: [Drive; 4] = [Drive::ZeroGradient, Drive::Gradient(0.7), Drive::ZeroFlux, Drive::Flux(-0.4)];
+
+fn streamfunction_solver(grid: Grid, eta: f64, walls: &WallMotion, drive: Drive) -> ChannelStokes {
+    let mut solver = ChannelStokes::new(grid, eta).unwrap();
+    solver.set_walls(walls.clone()).unwrap();
+    solver.set_drive(drive).unwrap();
+    solver
+}
+
+fn projection_solver(grid: Grid, eta: f64, walls: &WallMotion, drive: Drive) -> ProjectionStokes {
+    let mut solver = ProjectionStokes::new(grid, eta).unwrap();
+    solver.set_walls(walls.clone()).unwrap();
+    solver.set_drive(drive).unwrap();
+    solver
+}
+
+/// Velocity, pressure and report for a force.
+fn run(solver: &mut dyn StokesSolver, force: &StaggeredField) -> (StaggeredField, CentreField, SolveReport) {
+    let grid = *solver.grid();
+    let (mut velocity, mut pressure) = (StaggeredField::zeros(grid), CentreField::zeros(grid));
+    let report = solver.solve(force, &mut velocity).unwrap();
+    solver.pressure(force, &velocity, &mut pressure).unwrap();
+    (velocity, pressure, report)
+}
+
+fn sliding(grid: &Grid) -> WallMotion {
+    WallMotion::from_fn(grid, |x| 0.3 + (2.0 * x).sin(), |x| (3.0 * x).cos() - 0.1).unwrap()
+}
+
+#[test]
+fn both_solvers_agree_with_a_direct_solution_of_the_whole_system() {
+    let eta = 1.7;
+    let mut worst = [0.0f64; 3];
+    for (nx, ny) in [(2, 2), (2, 3), (3, 2), (4, 4), (5, 7), (12, 6), (9, 11), (16, 8)] {
+        let grid = Grid::channel(nx, ny, 0.11).unwrap();
+        for (k, drive) in DRIVES.into_iter().enumerate() {
+            for walls in [WallMotion::AT_REST, sliding(&grid)] {
+                let force = random_force(grid, 100 + k as u64);
+                let exact = dense::solve(grid, eta, &walls, drive, &force);
+                let solvers: [&mut dyn StokesSolver; 2] = [
+                    &mut streamfunction_solver(grid, eta, &walls, drive),
+                    &mut projection_solver(grid, eta, &walls, drive),
+                ];
+                for solver in solvers {
+                    let (velocity, pressure, report) = run(solver, &force);
+                    let errors = [
+                        relative_distance(&velocity, &exact.velocity),
+                        distance(pressure.values(), exact.pressure.values()) / largest(exact.pressure.values()),
+                        (report.mean_pressure_gradient[0] - exact.gradient).abs() / exact.gradient.abs().max(1.0),
+                    ];
+                    assert!(errors.iter().all(|&e| e < 1e-12), "{nx} x {ny}, {drive:?}: {errors:?}");
+                    assert_eq!(report.mean_pressure_gradient[1], 0.0);
+                    worst = std::array::from_fn(|i| worst[i].max(errors[i]));
+                }
+            }
+        }
+    }
+    println!("largest relative errors of velocity, pressure, gradient: {worst:?}");
+}
+
+#[test]
+fn the_solvers_agree_on_large_grids_and_satisfy_the_discrete_equations() {
+    let eta = 100.0;
+    for (nx, ny) in [(240, 40), (240, 100), (960, 400), (101, 53)] {
+        let grid = Grid::channel(nx, ny, 0.05).unwrap();
+        let walls = sliding(&grid);
+        for drive in DRIVES {
+            let force = random_force(grid, 9);
+            let (velocity, pressure, report) = run(&mut streamfunction_solver(grid, eta, &walls, drive), &force);
+            let (other, other_pressure, other_report) = run(&mut projection_solver(grid, eta, &walls, drive), &force);
+            let difference = relative_distance(&velocity, &other);
+            let in_pressure = distance(pressure.values(), other_pressure.values()) / largest(other_pressure.values());
+            let [momentum, divergence] = residuals(eta, &walls, &force, &velocity, &pressure, &report);
+            let [_, other_divergence] = residuals(eta, &walls, &force, &other, &other_pressure, &other_report);
+            // The terms of each equation, whose round-off is left.
+            let speed = largest(velocity.x()).max(largest(velocity.y()));
+            let momentum = momentum / (eta * speed / 0.05f64.powi(2));
+            let [divergence, other_divergence] = [divergence, other_divergence].map(|d| d / (speed / 0.05));
+            println!(
+                "{nx} x {ny} {drive:?}: difference {difference:.1e}, of pressure {in_pressure:.1e}, momentum {momentum:.1e}, \
+                 divergence {divergence:.1e} and {other_divergence:.1e}"
+            );
+            assert!(difference < 1e-10 && in_pressure < 1e-10);
+            assert!(momentum < 2e-12 && divergence < 2e-15 && other_divergence < 1e-13);
+            for walls_of_v in [&velocity.y()[..nx], &velocity.y()[ny * nx..]] {
+                assert!(walls_of_v.iter().all(|&v| v == 0.0));
+            }
+        }
+    }
+}
+
+#[test]
+fn poiseuille_flow_is_the_parabola_and_a_constant() {
+    let (ny, h, eta, gradient) = (40, 0.05, 3.0, -2.0);
+    let grid = Grid::channel(16, ny, h).unwrap();
+    let width = ny as f64 * h;
+    for solver in [
+        &mut streamfunction_solver(grid, eta, &WallMotion::AT_REST, Drive::Gradient(gradient)) as &mut dyn StokesSolver,
+        &mut projection_solver(grid, eta, &WallMotion::AT_REST, Drive::Gradient(gradient)),
+    ] {
+        let (velocity, pressure, report) = run(solver, &StaggeredField::zeros(grid));
+        for (k, u) in velocity.x().iter().enumerate() {
+            let y = ((k / 16) as f64 + 0.5) * h;
+            let expected = -gradient / (2.0 * eta) * (y * (width - y) + h * h / 4.0);
+            assert_abs_diff_eq!(*u, expected, epsilon = 1e-14);
+        }
+        assert!(largest(velocity.y()) < 1e-15 && largest(pressure.values()) < 1e-12);
+        assert_eq!(report.mean_pressure_gradient, [gradient, 0.0]);
+        // Half of the pressure's push is held by each wall, in the discrete flow exactly.
+        let mut stress = vec![0.0; 16];
+        for (wall, sign) in [(Wall::Bottom, 1.0), (Wall::Top, -1.0)] {
+            wall_shear_stress(&velocity, eta, &WallMotion::AT_REST, wall, &mut stress).unwrap();
+            stress.iter().for_each(|s| assert_abs_diff_eq!(*s, -sign * gradient * width / 2.0, epsilon = 1e-12));
+        }
+        let parabola = -gradient * width.powi(3) / (12.0 * eta);
+        assert_abs_diff_eq!(flux(&velocity) / parabola, 1.0 + 2.0 * (h / width).powi(2), epsilon = 1e-13);
+    }
+}
+
+#[test]
+fn couette_flow_is_exact() {
+    let grid = Grid::channel(12, 20, 0.1).unwrap();
+    let walls = WallMotion::uniform(&grid, -0.5, 1.5).unwrap();
+    for solver in [
+        &mut streamfunction_solver(grid, 3.0, &walls, Drive::ZeroGradient) as &mut dyn StokesSolver,
+        &mut projection_solver(grid, 3.0, &walls, Drive::ZeroGradient),
+    ] {
+        let (velocity, _, _) = run(solver, &StaggeredField::zeros(grid));
+        for (k, u) in velocity.x().iter().enumerate() {
+            assert_abs_diff_eq!(*u, -0.5 + 2.0 * ((k / 12) as f64 + 0.5) / 20.0, epsilon = 2e-14);
+        }
+        assert_eq!(solver.walls(), &walls);
+    }
+}
+
+#[test]
+fn a_closed_channel_balances_a_uniform_force_by_pressure() {
+    let grid = Grid::channel(12, 9, 0.1).unwrap();
+    let mut force = StaggeredField::zeros(grid);
+    force.components_mut().0.fill(0.8);
+    for solver in [
+        &mut streamfunction_solver(grid, 3.0, &WallMotion::AT_REST, Drive::ZeroFlux) as &mut dyn StokesSolver,
+        &mut projection_solver(grid, 3.0, &WallMotion::AT_REST, Drive::ZeroFlux),
+    ] {
+        let (velocity, _, report) = run(solver, &force);
+        assert!(largest(velocity.x()) < 1e-15 && largest(velocity.y()) < 1e-15);
+        assert_abs_diff_eq!(report.mean_pressure_gradient[0], 0.8, epsilon = 1e-14);
+    }
+}
+
+#[test]
+fn an_imposed_flux_is_met_and_forces_on_the_walls_do_nothing() {
+    let grid = Grid::channel(20, 12, 0.1).unwrap();
+    let force = random_force(grid, 3);
+    let mut inner = force.clone();
+    let (_, y) = inner.components_mut();
+    y[..20].fill(f64::NAN);
+    y[240..].fill(f64::NAN);
+    for solver in [
+        &mut streamfunction_solver(grid, 3.0, &sliding(&grid), Drive::Flux(0.37)) as &mut dyn StokesSolver,
+        &mut projection_solver(grid, 3.0, &sliding(&grid), Drive::Flux(0.37)),
+    ] {
+        let (velocity, pressure, _) = run(solver, &force);
+        assert_abs_diff_eq!(flux(&velocity), 0.37, epsilon = 1e-14);
+        let (again, pressure_again, _) = run(solver, &inner);
+        assert_eq!(velocity, again);
+        assert_eq!(pressure, pressure_again);
+    }
+}
+
+#[test]
+fn work_is_one_transform_each_way_and_two_with_projection() {
+    let grid = Grid::channel(12, 9, 0.1).unwrap();
+    let force = random_force(grid, 3);
+    let mut velocity = StaggeredField::zeros(grid);
+    let mut solver = ChannelStokes::new(grid, 1.0).unwrap();
+    let mut projection = ProjectionStokes::new(grid, 1.0).unwrap();
+    for _ in 0..3 {
+        solver.solve(&force, &mut velocity).unwrap();
+        projection.solve(&force, &mut velocity).unwrap();
+    }
+    let work = solver.work();
+    assert_eq!((work.solves, work.forward_transforms, work.inverse_transforms, work.iterations), (3, 3, 3, 0));
+    let work = projection.work();
+    assert_eq!((work.solves, work.forward_transforms, work.inverse_transforms, work.iterations), (3, 6, 6, 0));
+    let mut pressure = CentreField::zeros(grid);
+    solver.pressure(&force, &velocity, &mut pressure).unwrap();
+    assert_eq!((solver.work().forward_transforms, solver.work().inverse_transforms), (4, 4));
+}
+
+#[test]
+fn bad_input_ends_in_an_error_that_names_it() {
+    let grid = Grid::channel(12, 9, 0.1).unwrap();
+    let other = Grid::channel(12, 8, 0.1).unwrap();
+    let periodic = Grid::periodic(12, 9, 0.1).unwrap();
+    assert!(matches!(ChannelStokes::new(periodic, 1.0), Err(StokesError::WrongBoundary { .. })));
+    assert!(matches!(ChannelStokes::new(grid, f64::NAN), Err(StokesError::NotPositive { name: "viscosity", .. })));
+    assert!(matches!(WallMotion::uniform(&periodic, 0.0, 1.0), Err(StokesError::WrongBoundary { .. })));
+    assert!(matches!(WallMotion::uniform(&grid, 0.0, f64::INFINITY), Err(StokesError::NotFinite { .. })));
+    let mut solver = ChannelStokes::new(grid, 1.0).unwrap();
+    assert!(matches!(solver.set_drive(Drive::Flux(f64::NAN)), Err(StokesError::NotFinite { .. })));
+    let walls = WallMotion::uniform(&Grid::channel(13, 9, 0.1).unwrap(), 0.0, 1.0).unwrap();
+    let expected = StokesError::WrongLength { name: "the wall motion", expected: 12, found: 13 };
+    assert_eq!(solver.set_walls(walls), Err(expected));
+    let mut velocity = StaggeredField::zeros(grid);
+    let wrong = solver.solve(&StaggeredField::zeros(other), &mut velocity);
+    assert_eq!(wrong, Err(StokesError::GridMismatch { name: "the force" }));
+    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut force = random_force(grid, 1);
+        force.components_mut().0[17] = bad;
+        assert!(matches!(solver.solve(&force, &mut velocity), Err(StokesError::NotFinite { .. })));
+        let mut projection = ProjectionStokes::new(grid, 1.0).unwrap();
+        assert!(matches!(projection.solve(&force, &mut velocity), Err(StokesError::NotFinite { .. })));
+        assert_eq!(velocity, StaggeredField::zeros(grid));
+    }
+    let mut projection = ProjectionStokes::new(periodic, 1.0).unwrap();
+    assert!(matches!(projection.set_drive(Drive::ZeroFlux), Err(StokesError::WrongBoundary { .. })));
+    assert!(matches!(projection.set_walls(WallMotion::AT_REST), Err(StokesError::WrongBoundary { .. })));
+}

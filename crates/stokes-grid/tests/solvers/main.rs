@@ -1,0 +1,16 @@
+//! The solvers of this crate against the discrete equations, direct solutions, exact solutions and each other.
+
+#[cfg(test)]
+mod channel;
+#[cfg(test)]
+mod common;
+#[cfg(test)]
+mod convergence;
+#[cfg(test)]
+mod dense;
+#[cfg(test)]
+mod kinematics;
+#[cfg(test)]
+mod periodic;
+#[cfg(test)]
+mod properties;
