@@ -19,6 +19,9 @@ pub(crate) const MINIMUM_MARKERS: usize = 8;
 /// Most markers of an interface.
 const MAXIMUM_MARKERS: usize = 10_000_000;
 
+/// Largest ratio of the distances between neighbours in a list of markers.
+const MAXIMUM_UNEVENNESS: f64 = 4.0;
+
 /// Points that a smooth curve is checked and measured on.
 const SAMPLES: usize = 8192;
 
@@ -312,12 +315,20 @@ impl Curve {
 /// first stays the first).
 ///
 /// # Errors
-/// Fewer than eight points, points that are not finite or coincide, a crossing, no area.
+/// Fewer than eight points, points that are not finite or coincide, distances between neighbours that differ by more than
+/// a factor of four, a crossing, no area.
 pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError> {
     check_list(points, MINIMUM_MARKERS)?;
     let (area, length) = (raw_area(points), raw_perimeter(points));
     if area.abs() < 1e-9 * length * length {
         return Err(InterfaceError::NoArea { area, length });
+    }
+    let range = [f64::INFINITY, 0.0];
+    let [shortest, longest] = crate::polygon::edges(points)
+        .map(|(a, b)| (b - a).norm())
+        .fold(range, |[min, max], chord| [chord.min(min), chord.max(max)]);
+    if longest > MAXIMUM_UNEVENNESS * shortest {
+        return Err(InterfaceError::UnevenSpacing { ratio: longest / shortest, bound: MAXIMUM_UNEVENNESS });
     }
     let mut markers = points.to_vec();
     if area < 0.0 {

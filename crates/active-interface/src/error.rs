@@ -103,6 +103,17 @@ pub enum InterfaceError {
         /// The first of the two.
         index: usize,
     },
+    /// Points of very different distances.
+    #[error(
+        "the longest distance between neighbouring points is {ratio} times the shortest, more than {bound}: space them evenly, \
+         for instance by Curve::through_points"
+    )]
+    UnevenSpacing {
+        /// Longest over shortest distance.
+        ratio: f64,
+        /// What is allowed.
+        bound: f64,
+    },
     /// A curve that encloses no area.
     #[error("the curve encloses an area of {area}, too small for its length {length}")]
     NoArea {

@@ -103,6 +103,9 @@ fn points_as_they_are() {
     assert_eq!(markers[1], clockwise[8]);
     assert!(polygon_area(&markers).unwrap() > 0.0);
     assert!(markers_from_points(&clockwise[..7]).is_err());
+    let mut uneven = clockwise.clone();
+    uneven[4] = uneven[3].lerp(&uneven[4], 0.2);
+    assert!(matches!(markers_from_points(&uneven), Err(InterfaceError::UnevenSpacing { .. })));
 }
 
 #[test]
