@@ -8,7 +8,8 @@
 //! gamma = gamma0 - zeta_dmu c - Pi(c)             (2.39)
 //! F     = d(gamma tau)/ds                         (2.5), the force on the fluid
 //! ```
-//! The parts, each usable by itself, over plain slices of markers ([`Vec2`](ib_core::Vec2)) and numbers:
+//! [`ActiveDroplet`] is that droplet as a body of a scene ([`ib_core::Body`]). The parts it is made of, each usable by itself,
+//! work on plain slices of markers ([`Vec2`](ib_core::Vec2)) and numbers:
 //!
 //! * **Shapes**: [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
 //!   [`CrossingFinder`] tells whether an interface crosses itself; [`polygon_moments`] and its relatives are exact.
