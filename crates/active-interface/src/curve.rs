@@ -16,6 +16,12 @@ use crate::{InterfaceError, first_crossing};
 /// Fewest markers of an interface.
 pub(crate) const MINIMUM_MARKERS: usize = 8;
 
+/// Most markers of an interface.
+const MAXIMUM_MARKERS: usize = 10_000_000;
+
+/// Largest ratio of the distances between neighbours in a list of markers.
+const MAXIMUM_UNEVENNESS: f64 = 4.0;
+
 /// Points that a smooth curve is checked and measured on.
 const SAMPLES: usize = 8192;
 
@@ -260,10 +266,19 @@ impl Curve {
     /// (spacing)^2 times its curvature / 12.
     ///
     /// # Errors
-    /// Fewer than eight markers; so few that the polygon crosses itself; a curve whose chords could not be made equal;
+    /// Fewer than eight or more than ten million markers; so few that the polygon crosses itself; a curve whose chords could not be made equal;
     /// rotations or translations that are not finite.
     pub fn markers(&self, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
         enough("markers", count, MINIMUM_MARKERS)?;
+        if count > MAXIMUM_MARKERS {
+            let (minimum, maximum) = (MINIMUM_MARKERS as f64, MAXIMUM_MARKERS as f64);
+            return Err(InterfaceError::OutOfRange {
+                name: "the number of markers",
+                value: count as f64,
+                minimum,
+                maximum,
+            });
+        }
         finite("the rotation", self.rotation)?;
         all_points_finite("the translation", &[self.translation])?;
         let mut markers = if let Shape::Circle(_) = self.shape {
@@ -300,12 +315,20 @@ impl Curve {
 /// first stays the first).
 ///
 /// # Errors
-/// Fewer than eight points, points that are not finite or coincide, a crossing, no area.
+/// Fewer than eight points, points that are not finite or coincide, distances between neighbours that differ by more than
+/// a factor of four, a crossing, no area.
 pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError> {
     check_list(points, MINIMUM_MARKERS)?;
     let (area, length) = (raw_area(points), raw_perimeter(points));
     if area.abs() < 1e-9 * length * length {
         return Err(InterfaceError::NoArea { area, length });
+    }
+    let range = [f64::INFINITY, 0.0];
+    let [shortest, longest] = crate::polygon::edges(points)
+        .map(|(a, b)| (b - a).norm())
+        .fold(range, |[min, max], chord| [chord.min(min), chord.max(max)]);
+    if longest > MAXIMUM_UNEVENNESS * shortest {
+        return Err(InterfaceError::UnevenSpacing { ratio: longest / shortest, bound: MAXIMUM_UNEVENNESS });
     }
     let mut markers = points.to_vec();
     if area < 0.0 {

@@ -3,6 +3,7 @@
 use ib_core::Vec2;
 
 use crate::InterfaceError;
+use crate::error::all_points_finite;
 use crate::polygon::edges;
 
 /// `count` points of the closed curve `point`, a function of a parameter in [0, 1], from `point(0)` on, with equal
@@ -13,6 +14,7 @@ use crate::polygon::edges;
 pub(crate) fn equidistant(point: impl Fn(f64) -> Vec2, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
     let fine = (16 * count).max(4096);
     let samples: Vec<Vec2> = (0..fine).map(|i| point(i as f64 / fine as f64)).collect();
+    all_points_finite("the points of the curve", &samples)?;
     let mut arc = vec![0.0; fine + 1];
     for (i, (a, b)) in edges(&samples).enumerate() {
         arc[i + 1] = arc[i] + (b - a).norm();
@@ -30,6 +32,7 @@ pub(crate) fn equidistant(point: impl Fn(f64) -> Vec2, count: usize) -> Result<V
     let extent = points.iter().map(Vec2::amax).fold(0.0, f64::max);
     let mut best = f64::INFINITY;
     for _ in 0..200 {
+        all_points_finite("the points of the curve", &points)?;
         let chords: Vec<f64> = edges(&points).map(|(a, b)| (b - a).norm()).collect();
         let mean = chords.iter().sum::<f64>() / count as f64;
         let residual = chords.iter().map(|chord| (chord / mean - 1.0).abs()).fold(0.0, f64::max);
@@ -44,7 +47,8 @@ pub(crate) fn equidistant(point: impl Fn(f64) -> Vec2, count: usize) -> Result<V
             deficit += mean - chords[k - 1];
             let next = if k + 1 == count { 1.0 } else { old[k + 1] };
             let width = next - old[k - 1];
-            let move_by = deficit * width / (chords[k - 1] + chords[k]);
+            let length = chords[k - 1] + chords[k];
+            let move_by = if length > 0.0 { deficit * width / length } else { 0.0 };
             // Never past a neighbour.
             parameters[k] = old[k] + move_by.clamp(0.45 * (old[k - 1] - old[k]), 0.45 * (next - old[k]));
             points[k] = point(parameters[k]);

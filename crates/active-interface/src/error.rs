@@ -94,11 +94,25 @@ pub enum InterfaceError {
         /// The other segment.
         second: usize,
     },
+    /// A polygon that crosses itself, so that its moments of area are not those of a shape.
+    #[error("the second moments of area of the polygon are not positive: it crosses itself")]
+    Crossed,
     /// Two successive points of a curve coincide.
     #[error("points {index} and the next one of the curve coincide: remove one of them")]
     CoincidentPoints {
         /// The first of the two.
         index: usize,
+    },
+    /// Points of very different distances.
+    #[error(
+        "the longest distance between neighbouring points is {ratio} times the shortest, more than {bound}: space them evenly, \
+         for instance by Curve::through_points"
+    )]
+    UnevenSpacing {
+        /// Longest over shortest distance.
+        ratio: f64,
+        /// What is allowed.
+        bound: f64,
     },
     /// A curve that encloses no area.
     #[error("the curve encloses an area of {area}, too small for its length {length}")]

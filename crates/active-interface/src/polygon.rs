@@ -93,8 +93,7 @@ pub fn polygon_perimeter(points: &[Vec2]) -> Result<f64, InterfaceError> {
 pub fn polygon_moments(points: &[Vec2]) -> Result<AreaMoments, InterfaceError> {
     check(points)?;
     let (area, length) = (raw_area(points), raw_perimeter(points));
-    // NaN does not get here, but 0/0 would.
-    if area == 0.0 || !area.is_finite() {
+    if !(area.abs() > 1e-14 * length * length && area.is_finite()) {
         return Err(InterfaceError::NoArea { area, length });
     }
     Ok(raw_moments(points))

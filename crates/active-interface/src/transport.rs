@@ -1,6 +1,6 @@
 //! Particles carried along a closed curve by a flow and by diffusion.
 
-use crate::error::{all_positive, enough, length, not_negative};
+use crate::error::{all_finite, all_positive, enough, length, not_negative};
 use crate::face_value::{Flux, weno5};
 use crate::{CyclicTridiagonal, InterfaceError};
 
@@ -32,6 +32,9 @@ pub struct Transport {
 
 /// Fewest segments that a five-segment reconstruction makes sense on.
 const MINIMUM: usize = 6;
+
+/// What a number, length or velocity that is not finite shows up in.
+const FLUXES: &str = "the fluxes of particles";
 
 impl Transport {
     /// A plan for `segments` segments.
@@ -90,7 +93,7 @@ impl Transport {
     /// Face values are not allowed to be negative: where a reconstruction undershoots zero nothing flows.
     ///
     /// # Errors
-    /// Slices of the wrong length.
+    /// Slices of the wrong length; fluxes that are not finite (`rate` is then as it was).
     pub fn add_advection(
         &mut self,
         numbers: &[f64],
@@ -118,6 +121,7 @@ impl Transport {
             };
             *flux = face * velocity;
         }
+        all_finite(FLUXES, &self.fluxes)?;
         add_flux_differences(&self.fluxes, 1.0, rate);
         Ok(())
     }
@@ -126,7 +130,7 @@ impl Transport {
     /// squared per time).
     ///
     /// # Errors
-    /// Slices of the wrong length.
+    /// Slices of the wrong length; fluxes that are not finite (`out` is then as it was).
     pub fn add_diffusion(
         &mut self,
         lengths: &[f64],
@@ -138,7 +142,7 @@ impl Transport {
         self.check([("numbers", numbers.len()), ("lengths", lengths.len()), ("out", out.len())])?;
         length("diffusivities", self.len(), diffusivities.len())?;
         write_concentrations(numbers, lengths, &mut self.concentrations);
-        self.diffuse(lengths, diffusivities);
+        self.diffuse(lengths, diffusivities)?;
         add_flux_differences(&self.fluxes, factor, out);
         Ok(())
     }
@@ -151,7 +155,7 @@ impl Transport {
     ///
     /// # Errors
     /// Slices of the wrong length, lengths that are not positive, a negative factor, a singular system (negative
-    /// diffusivities).
+    /// diffusivities), fluxes that are not finite (`numbers` is then as it was).
     pub fn solve_diffusion(
         &mut self,
         lengths: &[f64],
@@ -175,17 +179,18 @@ impl Transport {
         }
         self.concentrations.copy_from_slice(numbers);
         self.solver.solve(&self.lower, &self.diagonal, &self.upper, &mut self.concentrations)?;
-        self.diffuse(lengths, diffusivities);
+        self.diffuse(lengths, diffusivities)?;
         add_flux_differences(&self.fluxes, factor, numbers);
         Ok(())
     }
 
     /// Diffusive fluxes of the concentrations in the scratch.
-    fn diffuse(&mut self, lengths: &[f64], diffusivities: &[f64]) {
+    fn diffuse(&mut self, lengths: &[f64], diffusivities: &[f64]) -> Result<(), InterfaceError> {
         let (c, m) = (&self.concentrations, self.concentrations.len());
         for (k, (flux, diffusivity)) in self.fluxes.iter_mut().zip(diffusivities).enumerate() {
             *flux = -diffusivity * (c[k] - c[before(k, 1, m)]) / spacing_at(lengths, k);
         }
+        all_finite(FLUXES, &self.fluxes)
     }
 }
 

@@ -103,6 +103,9 @@ fn points_as_they_are() {
     assert_eq!(markers[1], clockwise[8]);
     assert!(polygon_area(&markers).unwrap() > 0.0);
     assert!(markers_from_points(&clockwise[..7]).is_err());
+    let mut uneven = clockwise.clone();
+    uneven[4] = uneven[3].lerp(&uneven[4], 0.2);
+    assert!(matches!(markers_from_points(&uneven), Err(InterfaceError::UnevenSpacing { .. })));
 }
 
 #[test]
@@ -119,6 +122,12 @@ fn bad_curves_are_refused() {
     assert!(matches!(Curve::polygon(&twice), Err(InterfaceError::CoincidentPoints { index: 1 })));
     assert!(matches!(Curve::circle(1.0).unwrap().markers(7), Err(InterfaceError::TooFew { .. })));
     assert!(Curve::circle(1.0).unwrap().markers_with_spacing(0.0).is_err());
+    assert!(matches!(Curve::circle(1.0).unwrap().markers_with_spacing(1e-300), Err(InterfaceError::OutOfRange { .. })));
+    // Finite at the points that are checked at first, but not between them.
+    let hole = Curve::parametric(|t| {
+        if (1.0003..1.0008).contains(&t) { Vec2::new(f64::NAN, 0.0) } else { Vec2::new(t.cos(), t.sin()) }
+    });
+    assert!(hole.is_ok_and(|curve| curve.markers(5000).is_err()));
     assert!(Curve::circle(1.0).unwrap().translated(Vec2::new(f64::NAN, 0.0)).markers(20).is_err());
 }
 

@@ -98,7 +98,7 @@ fn extremum([a, b, c, d, e]: [f64; 5]) -> f64 {
 /// Signed curvature (1/length) of the active region of an interface: that of the circle fitted to its part by least
 /// squares, positive where it bulges outwards, negative where it is dented (thesis, section 2.3.4).
 ///
-/// The markers in the region count by their arc length; its ends are interpolated between markers.
+/// Every part of the region counts by its arc length; its ends are interpolated between markers.
 ///
 /// # Errors
 /// Fewer than eight markers, markers that are not finite, a region too short to fit a circle to.

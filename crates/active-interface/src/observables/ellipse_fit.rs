@@ -3,7 +3,7 @@
 use ib_core::Vec2;
 use nalgebra::{Matrix4, Vector4};
 
-use super::frame::{Frame, half_chords, raw_aspect_ratio};
+use super::frame::{Frame, aspect_ratio_of, half_chords};
 use crate::{InterfaceError, polygon_moments};
 
 /// An ellipse with its axes along those of a frame.
@@ -39,11 +39,8 @@ pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, Interf
     crate::error::enough("markers", markers.len(), 4)?;
     let moments = polygon_moments(markers)?;
     let no_fit = InterfaceError::NoFit { what: "an ellipse", points: markers.len() };
-    let ratio = raw_aspect_ratio(&moments, frame);
+    let ratio = aspect_ratio_of(&moments, frame)?;
     let radius = (moments.area.abs() / std::f64::consts::PI).sqrt();
-    if !(ratio.is_finite() && ratio > 0.0) {
-        return Err(no_fit);
-    }
     let centroid = frame.coordinates(moments.centroid);
     let points: Vec<(Vec2, f64)> = markers
         .iter()

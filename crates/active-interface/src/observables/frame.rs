@@ -103,16 +103,17 @@ pub(crate) fn raw_centroid_velocity(markers: &[Vec2], velocities: &[Vec2], momen
 /// it (no dimension): that of the ellipse with the same moments. Exact for the polygon through the markers.
 ///
 /// # Errors
-/// Fewer than three markers, values that are not finite, no area.
+/// Fewer than three markers, values that are not finite, no area, moments that no simple polygon has.
 pub fn aspect_ratio_from_moments(markers: &[Vec2], frame: &Frame) -> Result<f64, InterfaceError> {
-    Ok(raw_aspect_ratio(&polygon_moments(markers)?, frame))
+    aspect_ratio_of(&polygon_moments(markers)?, frame)
 }
 
-pub(crate) fn raw_aspect_ratio(moments: &AreaMoments, frame: &Frame) -> f64 {
+pub(crate) fn aspect_ratio_of(moments: &AreaMoments, frame: &Frame) -> Result<f64, InterfaceError> {
     let (c, s) = (frame.direction.x, frame.direction.y);
     let along = c * c * moments.xx + 2.0 * s * c * moments.xy + s * s * moments.yy;
     let across = s * s * moments.xx - 2.0 * s * c * moments.xy + c * c * moments.yy;
-    (along / across).sqrt()
+    let square = along / across;
+    if square > 0.0 && square.is_finite() { Ok(square.sqrt()) } else { Err(InterfaceError::Crossed) }
 }
 
 #[cfg(test)]

@@ -70,7 +70,8 @@ fn build(entry: impl Fn(usize, usize, usize) -> f64) -> [[[f64; 2]; 2]; 2] {
 /// The force moments of a droplet in the axes of `frame`, whose origin must be the centroid of its area.
 ///
 /// `forces` are those on the fluid at the markers (force, not force per length), `velocities` those of the fluid there
-/// (length per time; they matter for unequal viscosities only), `viscosities` those inside and outside.
+/// (length per time, in the frame of the fluid far away; they matter for unequal viscosities only), `viscosities` those
+/// inside and outside.
 ///
 /// # Errors
 /// Slices of different length, fewer than three markers, values that are not finite.
@@ -113,3 +114,6 @@ pub fn force_moments(
     }
     Ok(sums)
 }
+
+#[cfg(test)]
+mod tests;

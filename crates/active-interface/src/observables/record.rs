@@ -3,7 +3,7 @@
 use ib_core::Vec2;
 
 use super::fourier::{concentration_modes, shape_modes};
-use super::frame::{raw_aspect_ratio, raw_centroid_velocity};
+use super::frame::{aspect_ratio_of, raw_centroid_velocity};
 use super::{
     ActiveRegion, Convention, EllipseFit, ForceMoments, FourierModes, Frame, SquirmerFit, VelocityFrame,
     active_curvature, active_region, fit_ellipse, force_moments, squirmer_coefficients,
@@ -91,7 +91,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         perimeter: raw_perimeter(markers),
         particle_number: 0.0,
         concentration_range: None,
-        aspect_ratio_moments: raw_aspect_ratio(&area, &frame),
+        aspect_ratio_moments: aspect_ratio_of(&area, &frame)?,
         ellipse: fit_ellipse(markers, &frame).ok(),
         active_region: None,
         active_curvature: None,
@@ -220,3 +220,6 @@ const CONCENTRATION_MODES: [(usize, &str); 6] = [
     (5, "concentration_mode_5"),
     (6, "concentration_mode_6"),
 ];
+
+#[cfg(test)]
+mod tests;

@@ -61,8 +61,8 @@ fn a_plateau_turns_once_without_overshoot() {
         repaired += repair_positivity(&mut numbers).unwrap().moved;
     }
     let highest = numbers.iter().fold(0.0f64, |a, &b| a.max(b)) / h;
-    assert!(highest < 1.0 + 1e-3, "overshoot {}", highest - 1.0);
-    assert!(repaired < 1e-3, "{repaired}");
+    assert!(highest < 1.0 + 1e-6, "overshoot {}", highest - 1.0);
+    assert!(repaired < 1e-12, "{repaired}");
     // the edges stay within a few segments
     let distance: f64 = numbers.iter().zip(&start).map(|(a, b)| (a - b).abs()).sum::<f64>() / h;
     assert!(distance < 8.0, "{distance} segments");
@@ -98,6 +98,9 @@ fn peclet_number_and_errors() {
     assert!(Transport::new(5, Flux::Upwind).is_err());
     let mut transport = Transport::new(8, Flux::Upwind).unwrap();
     assert!(transport.add_advection(&[1.0; 8], &[1.0; 8], &[1.0; 8], &mut [0.0; 7]).is_err());
+    let mut rate = [0.5; 8];
+    let nothing = transport.add_advection(&[f64::NAN; 8], &[1.0; 8], &[1.0; 8], &mut rate);
+    assert!(matches!(nothing, Err(InterfaceError::EntryNotFinite { .. })) && rate == [0.5; 8]);
     assert!(transport.add_diffusion(&[1.0; 8], &[1.0; 3], &[1.0; 8], 1.0, &mut [0.0; 8]).is_err());
     assert!(transport.solve_diffusion(&[0.0; 8], &[1.0; 8], 1.0, &mut [1.0; 8]).is_err());
     assert!(transport.solve_diffusion(&[1.0; 8], &[1.0; 8], -1.0, &mut [1.0; 8]).is_err());

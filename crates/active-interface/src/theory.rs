@@ -1,0 +1,290 @@
+//! Linear theory of a round droplet in free space.
+
+use std::f64::consts::PI;
+
+use ib_core::Vec2;
+
+use crate::InterfaceError;
+use crate::error::{finite, not_negative, positive};
+
+/// What the linear theory of a round droplet needs to know.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoundDroplet {
+    /// Radius R0 (length).
+    pub radius: f64,
+    /// Viscosity inside (stress times time).
+    pub viscosity_inside: f64,
+    /// Viscosity outside (stress times time).
+    pub viscosity_outside: f64,
+    /// Tension gamma(c0) of the uniform state (force): gamma0 - zeta_dmu c0, less the excluded volume.
+    pub tension: f64,
+    /// Activity (force times length), zeta_dmu for the linear law; for any law minus the slope of the tension,
+    /// -d gamma/dc at c0. Negative for particles that contract.
+    pub activity: f64,
+    /// Mean concentration c0 (particles per length).
+    pub concentration: f64,
+    /// Diffusivity D along the interface (length squared per time).
+    pub diffusivity: f64,
+}
+
+/// Linear theory of a round droplet in unbounded fluid (thesis, section 2.1.1): growth rates, the threshold of
+/// swimming, its speed, and the flow of a perturbed droplet.
+///
+/// ```
+/// use active_interface::{LinearTheory, RoundDroplet};
+/// let droplet = RoundDroplet {
+///     radius: 1.0, viscosity_inside: 100.0, viscosity_outside: 100.0,
+///     tension: 60.0, activity: -0.5, concentration: 100.0, diffusivity: 0.1,
+/// };
+/// let theory = LinearTheory::new(droplet)?;
+/// assert!((theory.activity_threshold() + 0.4).abs() < 1e-15);
+/// assert!(theory.concentration_growth_rate(1) > 0.0); // it will swim
+/// # Ok::<(), active_interface::InterfaceError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinearTheory(RoundDroplet);
+
+impl LinearTheory {
+    /// The theory of this droplet.
+    ///
+    /// # Errors
+    /// A radius, viscosity or concentration that is not positive, a negative diffusivity, values that are not finite.
+    pub fn new(droplet: RoundDroplet) -> Result<Self, InterfaceError> {
+        positive("the radius", droplet.radius)?;
+        positive("the viscosity inside", droplet.viscosity_inside)?;
+        positive("the viscosity outside", droplet.viscosity_outside)?;
+        positive("the mean concentration", droplet.concentration)?;
+        not_negative("the diffusivity", droplet.diffusivity)?;
+        finite("the tension", droplet.tension)?;
+        finite("the activity", droplet.activity)?;
+        Ok(Self(droplet))
+    }
+
+    /// The droplet.
+    #[must_use]
+    pub fn droplet(&self) -> &RoundDroplet {
+        &self.0
+    }
+
+    fn viscosity_sum(&self) -> f64 {
+        self.0.viscosity_inside + self.0.viscosity_outside
+    }
+
+    /// Growth rate (1/time) of mode k >= 1 of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_out)).
+    ///
+    /// In a periodic box it is smaller: for k = 2 and equal viscosities 0.4179 gamma/(eta R0) instead of 0.5 in a box of 6 R0.
+    #[must_use]
+    pub fn shape_growth_rate(&self, k: u32) -> f64 {
+        -f64::from(k) * self.0.tension / (2.0 * self.0.radius * self.viscosity_sum())
+    }
+
+    /// Growth rate (1/time) of mode k >= 1 of the concentration, eq. (2.19): -k (zeta_dmu c0 / (2 R0 (eta_in + eta_out)) +
+    /// D k / R0^2).
+    #[must_use]
+    pub fn concentration_growth_rate(&self, k: u32) -> f64 {
+        let droplet = &self.0;
+        let k = f64::from(k);
+        let activity = droplet.activity * droplet.concentration / (2.0 * droplet.radius * self.viscosity_sum());
+        -k * (activity + droplet.diffusivity * k / (droplet.radius * droplet.radius))
+    }
+
+    /// The activity (force times length) below which the uniform state is unstable and the droplet swims, eq. (2.20):
+    /// -2 D (eta_in + eta_out) / (R0 c0).
+    #[must_use]
+    pub fn activity_threshold(&self) -> f64 {
+        let droplet = &self.0;
+        -2.0 * droplet.diffusivity * self.viscosity_sum() / (droplet.radius * droplet.concentration)
+    }
+
+    /// Velocity (length per time) of a round droplet with the concentration c0 + c1 cos(theta), along theta = pi, where
+    /// there are fewest particles for c1 > 0, eq. (2.59): -zeta_dmu c1 / (4 (eta_in + eta_out)).
+    ///
+    /// # Errors
+    /// An amplitude that is not finite.
+    pub fn swimming_speed(&self, first_mode: f64) -> Result<f64, InterfaceError> {
+        let amplitude = finite("the first mode of the concentration", first_mode)?;
+        Ok(-self.0.activity * amplitude / (4.0 * self.viscosity_sum()))
+    }
+
+    /// The flow due to c = c0 + concentration_amplitude cos(k theta) and r = R0 + radius_amplitude cos(k theta), to first
+    /// order in both, eqs. (2.9) to (2.15).
+    ///
+    /// # Errors
+    /// k = 0, amplitudes that are not finite.
+    pub fn mode_flow(
+        &self,
+        k: u32,
+        concentration_amplitude: f64,
+        radius_amplitude: f64,
+    ) -> Result<ModeFlow, InterfaceError> {
+        crate::error::enough("waves around the droplet", k as usize, 1)?;
+        let c = finite("the amplitude of the concentration", concentration_amplitude)?;
+        let r = finite("the amplitude of the radius", radius_amplitude)?;
+        let droplet = self.0;
+        let radius = droplet.radius;
+        let n = f64::from(k);
+        let active = droplet.activity * radius * c;
+        let scale = n / (4.0 * self.viscosity_sum());
+        Ok(ModeFlow {
+            k,
+            radius,
+            viscosities: [droplet.viscosity_inside, droplet.viscosity_outside],
+            alpha_inside: -scale * (active - (n - 1.0) * droplet.tension * r) / radius.powf(n + 2.0),
+            beta_inside: scale * (active - (n + 1.0) * droplet.tension * r) / radius.powf(n),
+            alpha_outside: -scale * radius.powf(n - 2.0) * (active + (n + 1.0) * droplet.tension * r),
+            beta_outside: scale * radius.powf(n) * (active + (n - 1.0) * droplet.tension * r),
+        })
+    }
+}
+
+/// Flow of one angular mode in and around a round droplet, the two-dimensional form of Lamb's solution.
+///
+/// ```text
+/// v_r     = (alpha r^(k+1) + beta r^(k-1)) cos k theta,                   inside     (2.9)
+///           (alpha r^(1-k) + beta r^(-k-1)) cos k theta,                  outside
+/// v_theta = -((k+2) alpha r^(k+1) + k beta r^(k-1)) sin(k theta) / k,     inside     (2.10)
+///           ((k-2) alpha r^(1-k) + k beta r^(-k-1)) sin(k theta) / k,     outside
+/// p       = 4 eta (k+1) alpha r^k cos(k theta) / k,                       inside     (2.11)
+///           4 eta (k-1) alpha r^-k cos(k theta) / k,                      outside
+/// ```
+/// In the thesis the outer v_theta has the opposite sign, with which the flow has sources. For k = 1 this is the frame of the
+/// droplet: far away the fluid moves with `alpha_outside` along theta = 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModeFlow {
+    k: u32,
+    radius: f64,
+    viscosities: [f64; 2],
+    alpha_inside: f64,
+    beta_inside: f64,
+    alpha_outside: f64,
+    beta_outside: f64,
+}
+
+impl ModeFlow {
+    /// The coefficients of eqs. (2.12) to (2.15): alpha and beta inside, alpha and beta outside.
+    #[must_use]
+    pub fn coefficients(&self) -> [f64; 4] {
+        [self.alpha_inside, self.beta_inside, self.alpha_outside, self.beta_outside]
+    }
+
+    /// Velocity (v_r, v_theta) (length per time) at the polar coordinates r > 0 (length) and theta (radians).
+    #[must_use]
+    pub fn velocity(&self, r: f64, theta: f64) -> [f64; 2] {
+        let k = f64::from(self.k);
+        let (radial, azimuthal) = if r <= self.radius {
+            let (a, b) = (self.alpha_inside * r.powf(k + 1.0), self.beta_inside * r.powf(k - 1.0));
+            (a + b, -((k + 2.0) * a + k * b) / k)
+        } else {
+            let (a, b) = (self.alpha_outside * r.powf(1.0 - k), self.beta_outside * r.powf(-k - 1.0));
+            (a + b, ((k - 2.0) * a + k * b) / k)
+        };
+        let (sin, cos) = (k * theta).sin_cos();
+        [radial * cos, azimuthal * sin]
+    }
+
+    /// Pressure (force per length), without the constants inside and outside.
+    #[must_use]
+    pub fn pressure(&self, r: f64, theta: f64) -> f64 {
+        let k = f64::from(self.k);
+        let radial = if r <= self.radius {
+            self.viscosities[0] * (k + 1.0) * self.alpha_inside * r.powf(k)
+        } else {
+            self.viscosities[1] * (k - 1.0) * self.alpha_outside * r.powf(-k)
+        };
+        4.0 / k * radial * (k * theta).cos()
+    }
+}
+
+/// The two-dimensional squirmer: a circle on which the fluid moves with v_r = 0 and v_theta = B1 sin(theta) + (B2/2)
+/// sin(2 theta) in its own frame (thesis, eq. 2.63), without a force on it, filled with fluid that moves along.
+///
+/// With rho = r/R it swims with the speed B1/2 along theta = 0; in its own frame
+/// ```text
+/// outside  v_r = -(B1/2)(1 - rho^-2) cos theta + (B2/2)(rho^-3 - rho^-1) cos 2 theta
+///          v_theta = (B1/2)(1 + rho^-2) sin theta + (B2/2) rho^-3 sin 2 theta
+/// inside   v_r = (B1/2)(1 - rho^2) cos theta + (B2/2)(rho - rho^3) cos 2 theta
+///          v_theta = (B1/2)(3 rho^2 - 1) sin theta + (B2/2)(2 rho^3 - rho) sin 2 theta
+/// ```
+///
+/// ```
+/// use active_interface::{SquirmerFlow, VelocityFrame};
+/// let pusher = SquirmerFlow::new(1.0, 1.0, -1.0)?;
+/// assert_eq!(pusher.speed(), 0.5);
+/// let ahead = pusher.velocity(ib_core::Vec2::new(3.0, 0.0), VelocityFrame::Laboratory);
+/// assert!(ahead.x > 0.0); // pushed along
+/// # Ok::<(), active_interface::InterfaceError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SquirmerFlow {
+    radius: f64,
+    b1: f64,
+    b2: f64,
+}
+
+impl SquirmerFlow {
+    /// The squirmer with this radius (length) and the coefficients B1 and B2 (length per time), centred at the origin and
+    /// swimming along x for B1 > 0.
+    ///
+    /// # Errors
+    /// A radius that is not positive, coefficients that are not finite.
+    pub fn new(radius: f64, b1: f64, b2: f64) -> Result<Self, InterfaceError> {
+        let radius = positive("the radius", radius)?;
+        Ok(Self { radius, b1: finite("B1", b1)?, b2: finite("B2", b2)? })
+    }
+
+    /// Swimming speed along x (length per time), B1/2.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        0.5 * self.b1
+    }
+
+    /// Velocity (v_r, v_theta) in the squirmer's frame (length per time) at the polar coordinates r (length) and theta
+    /// (radians).
+    #[must_use]
+    pub fn polar_velocity(&self, r: f64, theta: f64) -> [f64; 2] {
+        let rho = r / self.radius;
+        let (b1, b2) = (0.5 * self.b1, 0.5 * self.b2);
+        let (s1, c1) = theta.sin_cos();
+        let (s2, c2) = (2.0 * theta).sin_cos();
+        if rho <= 1.0 {
+            let (square, cube) = (rho * rho, rho * rho * rho);
+            [
+                b1 * (1.0 - square) * c1 + b2 * (rho - cube) * c2,
+                b1 * (3.0 * square - 1.0) * s1 + b2 * (2.0 * cube - rho) * s2,
+            ]
+        } else {
+            let (square, cube) = (rho.powi(-2), rho.powi(-3));
+            [-b1 * (1.0 - square) * c1 + b2 * (cube - 1.0 / rho) * c2, b1 * (1.0 + square) * s1 + b2 * cube * s2]
+        }
+    }
+
+    /// Velocity (length per time) at a point (length), in the squirmer's or in the laboratory frame.
+    #[must_use]
+    pub fn velocity(&self, point: Vec2, frame: crate::VelocityFrame) -> Vec2 {
+        let theta = point.y.atan2(point.x);
+        let [radial, azimuthal] = self.polar_velocity(point.norm(), theta);
+        let (sin, cos) = theta.sin_cos();
+        let velocity = Vec2::new(radial * cos - azimuthal * sin, radial * sin + azimuthal * cos);
+        match frame {
+            crate::VelocityFrame::CoMoving => velocity,
+            crate::VelocityFrame::Laboratory => velocity + Vec2::new(self.speed(), 0.0),
+        }
+    }
+
+    /// beta = B2/|B1| (no dimension); `None` for B1 = 0.
+    #[must_use]
+    pub fn beta(&self) -> Option<f64> {
+        crate::SquirmerFit { b1: self.b1, b2: self.b2 }.beta()
+    }
+}
+
+/// Radius (length) of the circle with this area (length squared).
+///
+/// # Errors
+/// An area that is not positive.
+pub fn equivalent_radius(area: f64) -> Result<f64, InterfaceError> {
+    Ok((positive("the area", area)? / PI).sqrt())
+}
+
+#[cfg(test)]
+mod tests;

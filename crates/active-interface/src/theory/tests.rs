@@ -1,0 +1,193 @@
+use super::*;
+use crate::VelocityFrame;
+use approx::assert_relative_eq;
+use proptest::prelude::*;
+
+fn theory(inside: f64, outside: f64) -> LinearTheory {
+    LinearTheory::new(RoundDroplet {
+        radius: 1.3,
+        viscosity_inside: inside,
+        viscosity_outside: outside,
+        tension: 4.0,
+        activity: -0.7,
+        concentration: 2.0,
+        diffusivity: 0.1,
+    })
+    .unwrap()
+}
+
+/// Velocity in Cartesian components.
+fn cartesian(flow: impl Fn(f64, f64) -> [f64; 2], x: f64, y: f64) -> [f64; 2] {
+    let theta = y.atan2(x);
+    let [r, t] = flow(x.hypot(y), theta);
+    [r * theta.cos() - t * theta.sin(), r * theta.sin() + t * theta.cos()]
+}
+
+/// Divergence, and the residual eta lap v - grad p, by central differences.
+fn stokes_residual(flow: &ModeFlow, eta: f64, x: f64, y: f64) -> f64 {
+    let h = 1e-3;
+    let v = |x, y| cartesian(|r, t| flow.velocity(r, t), x, y);
+    let p = |x: f64, y: f64| flow.pressure(x.hypot(y), y.atan2(x));
+    let centre = v(x, y);
+    let (e, w, n, s) = (v(x + h, y), v(x - h, y), v(x, y + h), v(x, y - h));
+    let divergence = (e[0] - w[0] + n[1] - s[1]) / (2.0 * h);
+    let laplacian = |i: usize| (e[i] + w[i] + n[i] + s[i] - 4.0 * centre[i]) / (h * h);
+    let fx = eta * laplacian(0) - (p(x + h, y) - p(x - h, y)) / (2.0 * h);
+    let fy = eta * laplacian(1) - (p(x, y + h) - p(x, y - h)) / (2.0 * h);
+    divergence.abs() + fx.abs() + fy.abs()
+}
+
+#[test]
+fn the_modes_solve_the_stokes_equations() {
+    for k in 1..=6 {
+        let flow = theory(3.0, 0.5).mode_flow(k, 0.8, 0.05).unwrap();
+        for (x, y) in [(0.4, 0.3), (-0.2, 0.9), (0.1, -0.6)] {
+            assert!(stokes_residual(&flow, 3.0, x, y) < 1e-4, "inside, k = {k}");
+        }
+        for (x, y) in [(1.4, 0.9), (-2.0, 0.3), (0.1, -1.7)] {
+            assert!(stokes_residual(&flow, 0.5, x, y) < 1e-4, "outside, k = {k}");
+        }
+    }
+}
+
+#[test]
+fn the_modes_satisfy_the_interface_conditions() {
+    // Continuity (2.6) and the stress balance (2.7), linearised about the circle, for either kind of perturbation.
+    let (inside, outside) = (3.0, 0.5);
+    let theory = theory(inside, outside);
+    let (radius, tension, activity) = (1.3, 4.0, -0.7);
+    for k in 1..=5u32 {
+        for (c, dr) in [(0.8, 0.0), (0.0, 0.05)] {
+            let flow = theory.mode_flow(k, c, dr).unwrap();
+            let h = 1e-5;
+            for theta in [0.3, 1.1, 2.5] {
+                let (a, b) = (flow.velocity(radius, theta), flow.velocity(radius * (1.0 + 1e-14), theta));
+                assert!((a[0] - b[0]).abs() < 1e-12 && (a[1] - b[1]).abs() < 1e-12, "continuity, k = {k}");
+                // Stresses by one-sided differences of second order, from either side.
+                let stress = |eta: f64, sign: f64| {
+                    let v = |i: f64| flow.velocity(radius + sign * (1e-9 + i * h), theta);
+                    let by_r = |j: usize| sign * (-3.0 * v(0.0)[j] + 4.0 * v(1.0)[j] - v(2.0)[j]) / (2.0 * h);
+                    let radial = flow.velocity(radius + sign * 1e-9, theta + h)[0]
+                        - flow.velocity(radius + sign * 1e-9, theta - h)[0];
+                    let p = flow.pressure(radius + sign * 1e-9, theta);
+                    let shear = eta * (by_r(1) - v(0.0)[1] / radius + radial / (2.0 * h * radius));
+                    [2.0 * eta * by_r(0) - p, shear]
+                };
+                let (inner, outer) = (stress(inside, -1.0), stress(outside, 1.0));
+                let n = f64::from(k);
+                // F = d gamma/ds tangentially, -gamma kappa normally; to first order gamma varies by -activity c cos(k
+                // theta) and kappa by (k^2 - 1) dr cos(k theta) / R^2. The uniform pressure jump has no shear, but
+                // for dr the normal turns: the jump -gamma/R along the turned normal balances itself.
+                let tangential = activity * c * n * (n * theta).sin() / radius;
+                let normal =
+                    -(tension * (n * n - 1.0) * dr / (radius * radius) - activity * c / radius) * (n * theta).cos();
+                assert_relative_eq!(inner[1] - outer[1], tangential, epsilon = 1e-6);
+                assert_relative_eq!(inner[0] - outer[0], normal, epsilon = 1e-6);
+            }
+        }
+    }
+}
+
+#[test]
+fn growth_rates_follow_from_the_flow() {
+    let theory = theory(3.0, 0.5);
+    let droplet = *theory.droplet();
+    for k in 1..=5 {
+        let shape = theory.mode_flow(k, 0.0, 1e-3).unwrap();
+        assert_relative_eq!(shape.velocity(1.3, 0.0)[0] / 1e-3, theory.shape_growth_rate(k), max_relative = 1e-12);
+        // dc/dt = -(c0/R) dv_theta/dtheta + (D/R^2) d^2c/dtheta^2 at theta = 0
+        let amplitude = 0.01;
+        let flow = theory.mode_flow(k, amplitude, 0.0).unwrap();
+        let h = 1e-6;
+        let slope = (flow.velocity(1.3, h)[1] - flow.velocity(1.3, -h)[1]) / (2.0 * h);
+        let diffusion = -droplet.diffusivity * f64::from(k * k) * amplitude / (1.3 * 1.3);
+        let rate = (-droplet.concentration / 1.3 * slope + diffusion) / amplitude;
+        assert_relative_eq!(rate, theory.concentration_growth_rate(k), max_relative = 1e-8);
+    }
+    // The threshold is where mode 1 neither grows nor decays.
+    let at = LinearTheory::new(RoundDroplet { activity: theory.activity_threshold(), ..droplet }).unwrap();
+    assert!(at.concentration_growth_rate(1).abs() < 1e-15);
+    assert!(at.concentration_growth_rate(2) < 0.0);
+    // Speed: the flow far away in the droplet's frame.
+    let far = theory.mode_flow(1, 0.8, 0.0).unwrap().velocity(1e9, 0.0)[0];
+    assert_relative_eq!(far, theory.swimming_speed(0.8).unwrap(), max_relative = 1e-12);
+}
+
+#[test]
+fn the_flow_of_the_reference_circle() {
+    // reference/fixed_shape_velocities_ratio_10.csv, circle, 1+0.5cos, L = inf: field points inside and outside
+    let theory = LinearTheory::new(RoundDroplet {
+        radius: 1.0,
+        viscosity_inside: 10.0,
+        viscosity_outside: 1.0,
+        tension: 1.0,
+        activity: -1.0,
+        concentration: 1.0,
+        diffusivity: 0.0,
+    })
+    .unwrap();
+    let flow = theory.mode_flow(1, 0.5, 0.0).unwrap();
+    let speed = theory.swimming_speed(0.5).unwrap();
+    let rows = [
+        [0.1, 0.2, -2.125e-2, -4.545_454_545_454_4e-4],
+        [-0.35, 0.4, -1.588_068_181_818_2e-2, 3.181_818_181_818_2e-3],
+        [1.7, 0.9, -1.726_542_267_082_8e-3, -2.540_009_296_766e-3],
+        [0.3, -1.8, 3.228_043_768_584_4e-3, 1.106_757_863_514_8e-3],
+    ];
+    for [x, y, vx, vy] in rows {
+        // The table has the laboratory frame; the droplet swims along -x.
+        let v = cartesian(|r, t| flow.velocity(r, t), x, y);
+        assert_relative_eq!(v[0] - speed, vx, epsilon = 1e-14);
+        assert_relative_eq!(v[1], vy, epsilon = 1e-14);
+    }
+}
+
+#[test]
+fn bad_values_are_refused() {
+    let good = *theory(1.0, 1.0).droplet();
+    assert!(LinearTheory::new(RoundDroplet { viscosity_outside: -1.0, ..good }).is_err());
+    assert!(LinearTheory::new(RoundDroplet { radius: f64::NAN, ..good }).is_err());
+    assert!(LinearTheory::new(RoundDroplet { diffusivity: -0.1, ..good }).is_err());
+    assert!(theory(1.0, 1.0).mode_flow(0, 1.0, 0.0).is_err());
+    assert!(theory(1.0, 1.0).swimming_speed(f64::NAN).is_err());
+    assert!(SquirmerFlow::new(0.0, 1.0, 1.0).is_err());
+    assert!(SquirmerFlow::new(1.0, f64::NAN, 1.0).is_err());
+    assert!(equivalent_radius(-1.0).is_err());
+    assert_relative_eq!(equivalent_radius(4.0 * PI).unwrap(), 2.0);
+}
+
+#[test]
+fn the_droplet_of_mode_one_is_a_neutral_squirmer() {
+    let theory = theory(2.0, 2.0);
+    let flow = theory.mode_flow(1, 0.8, 0.0).unwrap();
+    // theta = 0 is the rear: turn by pi.
+    let squirmer = SquirmerFlow::new(1.3, 2.0 * theory.swimming_speed(0.8).unwrap(), 0.0).unwrap();
+    for (r, theta) in [(0.4, 0.3), (1.2, 2.0), (1.31, 1.0), (4.0, -2.5)] {
+        let (a, b) = (flow.velocity(r, theta), squirmer.polar_velocity(r, theta - PI));
+        assert_relative_eq!(a[0], b[0], epsilon = 1e-13);
+        assert_relative_eq!(a[1], b[1], epsilon = 1e-13);
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_squirmer_flow_has_no_sources_and_its_velocity_on_the_circle(
+        b1 in -2.0..2.0f64, b2 in -2.0..2.0f64, x in -3.0..3.0f64, y in -3.0..3.0f64,
+    ) {
+        let squirmer = SquirmerFlow::new(1.5, b1, b2).unwrap();
+        let theta = y.atan2(x);
+        for r in [1.5, 1.5 * (1.0 + 1e-14)] {
+            let [radial, azimuthal] = squirmer.polar_velocity(r, theta);
+            prop_assert!(radial.abs() < 1e-12);
+            prop_assert!((azimuthal - b1 * theta.sin() - 0.5 * b2 * (2.0 * theta).sin()).abs() < 1e-12);
+        }
+        let r = x.hypot(y);
+        prop_assume!((r - 1.5).abs() > 0.01 && r > 0.05);
+        let h = 1e-4;
+        let v = |x: f64, y: f64| squirmer.velocity(Vec2::new(x, y), VelocityFrame::Laboratory);
+        let divergence = (v(x + h, y).x - v(x - h, y).x + v(x, y + h).y - v(x, y - h).y) / (2.0 * h);
+        prop_assert!(divergence.abs() < 1e-5, "{}", divergence);
+        let far = v(1e6 * x / r, 1e6 * y / r);
+        prop_assert!(far.norm() < 1e-5);
+    }
+}

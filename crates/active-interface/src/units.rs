@@ -1,0 +1,164 @@
+//! From the units of a calculation to SI.
+
+use crate::InterfaceError;
+use crate::error::{finite, positive};
+
+/// What is converted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Quantity {
+    /// Length, in m.
+    Length,
+    /// Time, in s.
+    Time,
+    /// Speed, in m/s.
+    Speed,
+    /// Viscosity, in Pa s.
+    Viscosity,
+    /// Surface tension, in N/m.
+    Tension,
+    /// Pressure, stress, elastic modulus, in Pa.
+    Stress,
+    /// Particles per length of interface, in 1/m.
+    Concentration,
+    /// Activity zeta delta-mu, tension per concentration, in N.
+    Activity,
+    /// Diffusivity, in m^2/s.
+    Diffusivity,
+}
+
+impl Quantity {
+    /// Its SI unit, as it is written.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Length => "m",
+            Self::Time => "s",
+            Self::Speed => "m/s",
+            Self::Viscosity => "Pa s",
+            Self::Tension => "N/m",
+            Self::Stress => "Pa",
+            Self::Concentration => "1/m",
+            Self::Activity => "N",
+            Self::Diffusivity => "m^2/s",
+        }
+    }
+}
+
+/// The units of a calculation: those of length, viscosity and tension are chosen, all others follow.
+///
+/// ```text
+/// time = viscosity length / tension    speed = tension / viscosity          stress = tension / length
+/// concentration = 1 / length           activity = tension length            diffusivity = tension length / viscosity
+/// ```
+/// ```
+/// use active_interface::{Quantity, Units};
+/// let units = Units::thesis();
+/// // a speed of 0.15 is 0.15 micrometres a second
+/// assert!((units.to_si(Quantity::Speed, 0.15)? - 0.15e-6).abs() < 1e-20);
+/// # Ok::<(), active_interface::InterfaceError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Units {
+    length: f64,
+    viscosity: f64,
+    tension: f64,
+}
+
+impl Units {
+    /// Units of length (m), viscosity (Pa s) and tension (N/m).
+    ///
+    /// # Errors
+    /// Values that are not positive.
+    pub fn new(length: f64, viscosity: f64, tension: f64) -> Result<Self, InterfaceError> {
+        Ok(Self {
+            length: positive("the unit of length", length)?,
+            viscosity: positive("the unit of viscosity", viscosity)?,
+            tension: positive("the unit of tension", tension)?,
+        })
+    }
+
+    /// The thesis' units (Appendix A): length R0 = 10 um; a viscosity of 100 is 1000 Pa s and a tension gamma0 of 10 is
+    /// 100 Pa um, so that the unit of time is 10 s, of speed 1 um/s.
+    ///
+    /// All of table A.1 follows, but for the activity: its unit is tension times length, 100 Pa um^2, where the table
+    /// has 1000 (with which the active part of the tension would be ten times that of the calculation).
+    #[must_use]
+    pub fn thesis() -> Self {
+        Self { length: 1e-5, viscosity: 10.0, tension: 1e-5 }
+    }
+
+    /// One unit of the quantity, in SI.
+    #[must_use]
+    pub fn unit(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Length => self.length,
+            Quantity::Time => self.viscosity * self.length / self.tension,
+            Quantity::Speed => self.tension / self.viscosity,
+            Quantity::Viscosity => self.viscosity,
+            Quantity::Tension => self.tension,
+            Quantity::Stress => self.tension / self.length,
+            Quantity::Concentration => 1.0 / self.length,
+            Quantity::Activity => self.tension * self.length,
+            Quantity::Diffusivity => self.tension * self.length / self.viscosity,
+        }
+    }
+
+    /// A value of the calculation, in SI.
+    ///
+    /// # Errors
+    /// A value that is not finite.
+    pub fn to_si(&self, quantity: Quantity, value: f64) -> Result<f64, InterfaceError> {
+        Ok(finite("the value to convert", value)? * self.unit(quantity))
+    }
+
+    /// A value in SI, in the units of the calculation.
+    ///
+    /// # Errors
+    /// A value that is not finite.
+    pub fn from_si(&self, quantity: Quantity, value: f64) -> Result<f64, InterfaceError> {
+        Ok(finite("the value to convert", value)? / self.unit(quantity))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn table_a_1() {
+        let units = Units::thesis();
+        let rows = [
+            (Quantity::Length, 1.0, 10e-6),
+            (Quantity::Viscosity, 10.0, 1e2),
+            (Quantity::Viscosity, 1e3, 1e4),
+            (Quantity::Diffusivity, 0.1, 1e-12),
+            (Quantity::Concentration, 100.0, 10e6),
+            (Quantity::Tension, 10.0, 100e-6),
+            (Quantity::Stress, 1e3, 1e3), // table A.2, elastic modulus
+        ];
+        for (quantity, value, si) in rows {
+            assert_relative_eq!(units.to_si(quantity, value).unwrap(), si, max_relative = 1e-14);
+            assert_relative_eq!(units.from_si(quantity, si).unwrap(), value, max_relative = 1e-14);
+        }
+        // The activity that makes the active tension of c0 what it is in the calculation; the table has 1.5e-8 N.
+        let activity = units.to_si(Quantity::Activity, 15.0).unwrap();
+        let concentration = units.to_si(Quantity::Concentration, 100.0).unwrap();
+        assert_relative_eq!(activity, 1.5e-9, max_relative = 1e-14);
+        let tension = units.to_si(Quantity::Tension, 1500.0).unwrap();
+        assert_relative_eq!(activity * concentration, tension, max_relative = 1e-14);
+    }
+
+    #[test]
+    fn derived_units_are_consistent() {
+        let units = Units::new(2.0, 3.0, 7.0).unwrap();
+        let unit = |quantity| units.unit(quantity);
+        assert_relative_eq!(unit(Quantity::Speed), unit(Quantity::Length) / unit(Quantity::Time));
+        assert_relative_eq!(unit(Quantity::Stress), unit(Quantity::Viscosity) / unit(Quantity::Time));
+        assert_relative_eq!(unit(Quantity::Diffusivity), unit(Quantity::Length).powi(2) / unit(Quantity::Time));
+        assert_relative_eq!(unit(Quantity::Activity) * unit(Quantity::Concentration), unit(Quantity::Tension));
+        assert_eq!(Quantity::Viscosity.unit(), "Pa s");
+        assert!(Units::new(0.0, 1.0, 1.0).is_err());
+        assert!(units.to_si(Quantity::Time, f64::NAN).is_err());
+    }
+}
