@@ -30,7 +30,7 @@ fn fixed_shapes_are_second_order() {
             assert!(order(&SPACINGS, &markers) > 1.8, "{what}");
             assert!(order(&SPACINGS, &field) > 1.8, "{what}");
             assert!(rows[1].markers.maximum < 3e-3 && rows[1].drive.abs() < 1e-3, "{what}");
-            assert!(rows[1].wall_shear.abs() < 1e-3, "{what}");
+            assert!(rows[1].wall_shear.abs() < 2e-3, "{what}");
         }
     }
 }

@@ -1,11 +1,12 @@
 //! Steady and transient swimmers against boundary-integral values.
 
 use motile::Swimmer;
+use motile::ib_core::StepSize;
 use motile_validation::swimmers::{SteadyErrors, long_run, reference_swimmer, steady, transient};
 
 fn run(base: &Swimmer, activity: f64, h: f64, ds: f64) -> SteadyErrors {
     let swimmer = Swimmer { marker_spacing: Some(ds), ..reference_swimmer(base, activity, h) };
-    steady(&swimmer, 60.0).unwrap()
+    steady(&swimmer, 60.0).expect("a swimmer of the reference table")
 }
 
 #[test]
@@ -33,7 +34,7 @@ fn speed_through_the_transient() {
 /// The thesis' method is too fast at its own resolution, at first order: kept so that its results can be reproduced.
 #[test]
 fn thesis_preset_is_first_order() {
-    let step = motile::ib_core::StepSize::Fixed(0.01);
+    let step = StepSize::Fixed(0.01);
     let base = Swimmer { step, ..Swimmer::thesis() };
     let errors = [0.1, 0.05].map(|h| run(&base, -4.0, h, 0.5 * h));
     assert!((0.02..0.1).contains(&errors[1].speed), "{errors:?}");

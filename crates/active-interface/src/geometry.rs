@@ -107,8 +107,8 @@ pub(crate) fn equidistribute(
     // W up to a constant, kept in `slip` for now.
     let mut w = 0.0;
     let mut sum = 0.0;
-    for k in 0..count {
-        slip[k] = w;
+    for (k, position) in slip.iter_mut().enumerate() {
+        *position = w;
         sum += w;
         w += mean_stretching - stretching(motion, k) + relaxation * (mean_length - geometry.lengths[k]);
     }

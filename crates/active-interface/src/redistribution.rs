@@ -4,7 +4,7 @@ use ib_core::Vec2;
 
 /// Splits segments longer than 1.5 times `target` and removes segments shorter than half of it, keeping every particle.
 ///
-/// A new marker lies on the cubic through the four nearest ones; the particles of a split segment are shared in
+/// A new marker lies on the cubic through the four nearest ones, in the chord length; the particles of a split segment are shared in
 /// proportion to the lengths of its halves. Returns how many markers were inserted and removed.
 pub(crate) fn redistribute(
     markers: &mut Vec<Vec2>,
@@ -21,7 +21,7 @@ pub(crate) fn redistribute(
         let length = (markers[next] - markers[k]).norm();
         if length > 1.5 * target {
             let (before, after) = (markers[(k + count - 1) % count], markers[(k + 2) % count]);
-            let middle = (9.0 * (markers[k] + markers[next]) - before - after) / 16.0;
+            let middle = midpoint([before, markers[k], markers[next], after]);
             let (first, second) = ((middle - markers[k]).norm(), (markers[next] - middle).norm());
             markers.insert(k + 1, middle);
             if carries {
@@ -47,6 +47,21 @@ pub(crate) fn redistribute(
         }
     }
     (inserted, removed)
+}
+
+/// The point half way (in chord length) between the two middle ones of four points, on the cubic through all of them.
+fn midpoint(points: [Vec2; 4]) -> Vec2 {
+    let mut at = [0.0; 4];
+    for i in 1..4 {
+        at[i] = at[i - 1] + (points[i] - points[i - 1]).norm();
+    }
+    let s = 0.5 * (at[1] + at[2]);
+    let mut sum = Vec2::zeros();
+    for i in 0..4 {
+        let weight: f64 = (0..4).filter(|&j| j != i).map(|j| (s - at[j]) / (at[i] - at[j])).product();
+        sum += weight * points[i];
+    }
+    sum
 }
 
 #[cfg(test)]

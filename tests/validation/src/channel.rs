@@ -2,7 +2,7 @@
 
 use motile::Swimmer;
 use motile::ib_core::{FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Vec2};
-use motile::stokes_grid::{ChannelStokes, Drive, Grid, StokesSolver, Wall, WallMotion, flux, wall_shear_stress};
+use motile::stokes_grid::{ChannelStokes, Drive, Grid, Wall, WallMotion, flux, wall_shear_stress};
 
 use crate::fixed_shapes::{Errors, Shape, couple};
 use crate::swimmers::look;
@@ -100,7 +100,7 @@ pub fn fixed_shape<K: Kernel>(
     let walls = WallMotion::uniform(&grid, 0.0, 0.0)?;
     wall_shear_stress(flow.velocity_field(), 1.0, &walls, Wall::Top, &mut shear)?;
     let exact = global.value("wall_shear_top_sum")?;
-    let wall_shear = (shear.iter().sum::<f64>() * h - exact) / exact.abs().max(1.0);
+    let wall_shear = (shear.iter().sum::<f64>() * h - exact) / exact.abs().max(0.1);
 
     let field = velocities.select("kind", "field");
     let (x, y, vx, vy) = (field.column("x")?, field.column("y")?, field.column("vx")?, field.column("vy")?);
@@ -174,7 +174,17 @@ pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SwimmerErrors, StudyError>
     })
 }
 
-/// The solver of a channel as the studies use it, for its name in tables.
+/// Speed of a swimmer in a channel after `time`.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn speed(swimmer: &Swimmer, drive: Drive, time: f64) -> Result<f64, StudyError> {
+    let (mut scene, droplet) = swimmer.build_in_channel(drive)?;
+    scene.run(time).step_size(swimmer.step).go()?;
+    Ok(look(&mut scene, droplet)?.speed())
+}
+
+/// The drives of the reference tables, with their names.
 #[must_use]
 pub fn drives() -> [(&'static str, Drive); 2] {
     [("zero gradient", Drive::ZeroGradient), ("zero flux", Drive::ZeroFlux)]
@@ -182,6 +192,8 @@ pub fn drives() -> [(&'static str, Drive); 2] {
 
 #[cfg(test)]
 mod tests {
+    use motile::stokes_grid::StokesSolver;
+
     use super::*;
 
     #[test]

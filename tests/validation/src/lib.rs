@@ -17,6 +17,7 @@ pub mod growth;
 mod order;
 mod reference;
 pub mod relaxation;
+pub mod resolution;
 pub mod swimmers;
 mod table;
 

@@ -1,0 +1,411 @@
+//! Compares motile with exact and independently computed values, study by study, and prints the tables of
+//! `docs/validation.md`.
+//!
+//! `cargo run --release --example validation -- all` runs everything (about half an hour on one core), a study's name
+//! only that study; `--quick` leaves out the finest grids.
+
+use clap::{Parser, ValueEnum};
+use motile::Swimmer;
+use motile::active_interface::Motion;
+use motile::ib_core::{AnyKernel, Kernel, StepSize};
+use motile::stokes_grid::Drive;
+use motile_validation::growth::Mode;
+use motile_validation::swimmers::{LongRun, long_run, reference_swimmer, steady, transient};
+use motile_validation::{Case, StudyError, Table, channel, fixed_shapes, growth, order, relaxation, resolution};
+
+/// A study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Study {
+    All,
+    FixedShapes,
+    Relaxation,
+    Growth,
+    Steady,
+    Transient,
+    Threshold,
+    MarkerSpacing,
+    LongRun,
+    Invariance,
+    ChannelShapes,
+    ChannelSwimmers,
+    ChannelLength,
+}
+
+/// Compares motile with exact and independently computed values.
+#[derive(Debug, Parser)]
+struct Flags {
+    /// Which comparison.
+    #[arg(value_enum, default_value = "all")]
+    study: Study,
+    /// Leave out the finest grids and the longest runs.
+    #[arg(long)]
+    quick: bool,
+}
+
+type Tables = Result<Vec<Table>, StudyError>;
+
+fn main() -> anyhow::Result<()> {
+    let flags = Flags::parse();
+    let studies: [(Study, fn(bool) -> Tables); 12] = [
+        (Study::FixedShapes, fixed),
+        (Study::Relaxation, relax),
+        (Study::Growth, grow),
+        (Study::Steady, swim),
+        (Study::Transient, start),
+        (Study::Threshold, threshold),
+        (Study::MarkerSpacing, marker_spacing),
+        (Study::LongRun, long),
+        (Study::Invariance, invariance),
+        (Study::ChannelShapes, channel_shapes),
+        (Study::ChannelSwimmers, channel_swimmers),
+        (Study::ChannelLength, channel_length),
+    ];
+    for (study, run) in studies {
+        if flags.study == Study::All || flags.study == study {
+            for table in run(flags.quick)? {
+                println!("{table}");
+            }
+        }
+    }
+    Ok(())
+}
+
+fn spacings(quick: bool) -> &'static [f64] {
+    if quick { &[0.1, 0.05] } else { &[0.1, 0.05, 0.025] }
+}
+
+fn per_cent(value: f64) -> String {
+    format!("{:.3}", 100.0 * value)
+}
+
+fn fixed(quick: bool) -> Tables {
+    let spacings = spacings(quick);
+    let mut table = Table::new(
+        "Marker velocities on fixed shapes: largest error over eight markers, % of the largest velocity",
+        &["kernel", "correction", "shape, tension", "errors at h = 0.1, 0.05, 0.025", "order"],
+    );
+    for kernel in AnyKernel::ALL {
+        for corrected in [false, true] {
+            for case in Case::ALL {
+                let errors = spacings
+                    .iter()
+                    .map(|&h| Ok(fixed_shapes::errors(&kernel, corrected, h, case)?.maximum))
+                    .collect::<Result<Vec<_>, StudyError>>()?;
+                table.push([
+                    kernel.name().to_owned(),
+                    if corrected { "on" } else { "off" }.to_owned(),
+                    case.name().to_owned(),
+                    errors.iter().map(|&e| per_cent(e)).collect::<Vec<_>>().join(" / "),
+                    format!("{:.2}", order(spacings, &errors)),
+                ]);
+            }
+        }
+    }
+    Ok(vec![table])
+}
+
+fn relax(quick: bool) -> Tables {
+    let mut table = Table::new(
+        "Relaxation of an ellipse to t = 2: error of the aspect ratio, change of the area",
+        &["h", "dt", "error of the aspect ratio", "relative change of the area"],
+    );
+    for &h in spacings(quick) {
+        for dt in [0.04, 0.01, 0.0025] {
+            let run = relaxation::run(h, dt)?;
+            let (error, area) = (format!("{:.2e}", run.aspect_ratio_error), format!("{:.1e}", run.area_change));
+            table.push([h.to_string(), dt.to_string(), error, area]);
+        }
+    }
+    Ok(vec![table])
+}
+
+fn grow(quick: bool) -> Tables {
+    let mut table = Table::new(
+        "Growth rates of small perturbations, box effect removed, h = 0.05: error in %",
+        &["mode", "theory", "default", "error", "thesis preset", "error"],
+    );
+    let (accurate, thesis) = (Swimmer::default(), Swimmer::thesis());
+    let modes = if quick { &Mode::ALL[..3] } else { &Mode::ALL[..] };
+    for &mode in modes {
+        let theory = mode.theory(&accurate);
+        let rates = [growth::rate(&accurate, mode)?, growth::rate(&thesis, mode)?];
+        let mut row = vec![format!("{mode:?}"), format!("{theory:.4}")];
+        for rate in rates {
+            row.push(format!("{rate:.4}"));
+            row.push(per_cent((rate - theory) / theory.abs()));
+        }
+        table.push(row);
+    }
+    Ok(vec![table])
+}
+
+fn swim(quick: bool) -> Tables {
+    let mut table = Table::new(
+        "Steady swimmers in a 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active fraction, maximum concentration",
+        &["preset", "activity", "h", "ds", "errors", "area change", "steps", "seconds"],
+    );
+    let accurate: &[(f64, f64)] = if quick {
+        &[(0.2, 0.05), (0.1, 0.05), (0.05, 0.025)]
+    } else {
+        &[(0.2, 0.05), (0.1, 0.05), (0.1, 0.025), (0.05, 0.025), (0.05, 0.0125), (0.025, 0.0125)]
+    };
+    let thesis: &[(f64, f64)] =
+        if quick { &[(0.1, 0.05), (0.05, 0.025)] } else { &[(0.2, 0.1), (0.1, 0.05), (0.05, 0.025), (0.025, 0.0125)] };
+    for activity in [-2.0, -4.0] {
+        for (name, base, resolutions) in
+            [("default", Swimmer::default(), accurate), ("thesis", Swimmer::thesis(), thesis)]
+        {
+            for &(h, ds) in resolutions {
+                let mut swimmer = Swimmer { marker_spacing: Some(ds), ..reference_swimmer(&base, activity, h) };
+                if name == "thesis" {
+                    // The error of the time step is far below that of the grid at ten times the thesis' step.
+                    swimmer.step = StepSize::Fixed(0.2 * h);
+                }
+                let clock = std::time::Instant::now();
+                let errors = steady(&swimmer, 80.0)?;
+                table.push([
+                    name.to_owned(),
+                    activity.to_string(),
+                    h.to_string(),
+                    ds.to_string(),
+                    errors.list().map(per_cent).join(" / "),
+                    format!("{:.1e}", errors.area_change),
+                    errors.steps.to_string(),
+                    format!("{:.1}", clock.elapsed().as_secs_f64()),
+                ]);
+            }
+        }
+    }
+    Ok(vec![table])
+}
+
+fn start(quick: bool) -> Tables {
+    let mut table =
+        Table::new("Transient at activity -1: largest relative error of the speed", &["h", "error in %", "at time"]);
+    for &h in spacings(quick) {
+        let (error, time) = transient(&Swimmer::default(), h)?;
+        table.push([h.to_string(), per_cent(error), time.to_string()]);
+    }
+    Ok(vec![table])
+}
+
+fn threshold(quick: bool) -> Tables {
+    let mut table = Table::new(
+        "A perturbed droplet, viscosity 100, box 6: does it swim?",
+        &["activity", "until", "largest speed in the first half", "speed at the end", "verdict"],
+    );
+    for activity in [-0.3, -0.5] {
+        let run = resolution::perturbed(activity, 0.1, if quick { 200.0 } else { 400.0 })?;
+        let verdict = if run.swims { "swims" } else { "comes to rest" };
+        table.push([
+            activity.to_string(),
+            run.time.to_string(),
+            format!("{:.2e}", run.largest_early_speed),
+            format!("{:.2e}", run.speed),
+            verdict.to_owned(),
+        ]);
+    }
+    Ok(vec![table])
+}
+
+fn marker_spacing(_quick: bool) -> Tables {
+    let mut table = Table::new(
+        "Marker spacing at fixed h = 0.1: viscosity 10, activity -2, speed at t = 3",
+        &["ds", "speed", "cell Peclet number", "warned"],
+    );
+    for ds in [0.05, 0.025, 0.0125, 0.00625] {
+        let row = resolution::marker_spacing(ds)?;
+        table.push([
+            ds.to_string(),
+            format!("{:.4}", row.speed),
+            format!("{:.2}", row.peclet),
+            if row.warned { "yes" } else { "no" }.to_owned(),
+        ]);
+    }
+    Ok(vec![table])
+}
+
+fn push_run(table: &mut Table, name: String, run: &LongRun) {
+    table.push([
+        name,
+        format!("{:.6}", run.speed),
+        format!("{:.1e}", run.speed_spread),
+        format!("{:.1e}", run.area_change),
+        format!("{:.0e}", run.particle_change),
+        format!("{:.1e}", run.perimeter_creep),
+        format!("{:.2e}", run.turning_rate),
+    ]);
+}
+
+const RUN_HEADER: [&str; 7] = [
+    "run",
+    "speed",
+    "spread of speed in the second half",
+    "area change",
+    "particle change",
+    "change of the perimeter in the second half",
+    "turning rate",
+];
+
+fn long(quick: bool) -> Tables {
+    let mut table = Table::new("A long run: activity -4, A = 10, box 6, to t = 250 (quick: 60)", &RUN_HEADER);
+    let unfiltered = Motion::Equidistributed { relaxation: 5.0, filter: false };
+    for h in if quick { vec![0.1] } else { vec![0.1, 0.05] } {
+        let swimmer = Swimmer { activity: -4.0, spacing: h, ..Swimmer::default() };
+        let time = if quick { 60.0 } else { 250.0 };
+        push_run(&mut table, format!("h = {h}"), &long_run(&swimmer, time)?);
+        let swimmer = Swimmer { motion: unfiltered, ..swimmer };
+        match long_run(&swimmer, time) {
+            Ok(run) => push_run(&mut table, format!("h = {h}, without the filter"), &run),
+            Err(error) => table.push([format!("h = {h}, without the filter"), format!("ends: {error}")]),
+        }
+    }
+    Ok(vec![table])
+}
+
+fn invariance(quick: bool) -> Tables {
+    let mut tables = Vec::new();
+    for h in if quick { vec![0.1] } else { vec![0.1, 0.05] } {
+        let title = format!("Headings and sub-grid offsets: activity -4, A = 10, 12 x 12 box, h = {h}, to t = 40");
+        let mut table = Table::new(&title, &RUN_HEADER);
+        let mut speeds = Vec::new();
+        for degrees in [0.0_f64, 15.0, 30.0, 45.0] {
+            for offset in [[0.0, 0.0], [0.0, 0.3], [0.3, 0.5], [0.5, 0.5], [0.25, 0.7]] {
+                if quick && degrees > 0.0 && offset != [0.0, 0.0] {
+                    continue;
+                }
+                let swimmer = Swimmer {
+                    activity: -4.0,
+                    spacing: h,
+                    lengths: [12.0, 12.0],
+                    angle: degrees.to_radians(),
+                    offset: offset.map(|x| x * h),
+                    ..Swimmer::default()
+                };
+                let run = long_run(&swimmer, 40.0)?;
+                speeds.push((degrees, run.speed));
+                push_run(&mut table, format!("{degrees} degrees, offset ({}, {}) h", offset[0], offset[1]), &run);
+            }
+        }
+        let mut spread =
+            Table::new(&format!("Spread of the speed over the offsets, h = {h}"), &["heading", "spread in %"]);
+        for degrees in [0.0, 15.0, 30.0, 45.0] {
+            let of: Vec<f64> = speeds.iter().filter(|(d, _)| *d == degrees).map(|(_, v)| *v).collect();
+            let (max, min) = of.iter().fold((0.0_f64, f64::INFINITY), |(a, b), &v| (a.max(v), b.min(v)));
+            spread.push([format!("{degrees} degrees"), per_cent(max / min - 1.0)]);
+        }
+        tables.extend([table, spread]);
+    }
+    Ok(tables)
+}
+
+fn channel_shapes(quick: bool) -> Tables {
+    let (kernel, spacings) = (AnyKernel::BSpline4, spacings(quick));
+    let mut points = Table::new(
+        "Point forces in a channel: largest error of 4 pi eta times the velocity",
+        &["drive", "errors at h = 0.1, 0.05, 0.025", "order"],
+    );
+    let mut shapes = Table::new(
+        "Fixed shapes in a channel: errors in % at h = 0.1, 0.05, 0.025",
+        &[
+            "drive",
+            "shape",
+            "height",
+            "markers, largest",
+            "order",
+            "field, largest",
+            "order",
+            "flux or gradient",
+            "wall shear",
+        ],
+    );
+    for (name, drive) in channel::drives() {
+        let errors =
+            spacings.iter().map(|&h| channel::point_forces(&kernel, h, drive)).collect::<Result<Vec<_>, _>>()?;
+        let list: Vec<String> = errors.iter().map(|e| format!("{e:.2e}")).collect();
+        points.push([name.to_owned(), list.join(" / "), format!("{:.2}", order(spacings, &errors))]);
+        for (case, height) in
+            [(Case::Circle, 0.0), (Case::Circle, 0.3), (Case::EllipseUniform, 0.0), (Case::EllipseGradient, 0.0)]
+        {
+            let rows = spacings
+                .iter()
+                .map(|&h| channel::fixed_shape(&kernel, true, h, drive, case, height))
+                .collect::<Result<Vec<_>, _>>()?;
+            let list = |value: fn(&channel::ShapeErrors) -> f64| {
+                let errors: Vec<f64> = rows.iter().map(value).collect();
+                (errors.iter().map(|&e| per_cent(e)).collect::<Vec<_>>().join(" / "), order(spacings, &errors))
+            };
+            let (markers, first) = list(|row| row.markers.maximum);
+            let (field, second) = list(|row| row.field);
+            let (first, second) = (format!("{first:.2}"), format!("{second:.2}"));
+            let [driven, shear] = [list(|row| row.drive).0, list(|row| row.wall_shear).0];
+            let (name, case, height) = (name.to_owned(), case.name().to_owned(), height.to_string());
+            shapes.push([name, case, height, markers, first, field, second, driven, shear]);
+        }
+    }
+    Ok(vec![points, shapes])
+}
+
+fn channel_swimmers(quick: bool) -> Tables {
+    let mut table = Table::new(
+        "Steady swimmers in channels (period 12, A = 10): errors in % of speed, aspect ratio, stresslet, beta, flux, gap",
+        &["width", "activity", "preset", "h", "errors", "area change", "particle change"],
+    );
+    for (width, activity, time) in
+        [(2.0, -2.0, 160.0), (2.0, -4.0, 160.0), (3.0, -2.0, 80.0), (5.0, -2.0, 80.0), (5.0, -4.0, 60.0)]
+    {
+        for &h in spacings(quick) {
+            for (name, base) in [("default", Swimmer::default()), ("thesis", Swimmer::thesis())] {
+                let step = if name == "thesis" { StepSize::Fixed(0.1 * h) } else { base.step };
+                let swimmer = Swimmer { activity, lengths: [12.0, width], spacing: h, step, ..base };
+                let start = [width.to_string(), activity.to_string(), name.to_owned(), h.to_string()];
+                match channel::steady(&swimmer, time) {
+                    Ok(e) => {
+                        let list = [e.speed, e.aspect_ratio, e.stresslet, e.beta, e.flux, e.gap].map(per_cent);
+                        let rest =
+                            [list.join(" / "), format!("{:.1e}", e.area_change), format!("{:.0e}", e.particle_change)];
+                        table.push(start.into_iter().chain(rest));
+                    }
+                    Err(StudyError::Scene(error)) => {
+                        table.push(start.into_iter().chain([format!("ends: {error}"), String::new(), String::new()]));
+                    }
+                    Err(error) => return Err(error),
+                }
+            }
+        }
+    }
+    Ok(vec![table])
+}
+
+fn channel_length(quick: bool) -> Tables {
+    let h = if quick { 0.1 } else { 0.05 };
+    let title = format!("Speed in a channel of width 2 R0 against its length, h = {h}, A = 10");
+    let mut table =
+        Table::new(&title, &["activity", "viscosity", "length", "default", "thesis preset", "fit of the thesis"]);
+    // |v| = a exp(-l/10) + b, thesis figures 3.1 and 3.2.
+    let fits = [
+        (-2.0, 100.0, 0.20, 0.016),
+        (-4.0, 100.0, 0.34, 0.051),
+        (-5.0, 100.0, 0.42, 0.061),
+        (-4.0, 50.0, 0.54, 0.094),
+        (-4.0, 200.0, 0.22, 0.012),
+    ];
+    for (activity, viscosity, a, b) in fits {
+        for length in [8.0_f64, 12.0, 24.0, 36.0] {
+            let mut row = vec![activity.to_string(), viscosity.to_string(), length.to_string()];
+            for (thesis, base) in [(false, Swimmer::default()), (true, Swimmer::thesis())] {
+                let step = if thesis { StepSize::Fixed(0.1 * h) } else { base.step };
+                let lengths = [length, 2.0];
+                let swimmer = Swimmer { activity, viscosity, lengths, spacing: h, step, ..base };
+                row.push(match channel::speed(&swimmer, Drive::ZeroGradient, if quick { 60.0 } else { 120.0 }) {
+                    Ok(speed) => format!("{speed:.4}"),
+                    Err(StudyError::Scene(error)) => format!("ends: {error}"),
+                    Err(error) => return Err(error),
+                });
+            }
+            row.push(format!("{:.4}", a * (-length / 10.0).exp() + b));
+            table.push(row);
+        }
+    }
+    Ok(vec![table])
+}
