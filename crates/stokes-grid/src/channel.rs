@@ -3,7 +3,7 @@
 use num_complex::Complex64;
 
 use crate::channel_modes::ChannelModes;
-use crate::checks::{check_finite, check_grid, check_viscosity};
+use crate::checks::{check_grid, check_viscosity, not_finite};
 use crate::mean_flow::MeanFlow;
 use crate::rows::RowTransform;
 use crate::sums::sum;
@@ -127,20 +127,16 @@ impl StokesSolver for ChannelStokes {
         // On the way up: the curl, its transform, and the elimination of the first Dirichlet problem. With h curl f on the
         // right and psi / h on the left the stencils are bare differences; the transform's 1 / nx goes in here too.
         let scale = h * h / (self.viscosity * nx as f64);
-        let mut total_y = 0.0;
         self.mean_u[0] = sum(&fx[..nx]) / nx as f64;
         for j in 1..ny {
             let (fx_below, fx, fy) = (&fx[(j - 1) * nx..][..nx], &fx[j * nx..][..nx], &fy[j * nx..][..nx]);
-            self.mean_u[j] = sum(fx) / nx as f64;
-            total_y += sum(fy);
             let (below, rest) = self.spectrum.split_at_mut((j - 1) * width);
             let row = &mut rest[..width];
             self.rows.forward(|out| curl(out, fx_below, fx, fy, scale), row);
+            // The mean of the curl is how the mean of fx differs from the row below.
+            self.mean_u[j] = self.mean_u[j - 1] - row[0].re / (scale * nx as f64);
             self.modes.eliminate(j, &below[below.len().saturating_sub(width)..], row);
         }
-        // The sum of a row with a value that is not finite is not finite.
-        check_finite("the sum of the force", self.mean_u.iter().sum::<f64>() + total_y)?;
-
         let [bottom, top] = &self.wall_spectra;
         self.modes.descend(&mut self.spectrum, bottom, top);
         let walls = [self.walls.mean(Wall::Bottom), self.walls.mean(Wall::Top)];
@@ -148,29 +144,30 @@ impl StokesSolver for ChannelStokes {
 
         // On the way up again: the second Dirichlet problem, the transform back and the differences.
         let (u, v) = velocity.components_mut();
-        v[..nx].fill(0.0);
-        v[ny * nx..].fill(0.0);
         self.below.fill(0.0);
         for (j, row) in (1..ny).zip(self.spectrum.chunks_exact_mut(width)) {
             self.modes.ascend(j, row);
             let psi = self.rows.inverse(row);
-            // An overflow anywhere on the way reaches every value of this row.
-            if j == 1 && !psi[0].is_finite() {
-                return Err(StokesError::Overflow { name: "the velocity" });
+            // What is not finite in the force, or overflows on the way, reaches every value of this row.
+            if j == 1 && !(psi[0] + self.mean_u[0]).is_finite() {
+                return Err(not_finite(fx, &fy[nx..ny * nx]));
             }
-            let u = &mut u[(j - 1) * nx..][..nx];
             let v = &mut v[j * nx..][..nx];
             for (v, psi) in v.iter_mut().zip(psi.windows(2)) {
                 *v = psi[0] - psi[1];
             }
             v[nx - 1] = psi[nx - 1] - psi[0];
-            for ((u, psi), below) in u.iter_mut().zip(psi).zip(&mut self.below) {
-                *u = self.mean_u[j - 1] + (psi - *below);
+            let mean = self.mean_u[j - 1];
+            for ((u, psi), below) in u[(j - 1) * nx..][..nx].iter_mut().zip(psi).zip(&mut self.below) {
+                *u = mean + (psi - *below);
                 *below = *psi;
             }
         }
+        v[..nx].fill(0.0);
+        v[ny * nx..].fill(0.0);
+        let mean = self.mean_u[ny - 1];
         for (u, below) in u[(ny - 1) * nx..].iter_mut().zip(&self.below) {
-            *u = self.mean_u[ny - 1] - below;
+            *u = mean - below;
         }
 
         self.work.solves += 1;

@@ -13,3 +13,11 @@ pub(crate) fn check_grid(solver: &Grid, field: &Grid, name: &'static str) -> Res
 pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), StokesError> {
     if value.is_finite() { Ok(()) } else { Err(StokesError::NotFinite { name, value }) }
 }
+
+/// Why a velocity is not finite: a force that is not, or else an overflow.
+pub(crate) fn not_finite(fx: &[f64], fy: &[f64]) -> StokesError {
+    match fx.iter().chain(fy).find(|f| !f.is_finite()) {
+        Some(&value) => StokesError::NotFinite { name: "the force", value },
+        None => StokesError::Overflow { name: "the velocity" },
+    }
+}

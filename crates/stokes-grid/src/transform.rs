@@ -1,17 +1,10 @@
 //! Two-dimensional transforms of real fields.
 
-use std::fmt;
-use std::sync::Arc;
-
 use num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
 
-use crate::StokesError;
-use crate::Symbol;
+use crate::columns::ColumnTransform;
 use crate::rows::RowTransform;
-
-/// Columns that are gathered, transformed and put back together: two cache lines a row.
-const BATCH: usize = 8;
+use crate::{StokesError, Symbol};
 
 /// A plan for the discrete Fourier transform of real `nx` x `ny` arrays (row after row, x contiguous).
 ///
@@ -27,21 +20,13 @@ const BATCH: usize = 8;
 ///
 /// Every size is correct. Sizes whose only prime factors are 2, 3 and 5 are fast (multiples of 8 fastest); an odd `nx` doubles
 /// the work of the rows, and prime factors above about 31 cost two to four times as much.
+#[derive(Debug)]
 pub struct RealFft2 {
     nx: usize,
     ny: usize,
     rows: RowTransform,
-    forward_column: Arc<dyn Fft<f64>>,
-    inverse_column: Arc<dyn Fft<f64>>,
+    columns: ColumnTransform,
     spectrum: Vec<Complex64>,
-    batch: Vec<Complex64>,
-    scratch: Vec<Complex64>,
-}
-
-impl fmt::Debug for RealFft2 {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("RealFft2").field("nx", &self.nx).field("ny", &self.ny).finish_non_exhaustive()
-    }
 }
 
 impl RealFft2 {
@@ -53,26 +38,15 @@ impl RealFft2 {
         if nx == 0 || ny == 0 {
             return Err(StokesError::GridTooSmall { nx, ny, minimum: 1 });
         }
-        let mut columns = FftPlanner::new();
-        let (forward_column, inverse_column) = (columns.plan_fft_forward(ny), columns.plan_fft_inverse(ny));
-        let scratch = forward_column.get_inplace_scratch_len().max(inverse_column.get_inplace_scratch_len());
-        let width = nx / 2 + 1;
-        Ok(Self {
-            nx,
-            ny,
-            rows: RowTransform::new(nx),
-            forward_column,
-            inverse_column,
-            spectrum: vec![Complex64::ZERO; width * ny],
-            batch: vec![Complex64::ZERO; BATCH.min(width) * ny],
-            scratch: vec![Complex64::ZERO; scratch],
-        })
+        let (rows, columns) = (RowTransform::new(nx), ColumnTransform::new(ny));
+        let spectrum = vec![Complex64::ZERO; rows.width() * ny];
+        Ok(Self { nx, ny, rows, columns, spectrum })
     }
 
     /// Complex numbers in a row of the spectrum: `nx / 2 + 1`.
     #[must_use]
     pub fn spectrum_width(&self) -> usize {
-        self.nx / 2 + 1
+        self.rows.width()
     }
 
     /// Transforms the rows that `input(j, row)` writes, for j = 0, 1, ..., into the plan's own spectrum.
@@ -86,14 +60,7 @@ impl RealFft2 {
     /// Transforms the columns of the plan's own spectrum, multiplies them and transforms them back.
     pub(crate) fn filter_columns(&mut self, symbol: &Symbol) {
         assert!(symbol.fits(self.nx, self.ny), "a symbol for another size than the transform's");
-        let (forward, inverse) = (self.forward_column.clone(), self.inverse_column.clone());
-        self.for_column_batches(|m, batch, scratch, ny| {
-            forward.process_with_scratch(batch, &mut scratch[..forward.get_inplace_scratch_len()]);
-            for (k, column) in batch.chunks_exact_mut(ny).enumerate() {
-                symbol.apply(m + k, column);
-            }
-            inverse.process_with_scratch(batch, &mut scratch[..inverse.get_inplace_scratch_len()]);
-        });
+        self.columns.filter(&mut self.spectrum, self.rows.width(), |m, column| symbol.apply(m, column));
     }
 
     /// Transforms the rows of the plan's own spectrum back and hands each to `output(j, row)`, for j = 0, 1, ...
@@ -101,18 +68,6 @@ impl RealFft2 {
         let width = self.spectrum_width();
         for (j, row) in self.spectrum.chunks_exact_mut(width).enumerate() {
             output(j, self.rows.inverse(row));
-        }
-    }
-
-    /// Gathers the columns of the plan's own spectrum a batch at a time, changes them in place and puts them back.
-    fn for_column_batches(&mut self, mut work: impl FnMut(usize, &mut [Complex64], &mut [Complex64], usize)) {
-        let (width, ny) = (self.spectrum_width(), self.ny);
-        for m in (0..width).step_by(BATCH) {
-            let count = BATCH.min(width - m);
-            let batch = &mut self.batch[..count * ny];
-            gather(&self.spectrum[m..], width, batch, ny);
-            work(m, batch, &mut self.scratch, ny);
-            scatter(batch, ny, &mut self.spectrum[m..], width);
         }
     }
 
@@ -135,14 +90,8 @@ impl RealFft2 {
         self.check(input.len(), spectrum.len())?;
         let nx = self.nx;
         self.forward_rows(|j, row| row.copy_from_slice(&input[j * nx..(j + 1) * nx]));
-        let plan = self.forward_column.clone();
-        let (width, ny) = (self.spectrum_width(), self.ny);
-        for m in (0..width).step_by(BATCH) {
-            let batch = &mut self.batch[..BATCH.min(width - m) * ny];
-            gather(&self.spectrum[m..], width, batch, ny);
-            plan.process_with_scratch(batch, &mut self.scratch[..plan.get_inplace_scratch_len()]);
-            scatter(batch, ny, &mut spectrum[m..], width);
-        }
+        spectrum.copy_from_slice(&self.spectrum);
+        self.columns.forward(spectrum, self.rows.width());
         Ok(())
     }
 
@@ -152,14 +101,9 @@ impl RealFft2 {
     /// `spectrum` without `ny (nx / 2 + 1)` values, or `output` without `nx ny`.
     pub fn inverse(&mut self, spectrum: &[Complex64], output: &mut [f64]) -> Result<(), StokesError> {
         self.check(output.len(), spectrum.len())?;
-        let plan = self.inverse_column.clone();
-        let (nx, width, ny) = (self.nx, self.spectrum_width(), self.ny);
-        for m in (0..width).step_by(BATCH) {
-            let batch = &mut self.batch[..BATCH.min(width - m) * ny];
-            gather(&spectrum[m..], width, batch, ny);
-            plan.process_with_scratch(batch, &mut self.scratch[..plan.get_inplace_scratch_len()]);
-            scatter(batch, ny, &mut self.spectrum[m..], width);
-        }
+        self.spectrum.copy_from_slice(spectrum);
+        self.columns.inverse(&mut self.spectrum, self.rows.width());
+        let nx = self.nx;
         self.inverse_rows(|j, row| output[j * nx..(j + 1) * nx].copy_from_slice(row));
         Ok(())
     }
@@ -175,26 +119,6 @@ impl RealFft2 {
             }
         }
         Ok(())
-    }
-}
-
-/// Copies the leading columns of rows of length `width` into contiguous columns of length `ny`.
-fn gather(rows: &[Complex64], width: usize, columns: &mut [Complex64], ny: usize) {
-    let count = columns.len() / ny;
-    for (j, row) in rows.chunks(width).enumerate() {
-        for (k, value) in row[..count].iter().enumerate() {
-            columns[k * ny + j] = *value;
-        }
-    }
-}
-
-/// The way back from [`gather`].
-fn scatter(columns: &[Complex64], ny: usize, rows: &mut [Complex64], width: usize) {
-    let count = columns.len() / ny;
-    for (j, row) in rows.chunks_mut(width).enumerate() {
-        for (k, value) in row[..count].iter_mut().enumerate() {
-            *value = columns[k * ny + j];
-        }
     }
 }
 

@@ -70,7 +70,7 @@ fn vorticity_is_minus_the_laplacian_of_the_streamfunction() {
 #[test]
 fn the_walls_hold_what_pushes_the_fluid() {
     let grid = Grid::channel(24, 15, 0.1).unwrap();
-    let walls = WallMotion::from_fn(&grid, |x| x.sin(), |x| 0.3 * x.cos()).unwrap();
+    let walls = WallMotion::from_fn(&grid, f64::sin, |x| 0.3 * x.cos()).unwrap();
     let force = random_force(grid, 5);
     let eta = 2.0;
     let mut solver = ChannelStokes::new(grid, eta).unwrap();

@@ -100,7 +100,7 @@ proptest! {
             let velocity = solve(&mut *solver, &random_force(grid, seed));
             for component in [velocity.x(), velocity.y()] {
                 let mean = component.iter().sum::<f64>() / component.len() as f64;
-                prop_assert!(mean.abs() < 1e-15 * largest(component).max(1e-3));
+                prop_assert!(mean.abs() < 1e-14 * largest(component));
             }
         }
     }

@@ -1,35 +1,14 @@
-//! What the benches share: timing by turns, and transforms done plainly.
+//! Transforms done plainly.
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
 
 use num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
-use std::sync::Arc;
-
-/// Median seconds of each piece of work. They run by turns, so that a busy machine slows all of them alike.
-pub fn medians(works: &mut [&mut dyn FnMut()], budget: Duration) -> Vec<f64> {
-    for work in works.iter_mut() {
-        work();
-    }
-    let mut seconds = vec![Vec::new(); works.len()];
-    let start = Instant::now();
-    while start.elapsed() < budget || seconds[0].len() < 11 {
-        for (work, seconds) in works.iter_mut().zip(&mut seconds) {
-            let start = Instant::now();
-            work();
-            seconds.push(start.elapsed().as_secs_f64());
-        }
-    }
-    for seconds in &mut seconds {
-        seconds.sort_by(f64::total_cmp);
-    }
-    seconds.iter().map(|s| s[s.len() / 2]).collect()
-}
 
 /// A real transform there and back as anyone would write it: realfft for the rows, a transposition, rustfft for the columns.
-pub struct PlainPair {
+pub(crate) struct PlainPair {
     nx: usize,
     ny: usize,
     r2c: Arc<dyn RealToComplex<f64>>,
@@ -43,7 +22,7 @@ pub struct PlainPair {
 }
 
 impl PlainPair {
-    pub fn new(nx: usize, ny: usize) -> Self {
+    pub(crate) fn new(nx: usize, ny: usize) -> Self {
         let (mut real, mut complex) = (RealFftPlanner::new(), FftPlanner::new());
         let (r2c, c2r) = (real.plan_fft_forward(nx), real.plan_fft_inverse(nx));
         let (forward, inverse) = (complex.plan_fft_forward(ny), complex.plan_fft_inverse(ny));
@@ -65,19 +44,19 @@ impl PlainPair {
             space,
             rows: vec![Complex64::ZERO; width * ny],
             columns: vec![Complex64::ZERO; width * ny],
-            scratch: vec![Complex64::ZERO; lengths.into_iter().max().unwrap()],
+            scratch: vec![Complex64::ZERO; lengths.into_iter().max().unwrap_or(0)],
         }
     }
 
     /// Both passes over the rows only.
-    pub fn rows(&mut self) {
+    pub(crate) fn rows(&mut self) {
         self.forward_rows();
         self.inverse_rows();
         black_box(&self.space);
     }
 
     /// The whole pair.
-    pub fn run(&mut self) {
+    pub(crate) fn run(&mut self) {
         let width = self.nx / 2 + 1;
         self.forward_rows();
         transpose(&self.rows, width, self.ny, &mut self.columns);
@@ -98,7 +77,7 @@ impl PlainPair {
         let scale = 1.0 / (self.nx * self.ny) as f64;
         self.space.iter_mut().for_each(|x| *x *= scale);
         for (input, output) in self.space.chunks_mut(self.nx).zip(self.rows.chunks_mut(self.nx / 2 + 1)) {
-            self.r2c.process_with_scratch(input, output, scratch).unwrap();
+            self.r2c.process_with_scratch(input, output, scratch).expect("right lengths");
         }
     }
 
@@ -109,7 +88,7 @@ impl PlainPair {
             if self.nx.is_multiple_of(2) {
                 input[self.nx / 2].im = 0.0;
             }
-            self.c2r.process_with_scratch(input, output, scratch).unwrap();
+            self.c2r.process_with_scratch(input, output, scratch).expect("right lengths");
         }
     }
 }

@@ -1,0 +1,35 @@
+//! Times of the solvers, in units of plain transforms measured in the same run.
+
+mod channel;
+mod periodic;
+mod plain_pair;
+mod timing;
+
+use std::hint::black_box;
+
+use criterion::{criterion_group, criterion_main};
+use stokes_grid::{Grid, StaggeredField, StokesSolver};
+
+/// A force with all wave numbers in it.
+fn random_force(grid: Grid) -> StaggeredField {
+    let wave = |count: usize, k: f64| (0..count).map(|i| (k * (i * i) as f64).sin()).collect();
+    let (nx, ny) = (grid.nx(), grid.ny());
+    let force = StaggeredField::from_components(grid, wave(nx * ny, 1.0), wave(nx * grid.node_rows(), 2.0));
+    force.expect("as many values as the grid has points")
+}
+
+/// A solve ready to be timed.
+fn solve(mut solver: impl StokesSolver) -> impl FnMut() {
+    let force = random_force(*solver.grid());
+    let mut velocity = StaggeredField::zeros(*solver.grid());
+    move || {
+        black_box(solver.solve(black_box(&force), &mut velocity)).expect("a good force");
+    }
+}
+
+criterion_group! {
+    name = solvers;
+    config = timing::short();
+    targets = periodic::benches, channel::benches
+}
+criterion_main!(solvers);
