@@ -3,4 +3,4 @@
 mod swimmer;
 
 pub use swimmer::{InitialState, PeriodicBox, RigidChannel, SetupError, Swimmer};
-pub use {active_interface, elastic_solids, ib_core, stokes_grid};
+pub use {active_interface, boundary_integral, elastic_solids, ib_core, stokes_grid};

@@ -1,0 +1,119 @@
+//! Time of one evaluation of the velocities, beside that of a pair of two-dimensional real transforms, which is what a
+//! solver on a grid spends at least.
+
+use std::{f64::consts::TAU, hint::black_box};
+
+use boundary_integral::{
+    BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, PeriodicCalculus, Settings, TensionPlacement,
+};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
+use realfft::RealFftPlanner;
+
+/// Droplets in a row along x with four markers a node and a tension that makes them swim.
+fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Markers {
+    let count = 4 * nodes;
+    let mut markers = Markers::new();
+    let mut calculus = PeriodicCalculus::new(count).unwrap();
+    for droplet in 0..droplets {
+        markers.push_group(count, MarkerKind::Interface { viscosity_inside });
+        let range = droplet * count..(droplet + 1) * count;
+        let angle = |k: usize| TAU * k as f64 / count as f64;
+        for (k, position) in markers.positions[range.clone()].iter_mut().enumerate() {
+            let (sin, cos) = angle(k).sin_cos();
+            *position = Vec2::new(1.05 * cos + 2.6 * droplet as f64, sin / 1.05);
+        }
+        let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
+        let (positions, forces) = (&markers.positions[range.clone()], &mut markers.forces[range]);
+        calculus.tension_forces(positions, &tension, TensionPlacement::Markers, forces).unwrap();
+    }
+    markers
+}
+
+fn evaluation<D: FluidDomain>(c: &mut Criterion, name: &str, domain: D, nodes: usize, ratio: f64, droplets: usize) {
+    let settings = Settings { nodes, ..Settings::default() };
+    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).unwrap();
+    let inside = if ratio == 1.0 { None } else { Some(ratio) };
+    let mut markers = markers(nodes, inside, droplets);
+    let mut group = c.benchmark_group(format!("{name} droplets {droplets} ratio {ratio}"));
+    let mut phase = 0.0f64;
+    let mut iterations = (0, 0);
+    group.bench_function(BenchmarkId::from_parameter(nodes), |b| {
+        b.iter(|| {
+            // The forces change from step to step by some parts in a thousand, as they do in a run.
+            phase += 1.0;
+            let factor = 1.0 + 0.002 * phase.sin();
+            markers.forces.iter_mut().for_each(|force| force.x *= factor);
+            let report = solver.velocities(black_box(&mut markers)).unwrap();
+            markers.forces.iter_mut().for_each(|force| force.x /= factor);
+            iterations = (iterations.0 + report.iterations, iterations.1 + 1);
+            report
+        });
+    });
+    println!("iterations: {:.1}", iterations.0 as f64 / iterations.1 as f64);
+}
+
+/// Forward and inverse real transform of a square grid, rows and columns, with the transposes.
+fn transform_pair(c: &mut Criterion, n: usize) {
+    let mut real = RealFftPlanner::<f64>::new();
+    let (forward, inverse) = (real.plan_fft_forward(n), real.plan_fft_inverse(n));
+    let mut complex = rustfft::FftPlanner::<f64>::new();
+    let (down, up) = (complex.plan_fft_forward(n), complex.plan_fft_inverse(n));
+    let half = n / 2 + 1;
+    let mut grid: Vec<f64> = (0..n * n).map(|i| (i as f64).sin()).collect();
+    let zero = num_complex::Complex64::default();
+    let (mut spectrum, mut turned) = (vec![zero; half * n], vec![zero; half * n]);
+    let mut scratch = vec![zero; 8 * n];
+    let transpose =
+        |from: &[num_complex::Complex64], to: &mut [num_complex::Complex64], rows: usize, columns: usize| {
+            for row in 0..rows {
+                for column in 0..columns {
+                    to[column * rows + row] = from[row * columns + column];
+                }
+            }
+        };
+    c.bench_function(&format!("transform pair {n}"), |b| {
+        b.iter(|| {
+            for (row, out) in grid.chunks_exact_mut(n).zip(spectrum.chunks_exact_mut(half)) {
+                forward.process_with_scratch(row, out, &mut scratch).unwrap();
+            }
+            transpose(&spectrum, &mut turned, n, half);
+            down.process_with_scratch(&mut turned, &mut scratch);
+            up.process_with_scratch(&mut turned, &mut scratch);
+            transpose(&turned, &mut spectrum, half, n);
+            let factor = 1.0 / (n * n) as f64;
+            for (row, out) in spectrum.chunks_exact_mut(half).zip(grid.chunks_exact_mut(n)) {
+                row[0].im = 0.0;
+                row[half - 1].im = 0.0;
+                inverse.process_with_scratch(row, out, &mut scratch).unwrap();
+                out.iter_mut().for_each(|value| *value *= factor);
+            }
+            black_box(&grid);
+        });
+    });
+}
+
+fn benches(c: &mut Criterion) {
+    for n in [120, 240] {
+        transform_pair(c, n);
+    }
+    for nodes in [64, 128, 256] {
+        for ratio in [1.0, 100.0] {
+            evaluation(c, "free space", FreeSpace, nodes, ratio, 1);
+            evaluation(c, "box 6", PeriodicBox::new(6.0, 6.0).unwrap(), nodes, ratio, 1);
+            evaluation(c, "channel 12 x 3", Channel::new(12.0, 3.0).unwrap(), nodes, ratio, 1);
+        }
+    }
+    evaluation(c, "box 26", PeriodicBox::new(26.0, 26.0).unwrap(), 64, 100.0, 10);
+}
+
+fn config() -> Criterion {
+    Criterion::default()
+        .sample_size(20)
+        .warm_up_time(std::time::Duration::from_millis(200))
+        .measurement_time(std::time::Duration::from_millis(600))
+        .without_plots()
+}
+
+criterion_group! { name = all; config = config(); targets = benches }
+criterion_main!(all);

@@ -1,0 +1,145 @@
+//! Stokeslet and stress between two points, in free space and for rows of images.
+
+use crate::{logarithm::ln, planes::Window};
+
+/// The parts of a Stokeslet `G = -1/2 ln(q) I + [[xx, xy], [xy, yy]]`.
+pub(crate) struct Stokeslet {
+    pub(crate) q: f64,
+    pub(crate) xx: f64,
+    pub(crate) xy: f64,
+    pub(crate) yy: f64,
+}
+
+/// A Green's function of the Stokes equations, `lap G - grad p = -4 pi delta`, and its stress, between node i of two
+/// windows.
+pub(crate) trait PairKernel {
+    /// The Stokeslet.
+    fn stokeslet(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> Stokeslet;
+
+    /// The stress (xxx, xxy, xyy, yyy) as a function of source minus target.
+    fn stress(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> [f64; 4];
+
+    /// Diagonal (xx, xy, yy) of `G + ln|alpha difference|` on a curve with derivative (tx, ty) by the parameter.
+    fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3];
+}
+
+/// Free space: `G = -ln r I + xx/r^2`, `T = -4 xxx/r^4`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FreePair {
+    /// Centre of the source minus centre of the target (length).
+    pub(crate) offset: [f64; 2],
+}
+
+impl PairKernel for FreePair {
+    #[inline(always)]
+    fn stokeslet(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> Stokeslet {
+        let (dx, dy) = (s.x[i] - t.x[i] + self.offset[0], s.y[i] - t.y[i] + self.offset[1]);
+        let q = dx * dx + dy * dy;
+        let inverse = 1.0 / q;
+        Stokeslet { q, xx: dx * dx * inverse, xy: dx * dy * inverse, yy: dy * dy * inverse }
+    }
+
+    #[inline(always)]
+    fn stress(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> [f64; 4] {
+        let (dx, dy) = (s.x[i] - t.x[i] + self.offset[0], s.y[i] - t.y[i] + self.offset[1]);
+        let inverse = 1.0 / (dx * dx + dy * dy);
+        let xx = -4.0 * dx * dx * inverse * inverse;
+        let yy = -4.0 * dy * dy * inverse * inverse;
+        [xx * dx, xx * dy, yy * dx, yy * dy]
+    }
+
+    fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3] {
+        let square = tx * tx + ty * ty;
+        let log = -0.5 * ln(square);
+        [log + tx * tx / square, tx * ty / square, log + ty * ty / square]
+    }
+}
+
+/// Functions of the difference of two points that rows of images are made of.
+pub(crate) struct RowTerms {
+    /// sin and cos of k dx/2.
+    pub(crate) s: f64,
+    pub(crate) c: f64,
+    /// exp(k dy/2) and its inverse.
+    pub(crate) up: f64,
+    pub(crate) down: f64,
+    /// dy (length).
+    pub(crate) dy: f64,
+}
+
+/// A row of images along x: differences of nodes from products of per-node values, with the constants of a pair of
+/// interfaces.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Row {
+    /// 2 pi / period (1/length).
+    pub(crate) k: f64,
+    sin: f64,
+    cos: f64,
+    up: f64,
+    down: f64,
+    dy: f64,
+    transposed: bool,
+}
+
+impl Row {
+    /// For a source whose centre lies `offset` from that of the target; `transposed` where the row runs along y.
+    pub(crate) fn new(k: f64, offset: [f64; 2], transposed: bool) -> Self {
+        let [along, across] = if transposed { [offset[1], offset[0]] } else { offset };
+        let (sin, cos) = (0.5 * k * along).sin_cos();
+        let up = (0.5 * k * across).exp();
+        Self { k, sin, cos, up, down: 1.0 / up, dy: across, transposed }
+    }
+
+    #[inline(always)]
+    pub(crate) fn terms(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> RowTerms {
+        let sin = s.sin[i] * t.cos[i] - s.cos[i] * t.sin[i];
+        let cos = s.cos[i] * t.cos[i] + s.sin[i] * t.sin[i];
+        let across = if self.transposed { s.x[i] - t.x[i] } else { s.y[i] - t.y[i] };
+        RowTerms {
+            s: sin * self.cos + cos * self.sin,
+            c: cos * self.cos - sin * self.sin,
+            up: s.up[i] * t.down[i] * self.up,
+            down: s.down[i] * t.up[i] * self.down,
+            dy: across + self.dy,
+        }
+    }
+}
+
+/// Periodic along x, unbounded in y: `G = -A I + ...` with `A = 1/2 ln(2 cosh k dy - 2 cos k dx)`, for channels.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RowPair {
+    pub(crate) row: Row,
+}
+
+impl PairKernel for RowPair {
+    #[inline(always)]
+    fn stokeslet(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> Stokeslet {
+        let RowTerms { s, c, up, down, dy } = self.row.terms(t, s, i);
+        let (sh, ch) = (0.5 * (up - down), 0.5 * (up + down));
+        let q = 2.0 * (s * s + sh * sh);
+        let factor = self.row.k * dy / q;
+        let (ax, ay) = (s * c * factor, sh * ch * factor);
+        Stokeslet { q: 2.0 * q, xx: 1.0 - ay, xy: ax, yy: ay }
+    }
+
+    #[inline(always)]
+    fn stress(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> [f64; 4] {
+        let RowTerms { s, c, up, down, dy } = self.row.terms(t, s, i);
+        let k = self.row.k;
+        let (sh, ch) = (0.5 * (up - down), 0.5 * (up + down));
+        let (s2, sh2) = (s * s, sh * sh);
+        let factor = k / (2.0 * (s2 + sh2));
+        let (sc, shch) = (s * c, sh * ch);
+        let (ax, ay) = (factor * sc, factor * shch);
+        let square = 2.0 * dy * factor * factor;
+        let axx = square * (sh2 - s2 - 2.0 * s2 * sh2);
+        let axy = -2.0 * square * sc * shch;
+        [-4.0 * ax - axy, axx - 2.0 * ay, axy, -2.0 * ay - axx]
+    }
+
+    fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3] {
+        let square = tx * tx + ty * ty;
+        let log = -0.5 * ln(self.row.k * self.row.k * square);
+        [log + tx * tx / square, tx * ty / square, log + ty * ty / square]
+    }
+}

@@ -1,0 +1,119 @@
+//! The stress kernel of all pairs of two interfaces, stored or computed anew for each product.
+
+use num_complex::Complex64;
+
+use crate::{
+    pair_kernel::PairKernel,
+    pair_sums::{Both, Shift, shifts},
+    planes::{Planes, Vectors},
+};
+
+/// The symmetric products of velocity and normal that the stress acts on, at the nodes of an interface and stored twice
+/// in a row: `v_x n_x`, `v_x n_y + v_y n_x`, `v_y n_y`, times a weight.
+#[derive(Debug, Default, Clone)]
+pub(crate) struct Dipoles {
+    pub(crate) xx: Vec<f64>,
+    pub(crate) s: Vec<f64>,
+    pub(crate) yy: Vec<f64>,
+}
+
+impl Dipoles {
+    /// From velocities and derivatives of the position by the parameter; `n ds = -i (dX/dalpha) dalpha`.
+    pub(crate) fn fill(&mut self, vx: &[f64], vy: &[f64], tangents: &[Complex64], weight: f64) {
+        let n = tangents.len();
+        for array in [&mut self.xx, &mut self.s, &mut self.yy] {
+            array.resize(2 * n, 0.0);
+        }
+        for (i, t) in tangents.iter().enumerate() {
+            let (nx, ny) = (t.im * weight, -t.re * weight);
+            self.xx[i] = vx[i] * nx;
+            self.s[i] = vx[i] * ny + vy[i] * nx;
+            self.yy[i] = vy[i] * ny;
+        }
+        for array in [&mut self.xx, &mut self.s, &mut self.yy] {
+            array.copy_within(..n, n);
+        }
+    }
+}
+
+/// Stress between the pairs of one cyclic shift.
+pub(crate) trait StressSource {
+    /// `near_i += T_ij P_j` and `far_j += T_ji P_i` for the pairs of the shift, j = i + d.
+    fn apply(&self, shift: Shift, dipoles: &Both<'_, Dipoles>, near: &mut Vectors, far: &mut Vectors);
+}
+
+/// Components xxx, xxy, xyy, yyy of all pairs, shift after shift.
+#[derive(Debug, Default)]
+pub(crate) struct StoredStress {
+    nodes: usize,
+    components: [Vec<f64>; 4],
+}
+
+impl StoredStress {
+    pub(crate) fn fill<K: PairKernel>(&mut self, kernel: &K, planes: &Both<'_, Planes>, nodes: usize, same: bool) {
+        self.nodes = nodes;
+        let len = nodes * shifts(nodes, same).count();
+        for component in &mut self.components {
+            component.resize(len, 0.0);
+        }
+        for Shift { index, d, count } in shifts(nodes, same) {
+            let (t, s) = (planes.target.window(0, count), planes.source.window(d, count));
+            let range = index * nodes..index * nodes + count;
+            let [a, b, c, e] = &mut self.components;
+            let (a, b) = (&mut a[range.clone()], &mut b[range.clone()]);
+            let (c, e) = (&mut c[range.clone()], &mut e[range]);
+            for i in 0..count {
+                [a[i], b[i], c[i], e[i]] = kernel.stress(&t, &s, i);
+            }
+        }
+    }
+}
+
+impl StressSource for StoredStress {
+    fn apply(&self, shift: Shift, dipoles: &Both<'_, Dipoles>, near: &mut Vectors, far: &mut Vectors) {
+        let Shift { index, count, .. } = shift;
+        let range = index * self.nodes..index * self.nodes + count;
+        let [a, b, c, e] = &self.components;
+        let (a, b) = (&a[range.clone()], &b[range.clone()]);
+        let (c, e) = (&c[range.clone()], &e[range]);
+        accumulate(shift, dipoles, near, far, |i| [a[i], b[i], c[i], e[i]]);
+    }
+}
+
+/// Computes the stress of every pair anew: for systems whose stored components would not fit into the cache.
+#[derive(Debug)]
+pub(crate) struct DirectStress<'a, K> {
+    pub(crate) kernel: K,
+    pub(crate) planes: Both<'a, Planes>,
+}
+
+impl<K: PairKernel> StressSource for DirectStress<'_, K> {
+    fn apply(&self, shift: Shift, dipoles: &Both<'_, Dipoles>, near: &mut Vectors, far: &mut Vectors) {
+        let Shift { d, count, .. } = shift;
+        let (t, s) = (self.planes.target.window(0, count), self.planes.source.window(d, count));
+        accumulate(shift, dipoles, near, far, |i| self.kernel.stress(&t, &s, i));
+    }
+}
+
+#[inline(always)]
+fn accumulate(
+    Shift { d, count, .. }: Shift,
+    dipoles: &Both<'_, Dipoles>,
+    near: &mut Vectors,
+    far: &mut Vectors,
+    stress: impl Fn(usize) -> [f64; 4],
+) {
+    let (t, s) = (dipoles.target, dipoles.source);
+    let (txx, ts, tyy) = (&t.xx[..count], &t.s[..count], &t.yy[..count]);
+    let (sxx, ss, syy) = (&s.xx[d..d + count], &s.s[d..d + count], &s.yy[d..d + count]);
+    let (ux, uy) = (&mut near.x[..count], &mut near.y[..count]);
+    let (vx, vy) = (&mut far.x[d..d + count], &mut far.y[d..d + count]);
+    for i in 0..count {
+        let [xxx, xxy, xyy, yyy] = stress(i);
+        ux[i] += xxx * sxx[i] + xxy * ss[i] + xyy * syy[i];
+        uy[i] += xxy * sxx[i] + xyy * ss[i] + yyy * syy[i];
+        // The stress is odd in the distance.
+        vx[i] -= xxx * txx[i] + xxy * ts[i] + xyy * tyy[i];
+        vy[i] -= xxy * txx[i] + xyy * ts[i] + yyy * tyy[i];
+    }
+}

@@ -1,0 +1,83 @@
+//! Fourier transforms of periodic samples of one length.
+
+use std::{fmt, sync::Arc};
+
+use num_complex::Complex64;
+use rustfft::{Fft, FftPlanner};
+
+/// Forward and inverse transforms of one length with their scratch. The forward one carries the factor 1/length, so
+/// that it gives Fourier coefficients.
+pub(crate) struct Transform {
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
+    scratch: Vec<Complex64>,
+}
+
+impl fmt::Debug for Transform {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Transform").field("len", &self.len()).finish_non_exhaustive()
+    }
+}
+
+impl Transform {
+    pub(crate) fn new(len: usize) -> Self {
+        let mut planner = FftPlanner::new();
+        let (forward, inverse) = (planner.plan_fft_forward(len), planner.plan_fft_inverse(len));
+        let scratch = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
+        Self { forward, inverse, scratch: vec![Complex64::default(); scratch] }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.forward.len()
+    }
+
+    /// Samples to Fourier coefficients, in place.
+    pub(crate) fn forward(&mut self, buffer: &mut [Complex64]) {
+        self.forward.process_with_scratch(buffer, &mut self.scratch);
+        let factor = 1.0 / buffer.len() as f64;
+        buffer.iter_mut().for_each(|value| *value *= factor);
+    }
+
+    /// Fourier coefficients to samples, in place.
+    pub(crate) fn inverse(&mut self, buffer: &mut [Complex64]) {
+        self.inverse.process_with_scratch(buffer, &mut self.scratch);
+    }
+}
+
+/// Largest wave number of a band of `modes` modes; the unpaired one of an even number of modes is left out.
+pub(crate) fn largest_wave(modes: usize) -> usize {
+    modes.saturating_sub(1) / 2
+}
+
+/// Wave number of entry `index` of a spectrum of `len` coefficients; zero for the unpaired one of an even length.
+pub(crate) fn wave(index: usize, len: usize) -> f64 {
+    if 2 * index < len {
+        index as f64
+    } else if 2 * index == len {
+        0.0
+    } else {
+        index as f64 - len as f64
+    }
+}
+
+/// Copies the waves up to `largest` from one spectrum to another of any length and clears the rest.
+pub(crate) fn copy_band(from: &[Complex64], to: &mut [Complex64], largest: usize) {
+    to.fill(Complex64::default());
+    to[..=largest].copy_from_slice(&from[..=largest]);
+    let (n, m) = (from.len(), to.len());
+    to[m - largest..].copy_from_slice(&from[n - largest..]);
+}
+
+/// Clears the waves above `largest`.
+pub(crate) fn truncate(spectrum: &mut [Complex64], largest: usize) {
+    let len = spectrum.len();
+    spectrum[largest + 1..len - largest].fill(Complex64::default());
+}
+
+/// Multiplies a spectrum by i times the wave number: the derivative by the parameter.
+pub(crate) fn differentiate(spectrum: &mut [Complex64]) {
+    let len = spectrum.len();
+    for (index, value) in spectrum.iter_mut().enumerate() {
+        *value = Complex64::new(-value.im, value.re) * wave(index, len);
+    }
+}

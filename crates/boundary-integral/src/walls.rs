@@ -1,0 +1,404 @@
+//! What two no-slip walls add to the flow of forces and dipoles that are periodic along them.
+//!
+//! The correction is a Fourier series in x with modes `exp(-k s)`, s the distance from a wall, so that sources and
+//! targets enter by products and the cost is (nodes) x (modes). Modes are as many as the gaps to the walls ask for.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+/// Modes done at a time.
+const LANES: usize = 8;
+/// No gap asks for more modes than this.
+const MOST_MODES: usize = 4096;
+
+type Lanes = [f64; LANES];
+
+/// `exp(-n k s) exp(i n k x)` for the first modes n = 1 .. 8 and the factor to the next eight, for one wall.
+#[derive(Debug, Clone, Copy)]
+struct Powers {
+    /// Distance from the wall (length).
+    distance: f64,
+    re: Lanes,
+    im: Lanes,
+    step: Complex64,
+}
+
+impl Powers {
+    fn new(k: f64, distance: f64, phase: Complex64) -> Self {
+        let base = phase * (-k * distance).exp();
+        let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
+        let mut power = Complex64::new(1.0, 0.0);
+        for lane in 0..LANES {
+            power *= base;
+            (re[lane], im[lane]) = (power.re, power.im);
+        }
+        Self { distance, re, im, step: power }
+    }
+
+    #[inline(always)]
+    fn advance(&mut self) {
+        for lane in 0..LANES {
+            let (re, im) = (self.re[lane], self.im[lane]);
+            self.re[lane] = re * self.step.re - im * self.step.im;
+            self.im[lane] = re * self.step.im + im * self.step.re;
+        }
+    }
+}
+
+/// Points between the walls, prepared for sums over modes.
+#[derive(Debug, Default)]
+pub(crate) struct WallPoints {
+    /// Upper wall, lower wall.
+    sides: [Vec<Powers>; 2],
+    /// Height above the middle (length).
+    y: Vec<f64>,
+}
+
+impl WallPoints {
+    /// Removes all points, keeping the memory.
+    pub(crate) fn clear(&mut self) {
+        self.sides.iter_mut().for_each(Vec::clear);
+        self.y.clear();
+    }
+
+    /// Adds a point at x and y above the middle.
+    pub(crate) fn push(&mut self, modes: &WallModes, x: f64, y: f64) {
+        let phase = Complex64::cis(modes.k * x);
+        self.sides[0].push(Powers::new(modes.k, modes.half - y, phase));
+        self.sides[1].push(Powers::new(modes.k, modes.half + y, phase));
+        self.y.push(y);
+    }
+
+    /// Smallest distance of a point from a wall (length), infinite without points.
+    pub(crate) fn gap(&self) -> f64 {
+        self.sides.iter().flatten().map(|p| p.distance).fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Sums over sources for eight modes: real and imaginary parts of five moments.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    re: [Lanes; 5],
+    im: [Lanes; 5],
+}
+
+/// Velocities that the sources alone would have at a wall, mode by mode.
+#[derive(Debug, Clone, Copy, Default)]
+struct Slip {
+    u: Complex64,
+    v: Complex64,
+}
+
+/// Coefficients of eight modes near one wall: the streamfunction is `exp(-k s + i k x) (R - s B)`.
+#[derive(Debug, Clone, Copy, Default)]
+struct Coefficients {
+    /// k R + B.
+    sum: [Lanes; 2],
+    /// k R.
+    plain: [Lanes; 2],
+    /// k B.
+    linear: [Lanes; 2],
+}
+
+/// Factors of one mode that depend on the height alone.
+#[derive(Debug, Clone, Copy)]
+struct Factors {
+    even: [f64; 4],
+    odd: [f64; 4],
+}
+
+/// The correction by the walls as a series, and the flow that does not depend on x.
+#[derive(Debug)]
+pub(crate) struct WallModes {
+    /// 2 pi / period (1/length).
+    k: f64,
+    /// Half the distance between the walls (length).
+    half: f64,
+    zero_flux: bool,
+    /// Smallest decay that still counts, as an exponent.
+    exponent: f64,
+    factors: Vec<Factors>,
+    sums: [Vec<Sums>; 2],
+    slips: [Vec<Slip>; 2],
+    coefficients: [Vec<Coefficients>; 2],
+    /// Coefficients of 1, y and half^2 - y^2 in the velocity that does not depend on x.
+    mean: [f64; 3],
+    modes: usize,
+}
+
+/// Flow of the correction at a point, per 4 pi viscosity.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct WallFlow {
+    pub(crate) velocity: [f64; 2],
+    pub(crate) gradient: [[f64; 2]; 2],
+    pub(crate) pressure: f64,
+}
+
+impl WallModes {
+    pub(crate) fn new(period: f64, half: f64, zero_flux: bool, tolerance: f64) -> Self {
+        Self {
+            k: TAU / period,
+            half,
+            zero_flux,
+            exponent: 4.0 - tolerance.ln(),
+            factors: Vec::new(),
+            sums: Default::default(),
+            slips: Default::default(),
+            coefficients: Default::default(),
+            mean: [0.0; 3],
+            modes: 0,
+        }
+    }
+
+    /// Number of modes of the last sums.
+    pub(crate) fn modes(&self) -> usize {
+        self.modes
+    }
+
+    /// Clears the sources for targets no closer to a wall than `target_gap` and sources no closer than `source_gap`.
+    pub(crate) fn begin(&mut self, source_gap: f64, target_gap: f64) {
+        self.modes = self.count(source_gap + target_gap);
+        let chunks = self.modes.div_ceil(LANES);
+        while self.factors.len() < chunks * LANES {
+            let n = self.factors.len() + 1;
+            self.factors.push(factors(self.k * n as f64, self.half));
+        }
+        for slips in &mut self.slips {
+            slips.clear();
+            slips.resize(chunks * LANES, Slip::default());
+        }
+        self.mean = [0.0; 3];
+    }
+
+    fn count(&self, distance: f64) -> usize {
+        let needed = self.exponent / (self.k * distance.max(1e-300));
+        (needed.min(MOST_MODES as f64).ceil() as usize).max(1)
+    }
+
+    fn moments<const N: usize>(
+        &mut self,
+        points: &WallPoints,
+        target_gap: f64,
+        columns: impl Fn(usize, f64) -> [f64; N],
+    ) {
+        let (k, exponent, modes) = (self.k, self.exponent, self.modes);
+        for (side, sums) in points.sides.iter().zip(&mut self.sums) {
+            sums.clear();
+            sums.resize(modes.div_ceil(LANES), Sums::default());
+            for (j, powers) in side.iter().enumerate() {
+                let needed = exponent / (k * (powers.distance + target_gap).max(1e-300));
+                let chunks = (needed.min(modes as f64) as usize / LANES + 1).min(sums.len());
+                let column = columns(j, powers.distance);
+                let mut powers = *powers;
+                for sum in &mut sums[..chunks] {
+                    for (c, value) in column.iter().enumerate() {
+                        for lane in 0..LANES {
+                            sum.re[c][lane] += value * powers.re[lane];
+                            // The phase of a source is the conjugate of that of a target.
+                            sum.im[c][lane] -= value * powers.im[lane];
+                        }
+                    }
+                    powers.advance();
+                }
+            }
+        }
+    }
+
+    /// Adds forces (times weight) at points; `target_gap` as in [`WallModes::begin`].
+    pub(crate) fn add_forces(&mut self, points: &WallPoints, target_gap: f64, forces: impl Fn(usize) -> Complex64) {
+        self.moments(points, target_gap, |j, s| {
+            let f = forces(j);
+            [f.re, f.im, s * f.re, s * f.im]
+        });
+        for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
+            for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
+                let k = self.k * (n + 1) as f64;
+                let [fx, fy, gx, gy] = [0, 1, 2, 3].map(|c| moment(sums, n, c));
+                let inverse = 1.0 / (n + 1) as f64;
+                slip.u += (fx - gx * k - I * gy * (side * k)) * inverse;
+                slip.v += (fy + gy * k - I * gx * (side * k)) * inverse;
+            }
+        }
+        let (c, h) = (self.k, self.half);
+        let (mut s0, mut s1, mut s2) = (0.0, 0.0, 0.0);
+        for (j, y) in points.y.iter().enumerate() {
+            let fx = forces(j).re;
+            s0 += fx;
+            s1 += y * fx;
+            s2 += (h * h - y * y) * fx;
+        }
+        self.mean[0] += (c * h - 1.0) * s0;
+        self.mean[1] -= c / h * s1;
+        if self.zero_flux {
+            self.mean[2] -= 0.75 * c / (h * h * h) * s2;
+        }
+    }
+
+    /// Adds dipoles: (v_x n_x, v_x n_y + v_y n_x, v_y n_y) times weight at points, with x measured from anywhere as long
+    /// as the flux through the curve is zero.
+    pub(crate) fn add_dipoles(
+        &mut self,
+        points: &WallPoints,
+        target_gap: f64,
+        dipoles: impl Fn(usize) -> [f64; 3],
+        x: impl Fn(usize) -> f64,
+    ) {
+        self.moments(points, target_gap, |j, s| {
+            let [xx, mixed, yy] = dipoles(j);
+            [xx, mixed, yy, s * (xx - yy), s * mixed]
+        });
+        for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
+            for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
+                let k = self.k * (n + 1) as f64;
+                let [xx, mixed, yy, s_difference, s_mixed] = [0, 1, 2, 3, 4].map(|c| moment(sums, n, c));
+                let (ax, ay) = (I * self.k, -side * self.k);
+                let (axx, axy) = (-side * self.k * k, I * (-self.k * k));
+                slip.u += xx * ax * -4.0 - mixed * (2.0 * ay) - axy * s_difference * 2.0 + s_mixed * (2.0 * axx);
+                slip.v += (xx + yy) * (-2.0 * ay) + s_difference * (2.0 * axx) + axy * s_mixed * 2.0;
+            }
+        }
+        let (c, h) = (self.k, self.half);
+        let (mut shear, mut moment) = (0.0, 0.0);
+        for (j, y) in points.y.iter().enumerate() {
+            let [xx, mixed, yy] = dipoles(j);
+            shear += mixed;
+            moment += y * mixed - x(j) * (xx + yy);
+        }
+        self.mean[1] -= c / h * shear;
+        if self.zero_flux {
+            self.mean[2] += 1.5 * c / (h * h * h) * moment;
+        }
+    }
+
+    /// Mean pressure gradient of the flow that does not depend on x, per 4 pi.
+    pub(crate) fn pressure_gradient(&self) -> f64 {
+        -2.0 * self.mean[2]
+    }
+
+    /// Solves for the series that cancels the velocity of the sources at the walls.
+    pub(crate) fn solve(&mut self) {
+        let chunks = self.modes.div_ceil(LANES);
+        for coefficients in &mut self.coefficients {
+            coefficients.clear();
+            coefficients.resize(chunks, Coefficients::default());
+        }
+        for n in 0..self.modes {
+            let k = self.k * (n + 1) as f64;
+            let [upper, lower] = [self.slips[0][n], self.slips[1][n]];
+            let (psi_upper, psi_lower) = (-I * upper.v / k, -I * lower.v / k);
+            let (slope_upper, slope_lower) = (-upper.u, -lower.u);
+            let (pe, po) = (0.5 * (psi_upper + psi_lower), 0.5 * (psi_upper - psi_lower));
+            let (qe, qo) = (0.5 * (slope_upper - slope_lower), 0.5 * (slope_upper + slope_lower));
+            let Factors { even, odd } = self.factors[n];
+            let (a, b) = (pe * even[0] + qe * even[1], qe * even[2] - pe * even[3]);
+            let (c, d) = (po * odd[0] - qo * odd[1], qo * odd[2] - po * odd[3]);
+            for (side, sign) in [(0, 0.5), (1, -0.5)] {
+                let (r, b) = ((0.5 * a + sign * c) * k, 0.5 * b + sign * d);
+                let slot = &mut self.coefficients[side][n / LANES];
+                for (array, value) in [(&mut slot.sum, r + b), (&mut slot.plain, r), (&mut slot.linear, b * k)] {
+                    (array[0][n % LANES], array[1][n % LANES]) = (value.re, value.im);
+                }
+            }
+        }
+    }
+
+    /// Adds the velocity of the correction at points by `add(index, u, v)`; `source_gap` as in [`WallModes::begin`].
+    pub(crate) fn velocities(&self, points: &WallPoints, source_gap: f64, mut add: impl FnMut(usize, f64, f64)) {
+        for (i, y) in points.y.iter().enumerate() {
+            let (mut u, mut v) = (self.mean_velocity(*y), 0.0);
+            for (side, sign) in [(0, 1.0), (1, -1.0)] {
+                let mut powers = points.sides[side][i];
+                let s = powers.distance;
+                let coefficients = &self.coefficients[side];
+                let needed = self.exponent / (self.k * (s + source_gap).max(1e-300));
+                let chunks = (needed.min(self.modes as f64) as usize / LANES + 1).min(coefficients.len());
+                let (mut along, mut across) = ([0.0; LANES], [0.0; LANES]);
+                for c in &coefficients[..chunks] {
+                    for lane in 0..LANES {
+                        let (re, im) = (powers.re[lane], powers.im[lane]);
+                        along[lane] += re * (c.sum[0][lane] - s * c.linear[0][lane])
+                            - im * (c.sum[1][lane] - s * c.linear[1][lane]);
+                        across[lane] += re * (c.plain[1][lane] - s * c.linear[1][lane])
+                            + im * (c.plain[0][lane] - s * c.linear[0][lane]);
+                    }
+                    powers.advance();
+                }
+                u += sign * along.iter().sum::<f64>();
+                v += across.iter().sum::<f64>();
+            }
+            add(i, u, v);
+        }
+    }
+
+    fn mean_velocity(&self, y: f64) -> f64 {
+        self.mean[0] + self.mean[1] * y + self.mean[2] * (self.half * self.half - y * y)
+    }
+
+    /// Velocity, gradient and pressure of the correction at point i.
+    pub(crate) fn flow(&self, points: &WallPoints, i: usize) -> WallFlow {
+        let y = points.y[i];
+        let mut flow = WallFlow::default();
+        flow.velocity[0] = self.mean_velocity(y);
+        flow.gradient[0][1] = self.mean[1] - 2.0 * self.mean[2] * y;
+        for (side, sign) in [(0, 1.0), (1, -1.0)] {
+            let mut powers = points.sides[side][i];
+            let s = powers.distance;
+            for (chunk, c) in self.coefficients[side].iter().enumerate() {
+                for lane in 0..LANES {
+                    let k = self.k * (chunk * LANES + lane + 1) as f64;
+                    let e = Complex64::new(powers.re[lane], powers.im[lane]);
+                    let plain = e * Complex64::new(c.plain[0][lane], c.plain[1][lane]);
+                    let linear = e * Complex64::new(c.linear[0][lane], c.linear[1][lane]);
+                    let bend = linear / k;
+                    // psi, its slope and its second derivative in y, times k, 1 and 1.
+                    let psi = plain - linear * s;
+                    let slope = (plain + bend - linear * s) * sign;
+                    let second = (plain + 2.0 * bend - linear * s) * k;
+                    flow.velocity[0] += slope.re;
+                    flow.velocity[1] += psi.im;
+                    flow.gradient[0][0] -= k * slope.im;
+                    flow.gradient[1][1] += k * slope.im;
+                    flow.gradient[0][1] += second.re;
+                    flow.gradient[1][0] += k * psi.re;
+                    flow.pressure += 2.0 * sign * linear.im;
+                }
+                powers.advance();
+            }
+        }
+        flow
+    }
+}
+
+const I: Complex64 = Complex64::new(0.0, 1.0);
+
+fn moment(sums: &[Sums], n: usize, column: usize) -> Complex64 {
+    let sum = &sums[n / LANES];
+    Complex64::new(sum.re[column][n % LANES], sum.im[column][n % LANES])
+}
+
+/// Solution of the biharmonic equation between the walls for given values and slopes, split into even and odd parts and
+/// scaled by exp(-k half) to stay finite.
+fn factors(k: f64, half: f64) -> Factors {
+    let kh = k * half;
+    let decay = (-2.0 * kh).exp();
+    let (sinh, cosh) = (0.5 * (1.0 - decay), 0.5 * (1.0 + decay));
+    let even = 0.25 * (1.0 - decay * decay) + kh * decay;
+    let z = 2.0 * kh;
+    let odd = if z < 0.5 {
+        // (sinh z - z)/2 by its series, since the difference of the two cancels.
+        let mut term = z * z * z / 6.0;
+        let mut sum = term;
+        for j in 2..12 {
+            term *= z * z / f64::from(2 * j * (2 * j + 1));
+            sum += term;
+        }
+        0.5 * sum * (-z).exp()
+    } else {
+        0.25 * (1.0 - decay * decay) - kh * decay
+    };
+    Factors {
+        even: [sinh + kh * decay, half * decay, cosh, k * sinh].map(|value| value / even),
+        odd: [cosh - kh * decay, half * decay, sinh, k * cosh].map(|value| value / odd),
+    }
+}
