@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ib_core::{Hydrodynamics, Medium, StepLimit, System, Vec2};
+use ib_core::{BandLimit, Hydrodynamics, Medium, StepLimit, System, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::filter::WiggleFilter;
@@ -90,6 +90,8 @@ pub struct ActiveDroplet {
     pub(crate) other_markers: Vec<Vec2>,
     pub(crate) other_geometry: Geometry,
     pub(crate) filter: WiggleFilter,
+    /// Truncation of the motion, where the flow resolves fewer modes than there are markers.
+    pub(crate) band: Option<BandLimit>,
     pub(crate) crossing: CrossingFinder,
     pub(crate) repair: Repair,
     pub(crate) redistributed: (usize, usize),
@@ -157,6 +159,7 @@ impl ActiveDroplet {
             other_markers: Vec::new(),
             other_geometry: Geometry::default(),
             filter: WiggleFilter::default(),
+            band: None,
             crossing: CrossingFinder::new(),
             repair: Repair::default(),
             redistributed: (0, 0),
@@ -335,6 +338,16 @@ impl ActiveDroplet {
         self.tension.values(&self.concentrations, &mut self.tensions)
     }
 
+    /// The truncation that `medium` asks for, made anew only where it has changed.
+    pub(crate) fn fit_band(&mut self, medium: &Medium) {
+        let count = self.markers.len();
+        match medium.shape_modes.filter(|&modes| modes < count) {
+            None => self.band = None,
+            Some(modes) if self.band.as_ref().is_some_and(|b| b.len() == count && b.modes() == modes) => {}
+            Some(modes) => self.band = Some(BandLimit::new(count, modes)),
+        }
+    }
+
     /// Mean of the viscosities on both sides, on which the speed of an interface depends (stress times time).
     pub(crate) fn mean_viscosity(&self, medium: &Medium) -> f64 {
         self.viscosity_inside.map_or(medium.viscosity, |inside| 0.5 * (inside + medium.viscosity))
@@ -349,7 +362,7 @@ impl ActiveDroplet {
             reason: "the surface tension",
         }];
         if self.transport.is_some() {
-            let scale = medium.spacing.unwrap_or(self.geometry.mean_length());
+            let scale = finest_response(medium);
             // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.
             let coupling = self.concentrations.iter().map(|&c| c * self.tension.slope(c).abs()).fold(0.0_f64, f64::max);
             let remainder = if self.stabilised { 8.0 } else { 2.5 };
@@ -363,4 +376,10 @@ impl ActiveDroplet {
         }
         limits
     }
+}
+
+/// The length below which the flow no longer responds to forces along an interface: the grid spacing, or 2/q for the largest resolved
+/// wave number q, of which the interface's stiffness is a quarter.
+pub(crate) fn finest_response(medium: &Medium) -> f64 {
+    medium.spacing.unwrap_or(0.5 / medium.interface_stiffness)
 }

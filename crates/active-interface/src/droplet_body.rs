@@ -2,7 +2,7 @@
 
 use ib_core::{Body, BodyError, MarkerKind, Medium, StepLimit, Vec2};
 
-use crate::droplet::MINIMUM_MARKERS;
+use crate::droplet::{MINIMUM_MARKERS, finest_response};
 use crate::geometry::{equidistribute, outward, signed_area};
 use crate::redistribution::redistribute;
 use crate::{ActiveDroplet, InterfaceError, Motion, Transport, repair_positivity};
@@ -86,6 +86,9 @@ impl Body for ActiveDroplet {
                 self.slip.fill(0.0);
             }
         }
+        if let Some(band) = self.band.as_mut() {
+            band.apply(&mut self.motions);
+        }
         let (positions, numbers) = rate.split_at_mut(2 * count);
         for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {
             pair.copy_from_slice(motion.as_slice());
@@ -107,6 +110,7 @@ impl Body for ActiveDroplet {
 
     fn begin_step(&mut self, medium: &Medium, _dt: f64) -> Result<(), BodyError> {
         let count = self.markers.len();
+        self.fit_band(medium);
         self.diffusivities.resize(count, 0.0);
         self.diffusivities.fill(self.diffusion);
         self.stabiliser.clear();
@@ -114,7 +118,7 @@ impl Body for ActiveDroplet {
             return Ok(());
         }
         self.stabiliser.resize(count, 0.0);
-        let scale = 0.25 * medium.spacing.unwrap_or(self.geometry.mean_length()) / self.mean_viscosity(medium);
+        let scale = 0.25 * finest_response(medium) / self.mean_viscosity(medium);
         let stiffness = |c: f64| scale * c * (-self.tension.slope(c)).max(0.0);
         let mut before = stiffness(self.concentrations[count - 1]);
         for ((face, all), &c) in self.stabiliser.iter_mut().zip(&mut self.diffusivities).zip(&self.concentrations) {

@@ -176,6 +176,7 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
             domain: self.domain.region(),
             viscosity: self.viscosity,
             spacing: None,
+            shape_modes: Some(self.settings.nodes),
             interface_stiffness: self.stiffness,
         }
     }

@@ -22,6 +22,8 @@ pub struct Medium {
     pub viscosity: f64,
     /// Grid spacing (length); `None` where there is no grid.
     pub spacing: Option<f64>,
+    /// Fourier modes along an interface that the flow resolves; `None` where the markers themselves are the resolution.
+    pub shape_modes: Option<usize>,
     /// Fastest relaxation of an interface in this discretisation, in units of tension/viscosity (1/length): a marker
     /// displacement normal to an interface of tension gamma decays at most at the rate
     /// `stiffness * gamma / viscosity`.

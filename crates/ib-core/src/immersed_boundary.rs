@@ -160,6 +160,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             domain: Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls },
             viscosity: self.solver.viscosity(),
             spacing: Some(grid.spacing()),
+            shape_modes: None,
             interface_stiffness: self.stiffness,
         }
     }

@@ -1,5 +1,6 @@
 //! The immersed boundary method.
 
+mod band_limit;
 mod body;
 mod correction;
 mod error;
@@ -16,6 +17,7 @@ mod scene;
 mod system;
 mod transfer;
 
+pub use band_limit::BandLimit;
 pub use body::{Body, StepLimit};
 pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{Domain, FlowReport, FlowSample, FlowWork, Hydrodynamics, Medium};
