@@ -27,7 +27,7 @@ use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, 
 /// **Mean flow.** [`Drive`] says whether the mean pressure gradient or the flux is prescribed; [`SolveReport`] has the mean
 /// pressure gradient, [`crate::flux`] the flux. The y velocity has no mean on any row.
 ///
-/// **Sizes.** Every size is correct. Only `nx` is transformed: even values with no prime factors but 2, 3 and 5 are fast; `ny`
+/// **Sizes.** Every size is correct. Only `nx` is transformed: even values with no prime factors but 2, 3, 5, 7 and 11 are fast; `ny`
 /// may be anything.
 #[derive(Debug)]
 pub struct ChannelStokes {
@@ -150,7 +150,7 @@ impl StokesSolver for ChannelStokes {
             let psi = self.rows.inverse(row);
             // What is not finite in the force, or overflows on the way, reaches every value of this row.
             if j == 1 && !(psi[0] + self.mean_u[0]).is_finite() {
-                return Err(not_finite(fx, &fy[nx..ny * nx]));
+                return Err(not_finite("the velocity", &[("the force", fx), ("the force", &fy[nx..ny * nx])]));
             }
             let v = &mut v[j * nx..][..nx];
             for (v, psi) in v.iter_mut().zip(psi.windows(2)) {
@@ -227,7 +227,12 @@ impl StokesSolver for ChannelStokes {
                 *value *= Complex64::new(0.5, -0.5 / half_angle.tan()) * (h / nx as f64);
             }
             row[0] = Complex64::new(mean, 0.0);
-            pressure.values_mut()[j * nx..][..nx].copy_from_slice(self.rows.inverse(row));
+            let p = &mut pressure.values_mut()[j * nx..][..nx];
+            p.copy_from_slice(self.rows.inverse(row));
+            if !p[0].is_finite() {
+                let given = [("the force", fx), ("the force", &fy[nx..ny * nx]), ("the velocity", u)];
+                return Err(not_finite("the pressure", &given));
+            }
         }
         self.work.forward_transforms += 1;
         self.work.inverse_transforms += 1;

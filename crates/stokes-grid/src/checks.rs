@@ -14,10 +14,12 @@ pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), StokesE
     if value.is_finite() { Ok(()) } else { Err(StokesError::NotFinite { name, value }) }
 }
 
-/// Why a velocity is not finite: a force that is not, or else an overflow.
-pub(crate) fn not_finite(fx: &[f64], fy: &[f64]) -> StokesError {
-    match fx.iter().chain(fy).find(|f| !f.is_finite()) {
-        Some(&value) => StokesError::NotFinite { name: "the force", value },
-        None => StokesError::Overflow { name: "the velocity" },
+/// Why `result` is not finite: something given that is not, or else an overflow.
+pub(crate) fn not_finite(result: &'static str, given: &[(&'static str, &[f64])]) -> StokesError {
+    for (name, values) in given {
+        if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
+            return StokesError::NotFinite { name, value };
+        }
     }
+    StokesError::Overflow { name: result }
 }

@@ -54,10 +54,10 @@ pub enum StokesError {
         /// Values given.
         found: usize,
     },
-    /// A solver for a periodic box got a channel, or the other way round.
-    #[error("this solver needs {needed}: build the grid with {remedy}")]
+    /// A periodic box where walls are needed, or the other way round.
+    #[error("this needs {needed}: build the grid with {remedy}")]
     WrongBoundary {
-        /// What the solver needs.
+        /// What is needed.
         needed: &'static str,
         /// The constructor to use.
         remedy: &'static str,

@@ -1,6 +1,6 @@
 //! The streamfunction solver of a doubly periodic box.
 
-use crate::checks::{check_finite, check_grid, check_viscosity};
+use crate::checks::{check_finite, check_grid, check_viscosity, not_finite};
 use crate::sums::sum;
 use crate::{CentreField, Grid, RealFft2, SolveReport, StaggeredField, StokesError, StokesSolver, Symbol, Work};
 
@@ -16,8 +16,7 @@ use crate::{CentreField, Grid, RealFft2, SolveReport, StaggeredField, StokesErro
 /// [`PeriodicStokes::set_mean_velocity`] says otherwise. A uniform force moves nothing: it is balanced by a uniform pressure
 /// gradient, which [`SolveReport::mean_pressure_gradient`] has.
 ///
-/// **Sizes.** Every size is correct, as [`RealFft2`] has it; even `nx` and numbers of cells with no prime factors but 2, 3 and 5
-/// are fast.
+/// **Sizes.** Every size is correct; even `nx` and numbers of cells with no prime factors but 2, 3, 5, 7 and 11 are fast.
 #[derive(Debug)]
 pub struct PeriodicStokes {
     grid: Grid,
@@ -101,7 +100,9 @@ impl StokesSolver for PeriodicStokes {
             total[1] += sum(fy);
         });
         // The sum of a row with a value that is not finite is not finite.
-        total.into_iter().try_for_each(|value| check_finite("the sum of the force", value))?;
+        if !total.into_iter().all(f64::is_finite) {
+            return Err(not_finite("the sum of the force", &[("the force", fx), ("the force", fy)]));
+        }
         self.transform.filter_columns(&self.biharmonic);
 
         let [mean_u, mean_v] = self.mean_velocity;
@@ -164,6 +165,9 @@ impl StokesSolver for PeriodicStokes {
             },
             |j, row| out[j * nx..][..nx].copy_from_slice(row),
         );
+        if !out[0].is_finite() {
+            return Err(not_finite("the pressure", &[("the force", fx), ("the force", fy)]));
+        }
         self.work.forward_transforms += 1;
         self.work.inverse_transforms += 1;
         Ok(())

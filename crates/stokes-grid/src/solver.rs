@@ -47,7 +47,8 @@ pub trait StokesSolver: std::fmt::Debug + Send {
     /// The velocity for a force density; it is discretely divergence free.
     ///
     /// # Errors
-    /// Fields of another grid; for iterative solvers, no convergence.
+    /// Fields of another grid, a force that is not finite (the velocity is then left as it was), a result beyond the range of
+    /// double precision; for iterative solvers, no convergence.
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError>;
 
     /// The periodic part of the pressure (force per length in 2D), mean zero, that belongs to a force density and the velocity that
@@ -55,7 +56,7 @@ pub trait StokesSolver: std::fmt::Debug + Send {
     /// [`SolveReport::mean_pressure_gradient`].
     ///
     /// # Errors
-    /// Fields of another grid.
+    /// Fields of another grid, a force or velocity that is not finite, a result beyond the range of double precision.
     fn pressure(
         &mut self,
         force: &StaggeredField,
@@ -65,4 +66,35 @@ pub trait StokesSolver: std::fmt::Debug + Send {
 
     /// Work done since the solver was made.
     fn work(&self) -> Work;
+}
+
+impl<S: StokesSolver + ?Sized> StokesSolver for Box<S> {
+    fn grid(&self) -> &Grid {
+        (**self).grid()
+    }
+
+    fn viscosity(&self) -> f64 {
+        (**self).viscosity()
+    }
+
+    fn walls(&self) -> &WallMotion {
+        (**self).walls()
+    }
+
+    fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
+        (**self).solve(force, velocity)
+    }
+
+    fn pressure(
+        &mut self,
+        force: &StaggeredField,
+        velocity: &StaggeredField,
+        pressure: &mut CentreField,
+    ) -> Result<(), StokesError> {
+        (**self).pressure(force, velocity, pressure)
+    }
+
+    fn work(&self) -> Work {
+        (**self).work()
+    }
 }

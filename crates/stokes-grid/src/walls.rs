@@ -91,10 +91,14 @@ impl WallMotion {
     /// Whether these walls belong to such a grid.
     pub(crate) fn check(&self, grid: &Grid) -> Result<(), StokesError> {
         let found = self.bottom.len();
-        if found == 0 || (found == grid.nx() && grid.has_walls()) {
+        if found == 0 {
             Ok(())
-        } else {
+        } else if !grid.has_walls() {
+            Err(StokesError::WrongBoundary { needed: "walls to move", remedy: "Grid::channel" })
+        } else if found != grid.nx() {
             Err(StokesError::WrongLength { name: "the wall motion", expected: grid.nx(), found })
+        } else {
+            Ok(())
         }
     }
 }

@@ -219,7 +219,9 @@ fn bad_input_ends_in_an_error_that_names_it() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut force = random_force(grid, 1);
         force.components_mut().0[17] = bad;
-        assert!(matches!(solver.solve(&force, &mut velocity), Err(StokesError::NotFinite { .. })));
+        assert!(matches!(solver.solve(&force, &mut velocity), Err(StokesError::NotFinite { name: "the force", .. })));
+        let in_pressure = solver.pressure(&force, &velocity, &mut CentreField::zeros(grid));
+        assert!(matches!(in_pressure, Err(StokesError::NotFinite { name: "the force", .. })));
         let mut projection = ProjectionStokes::new(grid, 1.0).unwrap();
         assert!(matches!(projection.solve(&force, &mut velocity), Err(StokesError::NotFinite { .. })));
         assert_eq!(velocity, StaggeredField::zeros(grid));

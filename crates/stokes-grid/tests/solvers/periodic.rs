@@ -125,7 +125,9 @@ fn bad_input_ends_in_an_error_that_names_it() {
     for bad in [f64::NAN, f64::INFINITY] {
         let mut force = random_force(grid, 1);
         force.components_mut().1[17] = bad;
-        assert!(matches!(solver.solve(&force, &mut velocity), Err(StokesError::NotFinite { .. })));
+        assert!(matches!(solver.solve(&force, &mut velocity), Err(StokesError::NotFinite { name: "the force", .. })));
+        let in_pressure = solver.pressure(&force, &velocity, &mut CentreField::zeros(grid));
+        assert!(matches!(in_pressure, Err(StokesError::NotFinite { name: "the force", .. })));
         assert_eq!(velocity, StaggeredField::zeros(grid));
     }
     let mut force = random_force(grid, 1);
