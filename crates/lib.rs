@@ -1,6 +1,53 @@
 //! Active droplets swimming in two-dimensional Stokes flow.
+//!
+//! A droplet is a closed fluid interface that carries active particles. The particles raise its tension; differences of
+//! tension drive flow along the interface; the flow gathers the particles. Above a threshold of activity the droplet
+//! polarises and swims. motile computes this alone, in periodic boxes and in channels with rigid walls, by the immersed
+//! boundary method on a staggered grid with a correction that makes velocities on interfaces second-order accurate, or
+//! without a grid by boundary integrals.
+//!
+//! ```
+//! use motile::prelude::*;
+//!
+//! // viscosity 100, activity -2, a 6 x 6 box, 60 x 60 cells; R0 is the unit of length
+//! let swimmer = Swimmer { spacing: 0.1, ..Swimmer::default() };
+//! let (mut scene, droplet) = swimmer.build()?;
+//! scene.run(20.0).go()?;
+//!
+//! scene.system_mut().evaluate()?;
+//! let seen = observe(&scene.body(droplet).interface_state(scene.system(), droplet.index()), Convention::FarField)?;
+//! println!("speed {:.3} R0 per time, aspect ratio {:.3}", seen.speed(), seen.aspect_ratio_moments);
+//! assert!((seen.speed() - 0.130).abs() < 0.002);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Crates
+//!
+//! | crate | what it is |
+//! |---|---|
+//! | [`stokes_grid`] | Stokes solvers on staggered grids: periodic boxes, channels with no-slip walls |
+//! | [`ib_core`] | the immersed boundary method: kernels, transfer, bodies, scenes, integrators, observers |
+//! | [`boundary_integral`] | flow of interfaces alone, without a grid, any viscosity ratio |
+//! | [`active_interface`] | the droplet: curve, particles, tension, observables, linear theory, SI units |
+//! | [`elastic_solids`] | elastic materials and meshes |
+//!
+//! Each can be used by itself; this crate re-exports them and adds [`Swimmer`], which sets up a droplet in a box or a channel
+//! from a few numbers, with the method of the thesis this work rests on as the preset [`Swimmer::thesis`].
+//!
+//! # Units
+//!
+//! The library is free of units: give all quantities in one consistent system. Presets and examples use R0 = 10 um for length
+//! and gamma0/10 for tension; [`active_interface::Units`] converts to SI.
 
 mod swimmer;
 
 pub use swimmer::{InitialState, PeriodicBox, RigidChannel, SetupError, Swimmer};
 pub use {active_interface, boundary_integral, elastic_solids, ib_core, stokes_grid};
+
+/// What most programs need.
+pub mod prelude {
+    pub use crate::{InitialState, Swimmer};
+    pub use active_interface::{ActiveDroplet, Convention, Curve, Flux, Motion, observe};
+    pub use ib_core::{AnyKernel, Every, Hydrodynamics, ImmersedBoundary, Scene, StepSize, Vec2};
+    pub use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StokesSolver};
+}
