@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use active_interface::{
     ActiveDroplet, ContractileTension, Curve, Flux, InitialConcentration, InterfaceError, Motion, StepExcludedVolume,
 };
+use boundary_integral::{BoundaryIntegral, BoundaryIntegralError, Channel, FluidDomain, FreeSpace, Settings};
 use ib_core::{AnyKernel, FlowError, Handle, ImmersedBoundary, Scene, StepSize, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StokesError, StokesSolver};
 
@@ -21,6 +22,9 @@ pub enum SetupError {
     /// The coupling.
     #[error(transparent)]
     Flow(#[from] FlowError),
+    /// The boundary integrals.
+    #[error(transparent)]
+    BoundaryIntegral(#[from] BoundaryIntegralError),
     /// A box that does not hold a whole number of cells or is too small for the droplet.
     #[error("a box of {lx} x {ly} with cells of {spacing} {problem}")]
     Box {
@@ -58,8 +62,10 @@ pub struct Swimmer {
     pub activity: f64,
     /// Strength A of the excluded volume (2.41) (force times length).
     pub excluded_volume: f64,
-    /// Viscosity of both fluids (stress times time).
+    /// Viscosity of the surroundings, and of the droplet unless it has its own (stress times time).
     pub viscosity: f64,
+    /// Viscosity of the droplet (stress times time); `None` for that of the surroundings.
+    pub viscosity_inside: Option<f64>,
     /// Diffusion constant of the particles (length squared per time).
     pub diffusion: f64,
     /// Mean concentration c0 (1/length).
@@ -72,8 +78,12 @@ pub struct Swimmer {
     pub lengths: [f64; 2],
     /// Grid spacing h (length).
     pub spacing: f64,
-    /// Marker spacing (length); `None` for h/2.
+    /// Marker spacing on a grid (length); `None` for h/2.
     pub marker_spacing: Option<f64>,
+    /// Shape nodes of the boundary integrals.
+    pub nodes: usize,
+    /// Cells of the concentration, and markers, with boundary integrals; at least as many as nodes.
+    pub concentration_cells: usize,
     /// Kernel.
     pub kernel: AnyKernel,
     /// Whether the mobility correction is on.
@@ -100,6 +110,7 @@ impl Default for Swimmer {
             activity: -2.0,
             excluded_volume: 10.0,
             viscosity: 100.0,
+            viscosity_inside: None,
             diffusion: 0.1,
             mean_concentration: 100.0,
             bare_tension: 10.0,
@@ -107,6 +118,8 @@ impl Default for Swimmer {
             lengths: [6.0, 6.0],
             spacing: 0.05,
             marker_spacing: None,
+            nodes: 64,
+            concentration_cells: 256,
             kernel: AnyKernel::BSpline4,
             corrected: true,
             motion: Motion::default(),
@@ -125,6 +138,15 @@ pub type PeriodicBox = ImmersedBoundary<PeriodicStokes, AnyKernel>;
 
 /// The hydrodynamics of a droplet in a channel with rigid walls.
 pub type RigidChannel = ImmersedBoundary<ChannelStokes, AnyKernel>;
+
+/// The hydrodynamics of a droplet in a periodic box, without a grid.
+pub type IntegralBox = BoundaryIntegral<boundary_integral::PeriodicBox>;
+
+/// The hydrodynamics of a droplet in a channel with rigid walls, without a grid.
+pub type IntegralChannel = BoundaryIntegral<Channel>;
+
+/// The hydrodynamics of a droplet in unbounded fluid, without a grid.
+pub type IntegralPlane = BoundaryIntegral<FreeSpace>;
 
 impl Swimmer {
     /// The thesis' method: Peskin's 4-point function, no mobility correction, markers that move with the fluid and are
@@ -170,20 +192,28 @@ impl Swimmer {
     /// # Errors
     /// Parameters out of their range.
     pub fn droplet(&self) -> Result<ActiveDroplet, SetupError> {
-        let tension = self.tension()?;
         let spacing = self.marker_spacing.unwrap_or(0.5 * self.spacing);
         if !(spacing.is_finite() && spacing > 0.0) {
             return Err(InterfaceError::NotPositive { name: "the marker spacing", value: spacing }.into());
         }
-        let curve =
-            Curve::circle(self.radius)?.rotated(self.angle).translated(Vec2::new(self.offset[0], self.offset[1]));
-        let markers = curve.markers(fast_count(TAU * self.radius / spacing))?;
-        let numbers = self.numbers(&markers)?;
-        let droplet = ActiveDroplet::new(&markers, numbers, tension, self.diffusion)?
+        self.droplet_with(&self.circle()?.markers(fast_count(TAU * self.radius / spacing))?)
+    }
+
+    fn circle(&self) -> Result<Curve, SetupError> {
+        let centre = Vec2::new(self.offset[0], self.offset[1]);
+        Ok(Curve::circle(self.radius)?.rotated(self.angle).translated(centre))
+    }
+
+    fn droplet_with(&self, markers: &[Vec2]) -> Result<ActiveDroplet, SetupError> {
+        let numbers = self.numbers(markers)?;
+        let droplet = ActiveDroplet::new(markers, numbers, self.tension()?, self.diffusion)?
             .with_motion(self.motion)
             .with_flux(self.flux)?
             .with_area_constraint(self.area_constraint);
-        Ok(droplet)
+        Ok(match self.viscosity_inside {
+            Some(inside) => droplet.with_viscosity_inside(inside)?,
+            None => droplet,
+        })
     }
 
     fn numbers(&self, markers: &[Vec2]) -> Result<Vec<f64>, SetupError> {
@@ -237,6 +267,61 @@ impl Swimmer {
         let mut solver = ChannelStokes::new(grid, self.viscosity)?;
         solver.set_drive(drive)?;
         let mut scene = Scene::new(self.couple(solver));
+        let droplet = scene.add(droplet);
+        Ok((scene, droplet))
+    }
+
+    /// The scene and the droplet in a periodic box, without a grid: spectrally accurate, for scenes of interfaces only.
+    /// Grid and marker spacing and kernel do not matter.
+    ///
+    /// # Errors
+    /// Parameters out of their range.
+    pub fn build_without_grid(&self) -> Result<(Scene<IntegralBox>, Handle<ActiveDroplet>), SetupError> {
+        let [lx, ly] = self.lengths;
+        self.integrals(boundary_integral::PeriodicBox::new(lx, ly)?, &self.circle()?)
+    }
+
+    /// As [`Swimmer::build_without_grid`], in unbounded fluid.
+    ///
+    /// # Errors
+    /// Parameters out of their range.
+    pub fn build_unbounded(&self) -> Result<(Scene<IntegralPlane>, Handle<ActiveDroplet>), SetupError> {
+        self.integrals(FreeSpace, &self.circle()?)
+    }
+
+    /// As [`Swimmer::build_without_grid`], in a channel with rigid walls. A droplet that would start closer to a wall than a
+    /// twentieth of its radius is squeezed to an ellipse of the same area.
+    ///
+    /// # Errors
+    /// Parameters out of their range, a droplet beyond a wall.
+    pub fn build_without_grid_in_channel(
+        &self,
+        drive: Drive,
+    ) -> Result<(Scene<IntegralChannel>, Handle<ActiveDroplet>), SetupError> {
+        let [lx, ly] = self.lengths;
+        let domain = Channel::new(lx, ly)?.with_drive(drive)?;
+        let room = 0.5 * ly - self.offset[1].abs() - 0.05 * self.radius;
+        let curve = if room >= self.radius {
+            self.circle()?
+        } else if room > 0.5 * self.radius {
+            let along = self.radius * self.radius / room;
+            Curve::ellipse(along, room)?.translated(Vec2::new(self.offset[0], self.offset[1]))
+        } else {
+            let problem = "does not hold the droplet: move it to the centre line or make the channel wider or longer";
+            return Err(SetupError::Box { lx, ly, spacing: self.spacing, problem });
+        };
+        self.integrals(domain, &curve)
+    }
+
+    fn integrals<D: FluidDomain + 'static>(
+        &self,
+        domain: D,
+        curve: &Curve,
+    ) -> Result<(Scene<BoundaryIntegral<D>>, Handle<ActiveDroplet>), SetupError> {
+        let settings = Settings { nodes: self.nodes, reference_perimeter: TAU * self.radius, ..Settings::default() };
+        let flow = BoundaryIntegral::new(domain, self.viscosity, settings)?;
+        let droplet = self.droplet_with(&curve.markers(self.concentration_cells.max(self.nodes))?)?;
+        let mut scene = Scene::new(flow);
         let droplet = scene.add(droplet);
         Ok((scene, droplet))
     }
