@@ -41,7 +41,9 @@
 
 mod swimmer;
 
-pub use swimmer::{InitialState, PeriodicBox, RigidChannel, SetupError, Swimmer};
+pub use swimmer::{
+    InitialState, IntegralBox, IntegralChannel, IntegralPlane, PeriodicBox, RigidChannel, SetupError, Swimmer,
+};
 pub use {active_interface, boundary_integral, elastic_solids, ib_core, stokes_grid};
 
 /// What most programs need.
