@@ -151,7 +151,7 @@ mod tests {
 
     /// Largest error of `A E = eta_out E` at the first of two interfaces and of `A E = 0` at the second, for the rigid
     /// motions E of the first, relative to the mean viscosity; and whether a uniform expansion keeps its flux.
-    fn errors(domain: impl Region, second: Complex64, viscosities: [f64; 2]) -> [f64; 2] {
+    fn errors(domain: &impl Region, second: Complex64, viscosities: [f64; 2]) -> [f64; 2] {
         let tolerance = 1e-15;
         let mut surroundings = surroundings(domain.kind(), tolerance);
         let mut transforms = Transforms::new(NODES);
@@ -224,17 +224,17 @@ mod tests {
     #[test]
     fn rigid_motions_and_flux() {
         for viscosities in [[10.0, 3.0], [1000.0, 0.001], [0.001, 50.0]] {
-            let free = errors(FreeSpace, Complex64::new(3.1, 0.4), viscosities);
+            let free = errors(&FreeSpace, Complex64::new(3.1, 0.4), viscosities);
             assert!(free[0] < 1e-12 && free[1] < 1e-12, "{free:?}");
-            let close = errors(FreeSpace, Complex64::new(2.65, 0.4), viscosities);
+            let close = errors(&FreeSpace, Complex64::new(2.65, 0.4), viscosities);
             assert!(close[0] < 1e-11, "{close:?}");
-            let square = errors(PeriodicBox::new(6.0, 7.0).unwrap(), Complex64::new(3.2, 3.6), viscosities);
+            let square = errors(&PeriodicBox::new(6.0, 7.0).unwrap(), Complex64::new(3.2, 3.6), viscosities);
             assert!(square[0] < 1e-12, "{square:?}");
-            let large = errors(PeriodicBox::new(14.0, 15.0).unwrap(), Complex64::new(2.9, 0.6), viscosities);
+            let large = errors(&PeriodicBox::new(14.0, 15.0).unwrap(), Complex64::new(2.9, 0.6), viscosities);
             assert!(large[0] < 1e-12, "{large:?}");
             for drive in [Drive::ZeroGradient, Drive::ZeroFlux] {
                 let channel = Channel::new(7.0, 4.0).unwrap().with_drive(drive).unwrap();
-                let channel = errors(channel, Complex64::new(3.5, -0.4), viscosities);
+                let channel = errors(&channel, Complex64::new(3.5, -0.4), viscosities);
                 assert!(channel[0] < 1e-11, "{channel:?}");
             }
         }

@@ -162,14 +162,13 @@ mod tests {
             assert_eq!(a.y, b.y);
         }
         // Each pair once: against the plain double sum at the targets.
-        let mut expected = [0.0; NODES];
-        for i in 0..NODES {
-            for j in 0..NODES {
-                let (t, s) = (target.window(i, 1), source.window(j, 1));
-                let [xxx, xxy, xyy, _] = kernel.stress(&t, &s, 0);
-                expected[i] += xxx * far.xx[j] + xxy * far.s[j] + xyy * far.yy[j];
-            }
-            assert!((expected[i] - a[0].x[i]).abs() < 1e-12);
+        for (i, found) in a[0].x.iter().enumerate() {
+            let term = |j: usize| {
+                let [xxx, xxy, xyy, _] = kernel.stress(&target.window(i, 1), &source.window(j, 1), 0);
+                xxx * far.xx[j] + xxy * far.s[j] + xyy * far.yy[j]
+            };
+            let expected: f64 = (0..NODES).map(term).sum();
+            assert!((expected - found).abs() < 1e-12);
         }
     }
 
