@@ -75,6 +75,8 @@ mod solver;
 mod stress;
 mod surroundings;
 mod transform;
+mod wall_flow;
+mod wall_points;
 mod walls;
 
 pub use calculus::{BandLimit, PeriodicCalculus, Resample, TensionPlacement};

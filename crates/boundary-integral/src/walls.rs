@@ -7,74 +7,10 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-/// Modes done at a time.
-const LANES: usize = 8;
+use crate::wall_points::{LANES, Lanes, WallPoints};
+
 /// No gap asks for more modes than this.
 const MOST_MODES: usize = 4096;
-
-type Lanes = [f64; LANES];
-
-/// `exp(-n k s) exp(i n k x)` for the first modes n = 1 .. 8 and the factor to the next eight, for one wall.
-#[derive(Debug, Clone, Copy)]
-struct Powers {
-    /// Distance from the wall (length).
-    distance: f64,
-    re: Lanes,
-    im: Lanes,
-    step: Complex64,
-}
-
-impl Powers {
-    fn new(k: f64, distance: f64, phase: Complex64) -> Self {
-        let base = phase * (-k * distance).exp();
-        let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
-        let mut power = Complex64::new(1.0, 0.0);
-        for lane in 0..LANES {
-            power *= base;
-            (re[lane], im[lane]) = (power.re, power.im);
-        }
-        Self { distance, re, im, step: power }
-    }
-
-    #[inline(always)]
-    fn advance(&mut self) {
-        for lane in 0..LANES {
-            let (re, im) = (self.re[lane], self.im[lane]);
-            self.re[lane] = re * self.step.re - im * self.step.im;
-            self.im[lane] = re * self.step.im + im * self.step.re;
-        }
-    }
-}
-
-/// Points between the walls, prepared for sums over modes.
-#[derive(Debug, Default)]
-pub(crate) struct WallPoints {
-    /// Upper wall, lower wall.
-    sides: [Vec<Powers>; 2],
-    /// Height above the middle (length).
-    y: Vec<f64>,
-}
-
-impl WallPoints {
-    /// Removes all points, keeping the memory.
-    pub(crate) fn clear(&mut self) {
-        self.sides.iter_mut().for_each(Vec::clear);
-        self.y.clear();
-    }
-
-    /// Adds a point at x and y above the middle.
-    pub(crate) fn push(&mut self, modes: &WallModes, x: f64, y: f64) {
-        let phase = Complex64::cis(modes.k * x);
-        self.sides[0].push(Powers::new(modes.k, modes.half - y, phase));
-        self.sides[1].push(Powers::new(modes.k, modes.half + y, phase));
-        self.y.push(y);
-    }
-
-    /// Smallest distance of a point from a wall (length), infinite without points.
-    pub(crate) fn gap(&self) -> f64 {
-        self.sides.iter().flatten().map(|p| p.distance).fold(f64::INFINITY, f64::min)
-    }
-}
 
 /// Sums over sources for eight modes: real and imaginary parts of five moments.
 #[derive(Debug, Clone, Copy, Default)]
@@ -92,13 +28,13 @@ struct Slip {
 
 /// Coefficients of eight modes near one wall: the streamfunction is `exp(-k s + i k x) (R - s B)`.
 #[derive(Debug, Clone, Copy, Default)]
-struct Coefficients {
+pub(crate) struct Coefficients {
     /// k R + B.
     sum: [Lanes; 2],
     /// k R.
-    plain: [Lanes; 2],
+    pub(crate) plain: [Lanes; 2],
     /// k B.
-    linear: [Lanes; 2],
+    pub(crate) linear: [Lanes; 2],
 }
 
 /// Factors of one mode that depend on the height alone.
@@ -112,27 +48,19 @@ struct Factors {
 #[derive(Debug)]
 pub(crate) struct WallModes {
     /// 2 pi / period (1/length).
-    k: f64,
+    pub(crate) k: f64,
     /// Half the distance between the walls (length).
-    half: f64,
+    pub(crate) half: f64,
     zero_flux: bool,
     /// Smallest decay that still counts, as an exponent.
     exponent: f64,
     factors: Vec<Factors>,
     sums: [Vec<Sums>; 2],
     slips: [Vec<Slip>; 2],
-    coefficients: [Vec<Coefficients>; 2],
+    pub(crate) coefficients: [Vec<Coefficients>; 2],
     /// Coefficients of 1, y and half^2 - y^2 in the velocity that does not depend on x.
-    mean: [f64; 3],
+    pub(crate) mean: [f64; 3],
     modes: usize,
-}
-
-/// Flow of the correction at a point, per 4 pi viscosity.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct WallFlow {
-    pub(crate) velocity: [f64; 2],
-    pub(crate) gradient: [[f64; 2]; 2],
-    pub(crate) pressure: f64,
 }
 
 impl WallModes {
@@ -321,42 +249,8 @@ impl WallModes {
         }
     }
 
-    fn mean_velocity(&self, y: f64) -> f64 {
+    pub(crate) fn mean_velocity(&self, y: f64) -> f64 {
         self.mean[0] + self.mean[1] * y + self.mean[2] * (self.half * self.half - y * y)
-    }
-
-    /// Velocity, gradient and pressure of the correction at point i.
-    pub(crate) fn flow(&self, points: &WallPoints, i: usize) -> WallFlow {
-        let y = points.y[i];
-        let mut flow = WallFlow::default();
-        flow.velocity[0] = self.mean_velocity(y);
-        flow.gradient[0][1] = self.mean[1] - 2.0 * self.mean[2] * y;
-        for (side, sign) in [(0, 1.0), (1, -1.0)] {
-            let mut powers = points.sides[side][i];
-            let s = powers.distance;
-            for (chunk, c) in self.coefficients[side].iter().enumerate() {
-                for lane in 0..LANES {
-                    let k = self.k * (chunk * LANES + lane + 1) as f64;
-                    let e = Complex64::new(powers.re[lane], powers.im[lane]);
-                    let plain = e * Complex64::new(c.plain[0][lane], c.plain[1][lane]);
-                    let linear = e * Complex64::new(c.linear[0][lane], c.linear[1][lane]);
-                    let bend = linear / k;
-                    // psi, its slope and its second derivative in y, times k, 1 and 1.
-                    let psi = plain - linear * s;
-                    let slope = (plain + bend - linear * s) * sign;
-                    let second = (plain + 2.0 * bend - linear * s) * k;
-                    flow.velocity[0] += slope.re;
-                    flow.velocity[1] += psi.im;
-                    flow.gradient[0][0] -= k * slope.im;
-                    flow.gradient[1][1] += k * slope.im;
-                    flow.gradient[0][1] += second.re;
-                    flow.gradient[1][0] += k * psi.re;
-                    flow.pressure += 2.0 * sign * linear.im;
-                }
-                powers.advance();
-            }
-        }
-        flow
     }
 }
 
@@ -396,7 +290,10 @@ fn factors(k: f64, half: f64) -> Factors {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::field::{FieldKernel, Flow};
+    use crate::{
+        field::{FieldKernel, Flow},
+        wall_flow::WallFlow,
+    };
 
     /// Velocity and gradient at a target by a unit force at a source, times 4 pi viscosity.
     fn greens_function(

@@ -15,18 +15,18 @@ struct Solved {
 }
 
 fn solve(period: f64, width: f64, drive: Drive, ellipses: &[Ellipse]) -> Solved {
-    let domain = Channel::new(period, width).unwrap().with_drive(drive).unwrap();
+    let domain = Channel::new(period, width).expect("a valid scene").with_drive(drive).expect("a valid scene");
     let settings = Settings { nodes: 128, tolerance: 1e-14, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).unwrap();
+    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene");
     let mut markers = markers(ellipses, COUNT);
-    let report = solver.velocities(&mut markers).unwrap();
+    let report = solver.velocities(&mut markers).expect("a valid scene");
     Solved { solver, markers, report }
 }
 
 impl Solved {
     fn at(&mut self, points: &[Vec2]) -> Vec<FlowSample> {
         let mut out = vec![FlowSample::default(); points.len()];
-        self.solver.sample(&self.markers, points, &mut out).unwrap();
+        self.solver.sample(&self.markers, points, &mut out).expect("a valid scene");
         out
     }
 
@@ -127,9 +127,10 @@ fn a_thin_film_converges() {
     let shape = Ellipse { viscosity: Some(5.0), ..Ellipse::circle(0.0, 0.45, tension) };
     let run = |nodes: usize| {
         let settings = Settings { nodes, tolerance: 1e-12, ..Settings::default() };
-        let mut solver = BoundaryIntegral::new(Channel::new(8.0, 3.0).unwrap(), 1.0, settings).unwrap();
+        let mut solver = BoundaryIntegral::new(Channel::new(8.0, 3.0).expect("a valid scene"), 1.0, settings)
+            .expect("a valid scene");
         let mut markers = markers(&[shape], 512);
-        solver.velocities(&mut markers).unwrap();
+        solver.velocities(&mut markers).expect("a valid scene");
         markers.velocities
     };
     let reference = run(320);

@@ -12,7 +12,7 @@ const COUNT: usize = 384;
 
 fn solve<D: FluidDomain>(domain: D, markers: &mut Markers, nodes: usize) {
     let settings = Settings { nodes, tolerance: 1e-14, ..Settings::default() };
-    BoundaryIntegral::new(domain, 1.0, settings).unwrap().velocities(markers).unwrap();
+    BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene").velocities(markers).expect("a valid scene");
 }
 
 fn largest(a: &[Vec2], b: &[Vec2]) -> f64 {
@@ -24,7 +24,7 @@ fn errors_fall_faster_than_any_power_of_the_nodes() {
     let ellipse = Ellipse { axes: [1.3, 1.0 / 1.3], ..Ellipse::circle(0.0, 0.0, |t| t.cos().exp()) };
     for ratio in [1.0, 100.0, 0.01] {
         let shape = Ellipse { viscosity: Some(ratio), ..ellipse };
-        let domain = PeriodicBox::new(6.0, 6.0).unwrap();
+        let domain = PeriodicBox::new(6.0, 6.0).expect("a valid scene");
         let mut reference = markers(&[shape], COUNT);
         solve(domain, &mut reference, 192);
         let errors = [16, 24, 32, 48, 64].map(|nodes| {
@@ -71,7 +71,7 @@ fn forces_of_segments_are_of_second_order_in_the_markers() {
         }
         solve(FreeSpace, &mut exact, 64);
         solve(FreeSpace, &mut segments, 64);
-        let scale = exact.velocities.iter().map(|v| v.norm()).fold(0.0, f64::max);
+        let scale = exact.velocities.iter().map(Vec2::norm).fold(0.0, f64::max);
         largest(&segments.velocities, &exact.velocities) / scale
     };
     let errors = [64, 128, 256, 512].map(error);

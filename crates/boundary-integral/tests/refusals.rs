@@ -14,7 +14,7 @@ fn circle() -> Ellipse {
 }
 
 fn solver() -> BoundaryIntegral<FreeSpace> {
-    BoundaryIntegral::new(FreeSpace, 1.0, Settings::default()).unwrap()
+    BoundaryIntegral::new(FreeSpace, 1.0, Settings::default()).expect("a valid scene")
 }
 
 #[test]
@@ -23,7 +23,7 @@ fn domains_and_settings() {
     assert!(PeriodicBox::new(1.0, f64::NAN).is_err());
     assert!(PeriodicBox::new(1.0, 100.0).is_err());
     assert!(Channel::new(1.0, -1.0).is_err());
-    assert!(Channel::new(4.0, 1.0).unwrap().with_drive(Drive::Flux(f64::INFINITY)).is_err());
+    assert!(Channel::new(4.0, 1.0).expect("a valid scene").with_drive(Drive::Flux(f64::INFINITY)).is_err());
     for viscosity in [0.0, -1.0, f64::NAN] {
         let error = BoundaryIntegral::new(FreeSpace, viscosity, Settings::default()).unwrap_err();
         assert!(matches!(error, BoundaryIntegralError::NotPositive { name: "the viscosity", .. }));
@@ -47,8 +47,8 @@ fn plans() {
     assert!(matches!(BandLimit::new(64, 65), Err(BoundaryIntegralError::BandTooWide { modes: 65, len: 64 })));
     assert!(Resample::new(0, 4).is_err());
     let mut values = vec![Vec2::zeros(); 10];
-    assert!(BandLimit::new(12, 4).unwrap().apply(&mut values).is_err());
-    let mut calculus = PeriodicCalculus::new(10).unwrap();
+    assert!(BandLimit::new(12, 4).expect("a valid scene").apply(&mut values).is_err());
+    let mut calculus = PeriodicCalculus::new(10).expect("a valid scene");
     let positions = values.clone();
     assert!(calculus.tension_forces(&positions, &[1.0; 9], TensionPlacement::Markers, &mut values).is_err());
 }
@@ -85,7 +85,7 @@ fn numbers_that_are_not_finite() {
 
     let mut good = markers(&[circle()], 64);
     let mut solver = solver();
-    solver.velocities(&mut good).unwrap();
+    solver.velocities(&mut good).expect("a valid scene");
     let mut out = [FlowSample::default()];
     assert!(solver.sample(&good, &[Vec2::new(f64::NAN, 0.0)], &mut out).is_err());
     assert!(matches!(solver.sample(&good, &[], &mut out), Err(FlowError::WrongLength { expected: 0, found: 1, .. })));
@@ -93,7 +93,8 @@ fn numbers_that_are_not_finite() {
 
 #[test]
 fn beyond_a_wall() {
-    let mut solver = BoundaryIntegral::new(Channel::new(6.0, 2.5).unwrap(), 1.0, Settings::default()).unwrap();
+    let mut solver = BoundaryIntegral::new(Channel::new(6.0, 2.5).expect("a valid scene"), 1.0, Settings::default())
+        .expect("a valid scene");
     let mut markers = markers(&[Ellipse { centre: [0.0, 0.4], ..circle() }], 64);
     let error = solver.velocities(&mut markers).unwrap_err();
     assert!(matches!(error, FlowError::BeyondWall { body: 0, .. }), "{error}");
@@ -120,10 +121,10 @@ fn interfaces_that_cross_do_not_panic() {
 
 #[test]
 fn no_markers_and_no_iterations_left() {
-    let report = solver().velocities(&mut Markers::new()).unwrap();
+    let report = solver().velocities(&mut Markers::new()).expect("a valid scene");
     assert_eq!(report.iterations, 0);
     let settings = Settings { most_iterations: 2, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(FreeSpace, 1.0, settings).unwrap();
+    let mut solver = BoundaryIntegral::new(FreeSpace, 1.0, settings).expect("a valid scene");
     let mut markers = markers(&[Ellipse { axes: [1.4, 0.7], viscosity: Some(100.0), ..circle() }], 64);
     let error = solver.velocities(&mut markers).unwrap_err();
     assert!(matches!(error, FlowError::NoConvergence { iterations: 2, .. }), "{error}");

@@ -32,15 +32,15 @@ struct Solved<D> {
 impl<D: FluidDomain> Solved<D> {
     fn new(domain: D, ellipses: &[Ellipse], nodes: usize) -> Self {
         let settings = Settings { nodes, tolerance: 1e-13, ..Settings::default() };
-        let mut solver = BoundaryIntegral::new(domain, 1.0, settings).unwrap();
+        let mut solver = BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene");
         let mut markers = markers(ellipses, COUNT);
-        solver.velocities(&mut markers).unwrap();
+        solver.velocities(&mut markers).expect("a valid scene");
         Self { solver, markers }
     }
 
     fn at(&mut self, points: &[Vec2]) -> Vec<FlowSample> {
         let mut out = vec![FlowSample::default(); points.len()];
-        self.solver.sample(&self.markers, points, &mut out).unwrap();
+        self.solver.sample(&self.markers, points, &mut out).expect("a valid scene");
         out
     }
 }
@@ -93,13 +93,15 @@ fn converged_in_free_space() {
 
 #[test]
 fn converged_in_boxes() {
-    converged_at_all_distances(PeriodicBox::new(5.2, 4.6).unwrap());
-    converged_at_all_distances(PeriodicBox::new(4.6, 5.8).unwrap());
+    converged_at_all_distances(PeriodicBox::new(5.2, 4.6).expect("a valid scene"));
+    converged_at_all_distances(PeriodicBox::new(4.6, 5.8).expect("a valid scene"));
 }
 
 #[test]
 fn converged_in_a_channel() {
-    converged_at_all_distances(Channel::new(5.2, 4.0).unwrap().with_drive(Drive::Flux(0.3)).unwrap());
+    converged_at_all_distances(
+        Channel::new(5.2, 4.0).expect("a valid scene").with_drive(Drive::Flux(0.3)).expect("a valid scene"),
+    );
 }
 
 fn satisfies_the_stokes_equations<D: FluidDomain>(domain: D, gradient_x: f64) {
@@ -114,7 +116,7 @@ fn satisfies_the_stokes_equations<D: FluidDomain>(domain: D, gradient_x: f64) {
     for (centre, viscosity) in centres.into_iter().zip(viscosity) {
         let offsets = [[0.0, 0.0], [h, 0.0], [-h, 0.0], [0.0, h], [0.0, -h]];
         let points: Vec<Vec2> = offsets.iter().map(|o| centre + Vec2::new(o[0], o[1])).collect();
-        let [c, e, w, n, s] = solved.at(&points).try_into().unwrap();
+        let [c, e, w, n, s] = solved.at(&points).try_into().expect("a valid scene");
         let slope = |a: f64, b: f64| (a - b) / (2.0 * h);
         for i in 0..2 {
             assert!((c.gradient[i][0] - slope(e.velocity[i], w.velocity[i])).abs() < 2e-6, "{centre}");
@@ -132,15 +134,17 @@ fn satisfies_the_stokes_equations<D: FluidDomain>(domain: D, gradient_x: f64) {
 #[test]
 fn stokes_equations() {
     satisfies_the_stokes_equations(FreeSpace, 0.0);
-    satisfies_the_stokes_equations(PeriodicBox::new(5.2, 4.6).unwrap(), 0.0);
-    satisfies_the_stokes_equations(PeriodicBox::new(4.6, 5.8).unwrap(), 0.0);
-    satisfies_the_stokes_equations(Channel::new(5.2, 4.0).unwrap(), 0.0);
-    let channel = Channel::new(5.2, 4.0).unwrap().with_drive(Drive::Gradient(-0.2)).unwrap();
+    satisfies_the_stokes_equations(PeriodicBox::new(5.2, 4.6).expect("a valid scene"), 0.0);
+    satisfies_the_stokes_equations(PeriodicBox::new(4.6, 5.8).expect("a valid scene"), 0.0);
+    satisfies_the_stokes_equations(Channel::new(5.2, 4.0).expect("a valid scene"), 0.0);
+    let channel =
+        Channel::new(5.2, 4.0).expect("a valid scene").with_drive(Drive::Gradient(-0.2)).expect("a valid scene");
     satisfies_the_stokes_equations(channel, -0.2);
-    let channel = Channel::new(5.2, 4.0).unwrap().with_drive(Drive::Flux(0.3)).unwrap();
+    let channel = Channel::new(5.2, 4.0).expect("a valid scene").with_drive(Drive::Flux(0.3)).expect("a valid scene");
     let mut solver =
         BoundaryIntegral::new(channel, 1.0, Settings { nodes: 128, tolerance: 1e-13, ..Settings::default() });
-    let report = solver.as_mut().unwrap().velocities(&mut markers(&pair(20.0), COUNT)).unwrap();
+    let report =
+        solver.as_mut().expect("a valid scene").velocities(&mut markers(&pair(20.0), COUNT)).expect("a valid scene");
     satisfies_the_stokes_equations(channel, report.mean_pressure_gradient[0]);
 }
 
@@ -148,9 +152,9 @@ fn stokes_equations() {
 fn jumps_by_the_force<D: FluidDomain>(domain: D) {
     let ellipses = pair(20.0);
     let mut solved = Solved::new(domain, &ellipses, 96);
-    let mut calculus = PeriodicCalculus::new(COUNT).unwrap();
+    let mut calculus = PeriodicCalculus::new(COUNT).expect("a valid scene");
     let mut tangents = vec![Vec2::zeros(); COUNT];
-    calculus.derivative(&solved.markers.positions[..COUNT], &mut tangents).unwrap();
+    calculus.derivative(&solved.markers.positions[..COUNT], &mut tangents).expect("a valid scene");
     let distance = 1e-7;
     // Markers that are nodes and markers that are not.
     for k in [0, 3, 57, 64, 131, 200] {
@@ -177,8 +181,8 @@ fn jumps_by_the_force<D: FluidDomain>(domain: D) {
 #[test]
 fn jump_conditions() {
     jumps_by_the_force(FreeSpace);
-    jumps_by_the_force(PeriodicBox::new(5.2, 4.6).unwrap());
-    jumps_by_the_force(Channel::new(5.2, 4.0).unwrap());
+    jumps_by_the_force(PeriodicBox::new(5.2, 4.6).expect("a valid scene"));
+    jumps_by_the_force(Channel::new(5.2, 4.0).expect("a valid scene"));
 }
 
 #[test]
@@ -196,7 +200,7 @@ fn a_resting_droplet_has_the_pressure_of_laplace() {
 fn the_mean_velocity_of_a_box_is_zero() {
     for (lx, ly) in [(6.0, 6.0), (5.4, 6.6), (7.0, 5.0)] {
         let ellipses = pair(20.0);
-        let mut solved = Solved::new(PeriodicBox::new(lx, ly).unwrap(), &ellipses, 128);
+        let mut solved = Solved::new(PeriodicBox::new(lx, ly).expect("a valid scene"), &ellipses, 128);
         // The flux through any line across the box is the mean of the velocity: lines that no interface crosses.
         let samples = 64;
         let across = |k: usize| k as f64 / samples as f64;
@@ -210,7 +214,7 @@ fn the_mean_velocity_of_a_box_is_zero() {
 
 #[test]
 fn samples_are_periodic() {
-    let domain = PeriodicBox::new(5.2, 4.6).unwrap();
+    let domain = PeriodicBox::new(5.2, 4.6).expect("a valid scene");
     let ellipses = pair(20.0);
     let mut solved = Solved::new(domain, &ellipses, 96);
     let points = around(&ellipses[1]);
