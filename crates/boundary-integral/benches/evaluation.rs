@@ -14,7 +14,7 @@ use realfft::RealFftPlanner;
 fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Markers {
     let count = 4 * nodes;
     let mut markers = Markers::new();
-    let mut calculus = PeriodicCalculus::new(count).unwrap();
+    let mut calculus = PeriodicCalculus::new(count).expect("a valid scene");
     for droplet in 0..droplets {
         markers.push_group(count, MarkerKind::Interface { viscosity_inside });
         let range = droplet * count..(droplet + 1) * count;
@@ -25,14 +25,14 @@ fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Mark
         }
         let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
         let (positions, forces) = (&markers.positions[range.clone()], &mut markers.forces[range]);
-        calculus.tension_forces(positions, &tension, TensionPlacement::Markers, forces).unwrap();
+        calculus.tension_forces(positions, &tension, TensionPlacement::Markers, forces).expect("a valid scene");
     }
     markers
 }
 
 fn evaluation<D: FluidDomain>(c: &mut Criterion, name: &str, domain: D, nodes: usize, ratio: f64, droplets: usize) {
     let settings = Settings { nodes, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).unwrap();
+    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene");
     let inside = if ratio == 1.0 { None } else { Some(ratio) };
     let mut markers = markers(nodes, inside, droplets);
     let mut group = c.benchmark_group(format!("{name} droplets {droplets} ratio {ratio}"));
@@ -44,7 +44,7 @@ fn evaluation<D: FluidDomain>(c: &mut Criterion, name: &str, domain: D, nodes: u
             phase += 1.0;
             let factor = 1.0 + 0.002 * phase.sin();
             markers.forces.iter_mut().for_each(|force| force.x *= factor);
-            let report = solver.velocities(black_box(&mut markers)).unwrap();
+            let report = solver.velocities(black_box(&mut markers)).expect("a valid scene");
             markers.forces.iter_mut().for_each(|force| force.x /= factor);
             iterations = (iterations.0 + report.iterations, iterations.1 + 1);
             report
@@ -75,7 +75,7 @@ fn transform_pair(c: &mut Criterion, n: usize) {
     c.bench_function(&format!("transform pair {n}"), |b| {
         b.iter(|| {
             for (row, out) in grid.chunks_exact_mut(n).zip(spectrum.chunks_exact_mut(half)) {
-                forward.process_with_scratch(row, out, &mut scratch).unwrap();
+                forward.process_with_scratch(row, out, &mut scratch).expect("a valid scene");
             }
             transpose(&spectrum, &mut turned, n, half);
             down.process_with_scratch(&mut turned, &mut scratch);
@@ -85,7 +85,7 @@ fn transform_pair(c: &mut Criterion, n: usize) {
             for (row, out) in spectrum.chunks_exact_mut(half).zip(grid.chunks_exact_mut(n)) {
                 row[0].im = 0.0;
                 row[half - 1].im = 0.0;
-                inverse.process_with_scratch(row, out, &mut scratch).unwrap();
+                inverse.process_with_scratch(row, out, &mut scratch).expect("a valid scene");
                 out.iter_mut().for_each(|value| *value *= factor);
             }
             black_box(&grid);
@@ -100,11 +100,11 @@ fn benches(c: &mut Criterion) {
     for nodes in [64, 128, 256] {
         for ratio in [1.0, 100.0] {
             evaluation(c, "free space", FreeSpace, nodes, ratio, 1);
-            evaluation(c, "box 6", PeriodicBox::new(6.0, 6.0).unwrap(), nodes, ratio, 1);
-            evaluation(c, "channel 12 x 3", Channel::new(12.0, 3.0).unwrap(), nodes, ratio, 1);
+            evaluation(c, "box 6", PeriodicBox::new(6.0, 6.0).expect("a valid scene"), nodes, ratio, 1);
+            evaluation(c, "channel 12 x 3", Channel::new(12.0, 3.0).expect("a valid scene"), nodes, ratio, 1);
         }
     }
-    evaluation(c, "box 26", PeriodicBox::new(26.0, 26.0).unwrap(), 64, 100.0, 10);
+    evaluation(c, "box 26", PeriodicBox::new(26.0, 26.0).expect("a valid scene"), 64, 100.0, 10);
 }
 
 fn config() -> Criterion {

@@ -75,9 +75,9 @@ impl BoxFlow {
                 let shift = self.offset(target, source) / self.lattice.unit;
                 let total = self.expansion.moments();
                 if a == b {
-                    total.add(&self.moments[b])
+                    total.add(&self.moments[b]);
                 } else {
-                    total.add_shifted(&self.moments[b], shift, &self.binomials)
+                    total.add_shifted(&self.moments[b], shift, &self.binomials);
                 }
             }
             if any {

@@ -18,7 +18,8 @@ use crate::{
     stress::Dipoles,
     surroundings::{NodeVelocities, Surroundings},
     transform::{copy_band, largest_wave},
-    walls::{WallModes, WallPoints},
+    wall_points::WallPoints,
+    walls::WallModes,
 };
 
 /// Beyond a wall by less than this fraction of the width is taken for touching it.

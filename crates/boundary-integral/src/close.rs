@@ -64,14 +64,13 @@ impl CloseWeights {
 
     /// Finds the weights for `point`, relative to the centre of an interface whose fine nodes are ready, and says on
     /// which side it lies; `None` where it is farther than `reach` fine spacings, so that plain weights do and the side
-    /// is not looked for. With `orders` < 3 the higher powers are left out.
+    /// is not looked for.
     pub(crate) fn find(
         &mut self,
         interface: &Interface,
         transforms: &mut Transforms,
         point: Complex64,
         reach: f64,
-        orders: usize,
     ) -> Option<bool> {
         let mut point = point;
         let (mut nearest, mut least) = (0, f64::INFINITY);
@@ -113,12 +112,12 @@ impl CloseWeights {
             third[j] = inverse * second[j];
         }
         let preimage = preimage?;
-        self.swap(transforms, preimage, orders);
+        self.swap(transforms, preimage);
         Some(preimage.inside)
     }
 
     /// Turns plain weights into those for a pole at the preimage.
-    fn swap(&mut self, transforms: &mut Transforms, preimage: Preimage, orders: usize) {
+    fn swap(&mut self, transforms: &mut Transforms, preimage: Preimage) {
         let n = self.terms as f64;
         let unit = preimage.unit;
         // Ratio of the two units that is below one, by its value at u = 1.
@@ -133,22 +132,42 @@ impl CloseWeights {
             self.series[term] = power / term as f64;
         }
         transforms.fine.forward(&mut self.series);
-        let [first, second, third] = &mut self.powers;
         for j in 0..len {
             let (p, tail) = if preimage.inside {
                 (ratio * self.units[j].conj(), turned * self.turns[j].conj())
             } else {
                 (ratio * self.units[j], turned * self.turns[j])
             };
-            self.log[j] -= 0.5 * (1.0 - p).norm_sqr().ln() + self.series[j].re;
-            first[j] *= 1.0 - tail;
-            second[j] *= 1.0 - tail * (n + 2.0 - p * (n + 1.0));
-            if orders > 2 {
+            let gap = 1.0 - p;
+            self.log[j] -= 0.5 * gap.norm_sqr().ln() + self.series[j].re;
+            let factors = if gap.norm() * n < 0.3 {
+                direct_factors(p, gap, self.terms)
+            } else {
                 let (a, b) = (0.5 * (n + 2.0) * (n + 3.0), (n + 1.0) * (n + 3.0));
-                third[j] *= 1.0 - tail * (a - p * b + p * p * (0.5 * (n + 1.0) * (n + 2.0)));
+                [
+                    1.0 - tail,
+                    1.0 - tail * (n + 2.0 - p * (n + 1.0)),
+                    1.0 - tail * (a - p * b + p * p * (0.5 * (n + 1.0) * (n + 2.0))),
+                ]
+            };
+            for (power, factor) in self.powers.iter_mut().zip(factors) {
+                power[j] *= factor;
             }
         }
     }
+}
+
+/// `(1 - p)^k sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p = 1 the closed
+/// form loses its digits.
+fn direct_factors(p: Complex64, gap: Complex64, terms: usize) -> [Complex64; 3] {
+    let mut sums = [Complex64::default(); 3];
+    for n in (0..=terms).rev() {
+        let n = n as f64;
+        for (sum, weight) in sums.iter_mut().zip([1.0, n + 1.0, 0.5 * (n + 1.0) * (n + 2.0)]) {
+            *sum = *sum * p + weight;
+        }
+    }
+    [sums[0] * gap, sums[1] * gap * gap, sums[2] * gap * gap * gap]
 }
 
 /// The complex parameter that a curve takes a point to, from a first guess of it.

@@ -143,7 +143,7 @@ impl Interface {
             let square = first.norm_sqr();
             *curvature = (first.conj() * *second).im / (square * square.sqrt());
         }
-        self.radius = self.position.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt();
+        self.radius = self.position.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt();
     }
 
     /// Fills the fine nodes, once for each shape.
@@ -182,7 +182,7 @@ impl Interface {
 
     /// Largest distance between neighbouring nodes along the curve (length).
     pub(crate) fn spacing(&self) -> f64 {
-        self.weight() * self.tangent.iter().map(|t| t.norm_sqr()).fold(0.0, f64::max).sqrt()
+        self.weight() * self.tangent.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt()
     }
 }
 

@@ -71,22 +71,22 @@ impl Lattice {
 
         let half = MOST_TERMS / 2;
         let (mut s, mut t) = (vec![0.0; half + 1], vec![0.0; half + 1]);
-        for i in 1..=half {
+        for (i, s) in s.iter_mut().enumerate().skip(1) {
             let n = 2 * i;
-            if n < FIRST_LATTICE_SUM {
-                s[i] = 2.0 * even[n].re / f64::powi(radius, n as i32);
+            *s = if n < FIRST_LATTICE_SUM {
+                2.0 * even[n].re / f64::powi(radius, n as i32)
             } else {
-                s[i] = lattice_sum(periods, unit, n, false) / n as f64;
-            }
+                lattice_sum(periods, unit, n, false) / n as f64
+            };
         }
-        for i in 0..=half {
+        for (i, t) in t.iter_mut().enumerate() {
             let m = 2 * i;
-            if m + 2 < FIRST_LATTICE_SUM {
+            *t = if m + 2 < FIRST_LATTICE_SUM {
                 let coefficient = odd[(CIRCLE - m) % CIRCLE].re / f64::powi(radius, m as i32);
-                t[i] = coefficient + (i + 1) as f64 * s[i + 1] * radius * radius;
+                coefficient + (i + 1) as f64 * s[i + 1] * radius * radius
             } else {
-                t[i] = 0.5 * lattice_sum(periods, unit, m + 1, true);
-            }
+                0.5 * lattice_sum(periods, unit, m + 1, true)
+            };
         }
         let constant = even[0].re - PI / (2.0 * area) * (radius * unit).powi(2);
         Self { unit, area, constant, s, t }

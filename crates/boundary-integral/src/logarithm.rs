@@ -4,8 +4,8 @@ const HALF_ROOT: u64 = 0x3FE6_A09E_667F_3BCD;
 const ONE: u64 = 0x3FF0_0000_0000_0000;
 const MANTISSA: u64 = 0x000F_FFFF_FFFF_FFFF;
 const TWO_52: u64 = 0x4330_0000_0000_0000;
-const LN2_HIGH: f64 = 6.931_471_803_691_238_164_90e-1;
-const LN2_LOW: f64 = 1.908_214_929_270_587_700_02e-10;
+const LN2_HIGH: f64 = 6.931_471_803_691_238e-1;
+const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
 /// Natural logarithm of a positive normal number to about 1e-16 of max(1, |ln x|); anything else gives a meaningless
 /// number.

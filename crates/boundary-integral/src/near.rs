@@ -99,7 +99,7 @@ impl Near {
         for index in 0..self.pairs.len() {
             let NearPair { target, node, source, point } = self.pairs[index];
             let curve = &interfaces[source];
-            self.weights.find(curve, transforms, point, self.reach, 2);
+            self.weights.find(curve, transforms, point, self.reach);
             let mut flow = Flow::default();
             for (j, force) in curve.fine.force.iter().enumerate() {
                 flow.add_force(&self.kernels(j), *force, 1.0);

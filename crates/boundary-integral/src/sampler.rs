@@ -165,15 +165,23 @@ impl Sampler {
         flow: &mut Flow,
     ) -> Option<bool> {
         let len = REFINEMENT * interface.nodes();
-        let inside = self.weights.find(interface, transforms, point, self.reach, 3);
+        let inside = self.weights.find(interface, transforms, point, self.reach);
         let velocities = &self.fine[body * len..(body + 1) * len];
         let [first, second, third] = &self.weights.powers;
+        // The double layer of a constant is known: with the velocity of the nearest node taken off, nothing is divided by
+        // a small distance.
+        let distances = self.weights.distance.iter().map(Complex64::norm_sqr).enumerate();
+        let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(j, _)| j);
+        let constant = if inside.is_some() { velocities[nearest] } else { Complex64::default() };
+        if inside == Some(true) {
+            flow.velocity += constant * (4.0 * std::f64::consts::PI * weight / interface.weight());
+        }
         let weight = weight / REFINEMENT as f64;
         for (j, velocity) in velocities.iter().enumerate() {
             let c = [first[j], second[j], third[j]];
             let k = weighted(self.weights.log[j] - 0.5, c, self.weights.distance[j].conj());
             flow.add_force(&k, interface.fine.force[j], 1.0);
-            flow.add_dipole(&k, *velocity, interface.fine.tangent[j] * weight, 1.0);
+            flow.add_dipole(&k, velocity - constant, interface.fine.tangent[j] * weight, 1.0);
         }
         inside
     }

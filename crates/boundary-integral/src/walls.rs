@@ -7,74 +7,10 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-/// Modes done at a time.
-const LANES: usize = 8;
+use crate::wall_points::{LANES, Lanes, WallPoints};
+
 /// No gap asks for more modes than this.
 const MOST_MODES: usize = 4096;
-
-type Lanes = [f64; LANES];
-
-/// `exp(-n k s) exp(i n k x)` for the first modes n = 1 .. 8 and the factor to the next eight, for one wall.
-#[derive(Debug, Clone, Copy)]
-struct Powers {
-    /// Distance from the wall (length).
-    distance: f64,
-    re: Lanes,
-    im: Lanes,
-    step: Complex64,
-}
-
-impl Powers {
-    fn new(k: f64, distance: f64, phase: Complex64) -> Self {
-        let base = phase * (-k * distance).exp();
-        let (mut re, mut im) = ([0.0; LANES], [0.0; LANES]);
-        let mut power = Complex64::new(1.0, 0.0);
-        for lane in 0..LANES {
-            power *= base;
-            (re[lane], im[lane]) = (power.re, power.im);
-        }
-        Self { distance, re, im, step: power }
-    }
-
-    #[inline(always)]
-    fn advance(&mut self) {
-        for lane in 0..LANES {
-            let (re, im) = (self.re[lane], self.im[lane]);
-            self.re[lane] = re * self.step.re - im * self.step.im;
-            self.im[lane] = re * self.step.im + im * self.step.re;
-        }
-    }
-}
-
-/// Points between the walls, prepared for sums over modes.
-#[derive(Debug, Default)]
-pub(crate) struct WallPoints {
-    /// Upper wall, lower wall.
-    sides: [Vec<Powers>; 2],
-    /// Height above the middle (length).
-    y: Vec<f64>,
-}
-
-impl WallPoints {
-    /// Removes all points, keeping the memory.
-    pub(crate) fn clear(&mut self) {
-        self.sides.iter_mut().for_each(Vec::clear);
-        self.y.clear();
-    }
-
-    /// Adds a point at x and y above the middle.
-    pub(crate) fn push(&mut self, modes: &WallModes, x: f64, y: f64) {
-        let phase = Complex64::cis(modes.k * x);
-        self.sides[0].push(Powers::new(modes.k, modes.half - y, phase));
-        self.sides[1].push(Powers::new(modes.k, modes.half + y, phase));
-        self.y.push(y);
-    }
-
-    /// Smallest distance of a point from a wall (length), infinite without points.
-    pub(crate) fn gap(&self) -> f64 {
-        self.sides.iter().flatten().map(|p| p.distance).fold(f64::INFINITY, f64::min)
-    }
-}
 
 /// Sums over sources for eight modes: real and imaginary parts of five moments.
 #[derive(Debug, Clone, Copy, Default)]
@@ -92,13 +28,13 @@ struct Slip {
 
 /// Coefficients of eight modes near one wall: the streamfunction is `exp(-k s + i k x) (R - s B)`.
 #[derive(Debug, Clone, Copy, Default)]
-struct Coefficients {
+pub(crate) struct Coefficients {
     /// k R + B.
     sum: [Lanes; 2],
     /// k R.
-    plain: [Lanes; 2],
+    pub(crate) plain: [Lanes; 2],
     /// k B.
-    linear: [Lanes; 2],
+    pub(crate) linear: [Lanes; 2],
 }
 
 /// Factors of one mode that depend on the height alone.
@@ -112,27 +48,19 @@ struct Factors {
 #[derive(Debug)]
 pub(crate) struct WallModes {
     /// 2 pi / period (1/length).
-    k: f64,
+    pub(crate) k: f64,
     /// Half the distance between the walls (length).
-    half: f64,
+    pub(crate) half: f64,
     zero_flux: bool,
     /// Smallest decay that still counts, as an exponent.
     exponent: f64,
     factors: Vec<Factors>,
     sums: [Vec<Sums>; 2],
     slips: [Vec<Slip>; 2],
-    coefficients: [Vec<Coefficients>; 2],
+    pub(crate) coefficients: [Vec<Coefficients>; 2],
     /// Coefficients of 1, y and half^2 - y^2 in the velocity that does not depend on x.
-    mean: [f64; 3],
+    pub(crate) mean: [f64; 3],
     modes: usize,
-}
-
-/// Flow of the correction at a point, per 4 pi viscosity.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct WallFlow {
-    pub(crate) velocity: [f64; 2],
-    pub(crate) gradient: [[f64; 2]; 2],
-    pub(crate) pressure: f64,
 }
 
 impl WallModes {
@@ -149,11 +77,6 @@ impl WallModes {
             mean: [0.0; 3],
             modes: 0,
         }
-    }
-
-    /// Number of modes of the last sums.
-    pub(crate) fn modes(&self) -> usize {
-        self.modes
     }
 
     /// Clears the sources for targets no closer to a wall than `target_gap` and sources no closer than `source_gap`.
@@ -271,11 +194,6 @@ impl WallModes {
         }
     }
 
-    /// Mean pressure gradient of the flow that does not depend on x, per 4 pi.
-    pub(crate) fn pressure_gradient(&self) -> f64 {
-        -2.0 * self.mean[2]
-    }
-
     /// Solves for the series that cancels the velocity of the sources at the walls.
     pub(crate) fn solve(&mut self) {
         let chunks = self.modes.div_ceil(LANES);
@@ -331,42 +249,8 @@ impl WallModes {
         }
     }
 
-    fn mean_velocity(&self, y: f64) -> f64 {
+    pub(crate) fn mean_velocity(&self, y: f64) -> f64 {
         self.mean[0] + self.mean[1] * y + self.mean[2] * (self.half * self.half - y * y)
-    }
-
-    /// Velocity, gradient and pressure of the correction at point i.
-    pub(crate) fn flow(&self, points: &WallPoints, i: usize) -> WallFlow {
-        let y = points.y[i];
-        let mut flow = WallFlow::default();
-        flow.velocity[0] = self.mean_velocity(y);
-        flow.gradient[0][1] = self.mean[1] - 2.0 * self.mean[2] * y;
-        for (side, sign) in [(0, 1.0), (1, -1.0)] {
-            let mut powers = points.sides[side][i];
-            let s = powers.distance;
-            for (chunk, c) in self.coefficients[side].iter().enumerate() {
-                for lane in 0..LANES {
-                    let k = self.k * (chunk * LANES + lane + 1) as f64;
-                    let e = Complex64::new(powers.re[lane], powers.im[lane]);
-                    let plain = e * Complex64::new(c.plain[0][lane], c.plain[1][lane]);
-                    let linear = e * Complex64::new(c.linear[0][lane], c.linear[1][lane]);
-                    let bend = linear / k;
-                    // psi, its slope and its second derivative in y, times k, 1 and 1.
-                    let psi = plain - linear * s;
-                    let slope = (plain + bend - linear * s) * sign;
-                    let second = (plain + 2.0 * bend - linear * s) * k;
-                    flow.velocity[0] += slope.re;
-                    flow.velocity[1] += psi.im;
-                    flow.gradient[0][0] -= k * slope.im;
-                    flow.gradient[1][1] += k * slope.im;
-                    flow.gradient[0][1] += second.re;
-                    flow.gradient[1][0] += k * psi.re;
-                    flow.pressure += 2.0 * sign * linear.im;
-                }
-                powers.advance();
-            }
-        }
-        flow
     }
 }
 
@@ -400,5 +284,119 @@ fn factors(k: f64, half: f64) -> Factors {
     Factors {
         even: [sinh + kh * decay, half * decay, cosh, k * sinh].map(|value| value / even),
         odd: [cosh - kh * decay, half * decay, sinh, k * cosh].map(|value| value / odd),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        field::{FieldKernel, Flow},
+        wall_flow::WallFlow,
+    };
+
+    /// Velocity and gradient at a target by a unit force at a source, times 4 pi viscosity.
+    fn greens_function(
+        modes: &mut WallModes,
+        target: [f64; 2],
+        source: [f64; 2],
+        force: Complex64,
+    ) -> (Complex64, WallFlow) {
+        let (mut from, mut to) = (WallPoints::default(), WallPoints::default());
+        from.push(modes, source[0], source[1]);
+        to.push(modes, target[0], target[1]);
+        modes.begin(from.gap(), to.gap());
+        modes.add_forces(&from, to.gap(), |_| force);
+        modes.solve();
+        let walls = modes.flow(&to, 0);
+        let mut row = Flow::default();
+        let d = Complex64::new(source[0] - target[0], source[1] - target[1]);
+        row.add_force(&FieldKernel::Row { k: modes.k }.at(d), force, 1.0);
+        let mut fast = Complex64::default();
+        modes.velocities(&to, from.gap(), |_, u, v| fast = Complex64::new(u, v));
+        let slow = Complex64::new(walls.velocity[0], walls.velocity[1]);
+        assert!((fast - slow).norm() < 1e-11, "{fast} {slow}");
+        (row.velocity + slow, walls)
+    }
+
+    #[test]
+    fn greens_function_of_a_channel() {
+        // channel_greens_function.csv: period 4, width 2; zero flux, target, source, (Gxx, Gxy, Gyx, Gyy).
+        let table = [
+            (false, [0.5, 0.3], [0.0, 0.0], [1.1784861392876, 0.44573020238905, 0.2745808454774, -0.046810182975054]),
+            (false, [0.1, 0.05], [0.0, 0.0], [2.7597646762562, 0.40098683955777, 0.3933797966449, 1.2832398475756]),
+            (
+                false,
+                [1.9, -0.6],
+                [0.0, 0.4],
+                [0.60845732698052, -0.01223564484989, -0.0066381849594813, -0.02968392467597],
+            ),
+            (false, [0.0, 0.75], [0.0, 0.2], [0.1874090388085, 0.0, 0.0, 0.26449726269913]),
+            (
+                false,
+                [-0.7, -0.85],
+                [-0.6, -0.8],
+                [1.4982178003109, 0.60070494851271, 0.12361745052196, 0.070804536013316],
+            ),
+            (false, [2.0, 0.0], [0.0, 0.0], [1.1789380383492, 0.0, 0.0, -0.12475063742573]),
+            (
+                false,
+                [0.3, 0.95],
+                [0.2, 0.93],
+                [0.92305173530545, 0.39248444104763, -0.17181458083639, -0.17705677679815],
+            ),
+            (true, [0.5, 0.3], [0.0, 0.0], [0.10641764625007, 0.44573020238905, 0.2745808454774, -0.046810182975054]),
+            (true, [0.1, 0.05], [0.0, 0.0], [1.5846126742728, 0.40098683955777, 0.3933797966449, 1.2832398475756]),
+            (
+                true,
+                [1.9, -0.6],
+                [0.0, 0.4],
+                [-0.024887751983179, -0.01223564484989, -0.0066381849594813, -0.02968392467597],
+            ),
+            (true, [0.0, 0.75], [0.0, 0.2], [-0.30739180413189, 0.0, 0.0, 0.26449726269913]),
+            (
+                true,
+                [-0.7, -0.85],
+                [-0.6, -0.8],
+                [1.3805258855258, 0.60070494851271, 0.12361745052196, 0.070804536013316],
+            ),
+            (true, [2.0, 0.0], [0.0, 0.0], [0.00084079325303654, 0.0, 0.0, -0.12475063742573]),
+            (
+                true,
+                [0.3, 0.95],
+                [0.2, 0.93],
+                [0.90753354386873, 0.39248444104763, -0.17181458083639, -0.17705677679815],
+            ),
+        ];
+        for (zero_flux, target, source, [xx, xy, yx, yy]) in table {
+            let mut modes = WallModes::new(4.0, 1.0, zero_flux, 1e-14);
+            let (x, _) = greens_function(&mut modes, target, source, Complex64::new(1.0, 0.0));
+            let (y, _) = greens_function(&mut modes, target, source, I);
+            let error = (x - Complex64::new(xx, yx)).norm().max((y - Complex64::new(xy, yy)).norm());
+            assert!(error < 1e-12, "{target:?} {source:?}: {error:e}");
+        }
+    }
+
+    #[test]
+    fn gradient_and_pressure_satisfy_the_stokes_equations() {
+        let mut modes = WallModes::new(5.0, 1.2, true, 1e-15);
+        let (source, force) = ([0.3, 0.5], Complex64::new(0.6, -0.8));
+        let step = 1e-4;
+        let mut at = |dx: f64, dy: f64| greens_function(&mut modes, [0.9 + dx, -0.4 + dy], source, force).1;
+        let centre = at(0.0, 0.0);
+        let (east, west) = (at(step, 0.0), at(-step, 0.0));
+        let (north, south) = (at(0.0, step), at(0.0, -step));
+        let scale = 0.5 / step;
+        for i in 0..2 {
+            assert!((centre.gradient[i][0] - scale * (east.velocity[i] - west.velocity[i])).abs() < 1e-7);
+            assert!((centre.gradient[i][1] - scale * (north.velocity[i] - south.velocity[i])).abs() < 1e-7);
+        }
+        let laplacian = |i: usize| {
+            scale * (east.gradient[i][0] - west.gradient[i][0] + north.gradient[i][1] - south.gradient[i][1])
+        };
+        // The mean pressure gradient is not part of the pressure.
+        let mean = 1.5 * modes.k / 1.2f64.powi(3) * (1.2f64.powi(2) - 0.25) * force.re;
+        assert!((scale * (east.pressure - west.pressure) + mean - laplacian(0)).abs() < 1e-7);
+        assert!((scale * (north.pressure - south.pressure) - laplacian(1)).abs() < 1e-7);
     }
 }

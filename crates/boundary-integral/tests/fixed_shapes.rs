@@ -21,32 +21,32 @@ fn markers(table: &Table, count: usize) -> Markers {
     }
     let tension: Vec<f64> = angles.iter().map(|t| 1.0 + 0.5 * t.cos()).collect();
     PeriodicCalculus::new(count)
-        .unwrap()
+        .expect("a valid scene")
         .tension_forces(&markers.positions, &tension, TensionPlacement::Markers, &mut markers.forces)
-        .unwrap();
+        .expect("a valid scene");
     markers
 }
 
 /// Largest errors at the interface and at the other points.
 fn errors<D: FluidDomain>(domain: D, table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
     let settings = Settings { nodes, tolerance, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).unwrap();
+    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene");
     // A multiple of eight, so that the points of the reference are markers.
     let count = nodes.next_multiple_of(8) * 2;
     let mut markers = markers(table, count);
-    solver.velocities(&mut markers).unwrap();
+    solver.velocities(&mut markers).expect("a valid scene");
     let difference = |v: Vec2, row: &[f64; 4]| (v.x - row[2]).abs().max((v.y - row[3]).abs());
     let at_markers = (0..8).map(|j| difference(markers.velocities[j * count / 8], &table.rows[j]));
     let points: Vec<Vec2> = table.rows[8..].iter().map(|row| Vec2::new(row[0], row[1])).collect();
     let mut samples = vec![FlowSample::default(); points.len()];
-    solver.sample(&markers, &points, &mut samples).unwrap();
+    solver.sample(&markers, &points, &mut samples).expect("a valid scene");
     let at_points = samples.iter().zip(&table.rows[8..]).map(|(sample, row)| difference(sample.velocity, row));
     [at_markers.fold(0.0, f64::max), at_points.fold(0.0, f64::max)]
 }
 
 fn errors_unbounded(table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
     if table.period.is_finite() {
-        errors(PeriodicBox::new(table.period, table.period).unwrap(), table, nodes, tolerance)
+        errors(PeriodicBox::new(table.period, table.period).expect("a valid scene"), table, nodes, tolerance)
     } else {
         errors(FreeSpace, table, nodes, tolerance)
     }
@@ -74,7 +74,7 @@ fn ten_times_the_viscosity_inside() {
 fn channel() {
     for table in &reference::CHANNEL {
         let drive = if table.zero_flux { Drive::ZeroFlux } else { Drive::ZeroGradient };
-        let domain = Channel::new(table.period, 3.0).unwrap().with_drive(drive).unwrap();
+        let domain = Channel::new(table.period, 3.0).expect("a valid scene").with_drive(drive).expect("a valid scene");
         let found = errors(domain, table, 128, 1e-13);
         println!("ellipse {} zero flux {}: {found:?}", table.ellipse, table.zero_flux);
         assert!(found[0] < 1e-11 && found[1] < 1e-11, "{found:?}");

@@ -30,7 +30,7 @@ impl Ellipse {
 /// Markers of ellipses with spectrally accurate forces.
 pub(crate) fn markers(ellipses: &[Ellipse], count: usize) -> Markers {
     let mut markers = Markers::new();
-    let mut calculus = PeriodicCalculus::new(count).unwrap();
+    let mut calculus = PeriodicCalculus::new(count).expect("a valid scene");
     for (index, ellipse) in ellipses.iter().enumerate() {
         markers.push_group(count, MarkerKind::UnevenInterface { viscosity_inside: ellipse.viscosity });
         let range = index * count..(index + 1) * count;
@@ -40,7 +40,7 @@ pub(crate) fn markers(ellipses: &[Ellipse], count: usize) -> Markers {
         }
         let tension: Vec<f64> = (0..count).map(|k| (ellipse.tension)(angle(k))).collect();
         let (positions, forces) = (&markers.positions[range.clone()], &mut markers.forces[range]);
-        calculus.tension_forces(positions, &tension, TensionPlacement::Markers, forces).unwrap();
+        calculus.tension_forces(positions, &tension, TensionPlacement::Markers, forces).expect("a valid scene");
     }
     markers
 }

@@ -1,0 +1,131 @@
+//! Bad input ends in an error that says what to do.
+
+mod scenes;
+
+use boundary_integral::{
+    BandLimit, BoundaryIntegral, BoundaryIntegralError, Channel, Drive, FreeSpace, PeriodicBox, PeriodicCalculus,
+    Resample, Settings, TensionPlacement,
+};
+use ib_core::{FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
+use scenes::{Ellipse, markers};
+
+fn circle() -> Ellipse {
+    Ellipse::circle(0.0, 0.0, |t| 1.0 + 0.5 * t.cos())
+}
+
+fn solver() -> BoundaryIntegral<FreeSpace> {
+    BoundaryIntegral::new(FreeSpace, 1.0, Settings::default()).expect("a valid scene")
+}
+
+#[test]
+fn domains_and_settings() {
+    assert!(PeriodicBox::new(0.0, 1.0).is_err());
+    assert!(PeriodicBox::new(1.0, f64::NAN).is_err());
+    assert!(PeriodicBox::new(1.0, 100.0).is_err());
+    assert!(Channel::new(1.0, -1.0).is_err());
+    assert!(Channel::new(4.0, 1.0).expect("a valid scene").with_drive(Drive::Flux(f64::INFINITY)).is_err());
+    for viscosity in [0.0, -1.0, f64::NAN] {
+        let error = BoundaryIntegral::new(FreeSpace, viscosity, Settings::default()).unwrap_err();
+        assert!(matches!(error, BoundaryIntegralError::NotPositive { name: "the viscosity", .. }));
+    }
+    let bad = [
+        Settings { nodes: 8, ..Settings::default() },
+        Settings { tolerance: 0.0, ..Settings::default() },
+        Settings { tolerance: f64::NAN, ..Settings::default() },
+        Settings { most_iterations: 0, ..Settings::default() },
+        Settings { reference_perimeter: -1.0, ..Settings::default() },
+    ];
+    for settings in bad {
+        assert!(BoundaryIntegral::new(FreeSpace, 1.0, settings).is_err(), "{settings:?}");
+    }
+}
+
+#[test]
+fn plans() {
+    assert!(PeriodicCalculus::new(3).is_err());
+    assert!(BandLimit::new(64, 0).is_err());
+    assert!(matches!(BandLimit::new(64, 65), Err(BoundaryIntegralError::BandTooWide { modes: 65, len: 64 })));
+    assert!(Resample::new(0, 4).is_err());
+    let mut values = vec![Vec2::zeros(); 10];
+    assert!(BandLimit::new(12, 4).expect("a valid scene").apply(&mut values).is_err());
+    let mut calculus = PeriodicCalculus::new(10).expect("a valid scene");
+    let positions = values.clone();
+    assert!(calculus.tension_forces(&positions, &[1.0; 9], TensionPlacement::Markers, &mut values).is_err());
+}
+
+#[test]
+fn markers_that_are_not_an_interface() {
+    let mut points = Markers::new();
+    points.push_group(100, MarkerKind::Points);
+    assert!(matches!(solver().velocities(&mut points), Err(FlowError::Unsupported { .. })));
+
+    let mut few = markers(&[circle()], 32);
+    assert!(matches!(solver().velocities(&mut few), Err(FlowError::Parameter { value: 32.0, .. })));
+
+    let mut clockwise = markers(&[circle()], 64);
+    clockwise.positions.reverse();
+    assert!(matches!(solver().velocities(&mut clockwise), Err(FlowError::Unsupported { .. })));
+
+    for viscosity in [0.0, -3.0, f64::NAN] {
+        let mut markers = markers(&[Ellipse { viscosity: Some(viscosity), ..circle() }], 64);
+        assert!(matches!(solver().velocities(&mut markers), Err(FlowError::Parameter { .. })));
+    }
+}
+
+#[test]
+fn numbers_that_are_not_finite() {
+    let mut bad = markers(&[circle(), Ellipse { centre: [3.0, 0.0], ..circle() }], 64);
+    bad.positions[64 + 7].y = f64::NAN;
+    let error = solver().velocities(&mut bad).unwrap_err();
+    assert!(matches!(error, FlowError::NonFinite { what: "the position", body: 1, marker: 7, .. }), "{error}");
+    let mut bad = markers(&[circle()], 64);
+    bad.forces[3].x = f64::INFINITY;
+    let error = solver().velocities(&mut bad).unwrap_err();
+    assert!(matches!(error, FlowError::NonFinite { what: "the force", body: 0, marker: 3, .. }), "{error}");
+
+    let mut good = markers(&[circle()], 64);
+    let mut solver = solver();
+    solver.velocities(&mut good).expect("a valid scene");
+    let mut out = [FlowSample::default()];
+    assert!(solver.sample(&good, &[Vec2::new(f64::NAN, 0.0)], &mut out).is_err());
+    assert!(matches!(solver.sample(&good, &[], &mut out), Err(FlowError::WrongLength { expected: 0, found: 1, .. })));
+}
+
+#[test]
+fn beyond_a_wall() {
+    let mut solver = BoundaryIntegral::new(Channel::new(6.0, 2.5).expect("a valid scene"), 1.0, Settings::default())
+        .expect("a valid scene");
+    let mut markers = markers(&[Ellipse { centre: [0.0, 0.4], ..circle() }], 64);
+    let error = solver.velocities(&mut markers).unwrap_err();
+    assert!(matches!(error, FlowError::BeyondWall { body: 0, .. }), "{error}");
+}
+
+#[test]
+fn interfaces_that_cross_do_not_panic() {
+    let mut crossing = markers(
+        &[
+            Ellipse { viscosity: Some(50.0), ..circle() },
+            Ellipse { centre: [0.5, 0.1], viscosity: Some(0.1), ..circle() },
+        ],
+        64,
+    );
+    // Any result is allowed that is an error or finite.
+    if solver().velocities(&mut crossing).is_ok() {
+        assert!(crossing.velocities.iter().all(|v| v.x.is_finite() && v.y.is_finite()));
+    }
+    let mut coinciding = markers(&[circle(), circle()], 64);
+    if solver().velocities(&mut coinciding).is_ok() {
+        assert!(coinciding.velocities.iter().all(|v| v.x.is_finite() && v.y.is_finite()));
+    }
+}
+
+#[test]
+fn no_markers_and_no_iterations_left() {
+    let report = solver().velocities(&mut Markers::new()).expect("a valid scene");
+    assert_eq!(report.iterations, 0);
+    let settings = Settings { most_iterations: 2, ..Settings::default() };
+    let mut solver = BoundaryIntegral::new(FreeSpace, 1.0, settings).expect("a valid scene");
+    let mut markers = markers(&[Ellipse { axes: [1.4, 0.7], viscosity: Some(100.0), ..circle() }], 64);
+    let error = solver.velocities(&mut markers).unwrap_err();
+    assert!(matches!(error, FlowError::NoConvergence { iterations: 2, .. }), "{error}");
+}

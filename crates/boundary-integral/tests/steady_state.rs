@@ -1,0 +1,78 @@
+//! What an evaluation costs once it has run: no memory, few iterations.
+
+mod scenes;
+
+use allocation_counter::measure;
+use boundary_integral::{BandLimit, BoundaryIntegral, Channel, Drive, FluidDomain, FreeSpace, PeriodicBox, Settings};
+use ib_core::{FlowWork, Hydrodynamics};
+use scenes::{Ellipse, markers};
+
+fn pair(viscosity: f64) -> [Ellipse; 2] {
+    let first = Ellipse { viscosity: Some(viscosity), ..Ellipse::circle(0.0, 0.0, |t| 1.0 + 0.5 * t.cos()) };
+    // Close enough for the quadrature of close nodes.
+    [first, Ellipse { centre: [2.1, 0.2], ..first }]
+}
+
+fn allocations<D: FluidDomain>(domain: D, viscosity: f64) -> u64 {
+    let mut solver = BoundaryIntegral::new(domain, 1.0, Settings::default()).expect("a valid scene");
+    let mut markers = markers(&pair(viscosity), 128);
+    solver.velocities(&mut markers).expect("a valid scene");
+    solver.velocities(&mut markers).expect("a valid scene");
+    let counted = measure(|| {
+        for _ in 0..3 {
+            markers.positions.iter_mut().for_each(|x| *x *= 1.0001);
+            solver.velocities(&mut markers).expect("a valid scene");
+        }
+    });
+    counted.count_total
+}
+
+#[test]
+fn evaluations_allocate_nothing() {
+    for viscosity in [1.0, 20.0] {
+        assert_eq!(allocations(FreeSpace, viscosity), 0);
+        assert_eq!(allocations(PeriodicBox::new(6.0, 7.0).expect("a valid scene"), viscosity), 0);
+        assert_eq!(allocations(PeriodicBox::new(16.0, 17.0).expect("a valid scene"), viscosity), 0);
+        // Walls far from and close to the droplets.
+        assert_eq!(allocations(Channel::new(8.0, 5.0).expect("a valid scene"), viscosity), 0);
+        let close = Channel::new(8.0, 2.7).expect("a valid scene").with_drive(Drive::ZeroFlux).expect("a valid scene");
+        assert_eq!(allocations(close, viscosity), 0);
+    }
+}
+
+#[test]
+fn band_limits_allocate_nothing() {
+    let mut limit = BandLimit::new(256, 64).expect("a valid scene");
+    let mut values = markers(&pair(1.0)[..1], 256).positions;
+    assert_eq!(measure(|| limit.apply(&mut values).expect("a valid scene")).count_total, 0);
+}
+
+#[test]
+fn work_is_counted_and_equal_viscosities_iterate_never() {
+    let mut solver =
+        BoundaryIntegral::new(PeriodicBox::new(6.0, 6.0).expect("a valid scene"), 1.0, Settings::default())
+            .expect("a valid scene");
+    let mut equal = markers(&pair(1.0), 128);
+    for _ in 0..3 {
+        solver.velocities(&mut equal).expect("a valid scene");
+    }
+    assert_eq!(solver.work(), FlowWork { evaluations: 3, ..FlowWork::default() });
+}
+
+#[test]
+fn iterations_do_not_grow_with_the_nodes_and_little_with_the_ratio() {
+    let droplet = Ellipse { axes: [1.3, 1.0 / 1.3], ..Ellipse::circle(0.0, 0.0, |t| 1.0 + 0.5 * t.cos()) };
+    let domain = PeriodicBox::new(6.0, 6.0).expect("a valid scene");
+    for (ratio, most) in [(10.0, 11), (100.0, 12), (1000.0, 14), (0.001, 12)] {
+        let shape = Ellipse { viscosity: Some(ratio), ..droplet };
+        for nodes in [48, 96, 192] {
+            let settings = Settings { nodes, ..Settings::default() };
+            let mut solver = BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene");
+            let mut markers = markers(&[shape], 256);
+            let cold = solver.velocities(&mut markers).expect("a valid scene").iterations;
+            let warm = solver.velocities(&mut markers).expect("a valid scene").iterations;
+            println!("ratio {ratio} nodes {nodes}: {cold} {warm}");
+            assert!(cold <= most && warm == 0, "ratio {ratio} nodes {nodes}: {cold} {warm}");
+        }
+    }
+}
