@@ -102,9 +102,8 @@ fn one_line(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, KernelName, MethodFlags, OutputFlags, Preset, TimeStep,
-    };
+    use crate::{BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, MethodFlags, OutputFlags, Preset};
+    use motile::ib_core::{AnyKernel, StepSize};
 
     #[derive(Debug, Parser)]
     struct Flags {
@@ -133,18 +132,28 @@ mod tests {
         assert_eq!((flags.droplet.activity, flags.droplet.excluded_volume, flags.droplet.viscosity), (-4.0, 8.0, 10.0));
         assert_eq!((flags.droplet.angle, flags.droplet.initial, flags.droplet.seed), (-30.0, Initial::Perturbed, 7));
         assert_eq!((flags.region.side, flags.region.offset), (12.0, [-0.03, 0.01]));
-        assert_eq!((flags.method.spacing, flags.method.time, flags.method.step()), (0.1, 250.0, TimeStep::Auto));
-        assert_eq!((flags.method.kernel(), flags.method.preset), (KernelName::Gaussian6, Preset::Thesis));
+        assert_eq!(
+            (flags.method.spacing, flags.method.time, flags.method.step()),
+            (0.1, 250.0, StepSize::OfLimit(0.5))
+        );
+        assert_eq!((flags.method.kernel, flags.method.preset), (Some(AnyKernel::Gaussian6), Preset::Thesis));
         assert_eq!((flags.channel.lateral_offset, flags.channel.drive), (-0.2, Drive::ZeroFlux));
         assert!(flags.output.no_pictures && flags.output.out.as_deref() == Some("somewhere".as_ref()));
     }
 
     #[test]
     fn presets_set_what_is_not_said() {
-        let thesis = parse("--preset thesis").unwrap().method;
-        assert_eq!((thesis.step(), thesis.kernel()), (TimeStep::Fixed(1e-3), KernelName::Peskin4));
-        let accurate = parse("").unwrap().method;
-        assert_eq!((accurate.step(), accurate.kernel()), (TimeStep::Auto, KernelName::Bspline));
+        let swimmer = |line: &str| {
+            let flags = parse(line).unwrap();
+            flags.droplet.swimmer(&flags.method)
+        };
+        let thesis = swimmer("--preset thesis");
+        assert_eq!((thesis.step, thesis.kernel), (StepSize::Fixed(1e-3), AnyKernel::Peskin4));
+        assert!(!thesis.corrected && thesis.area_constraint);
+        let accurate = swimmer("");
+        assert_eq!((accurate.step, accurate.kernel), (StepSize::OfLimit(0.5), AnyKernel::BSpline4));
+        let mixed = swimmer("--preset thesis --dt auto --kernel bspline5");
+        assert_eq!((mixed.step, mixed.kernel), (StepSize::OfLimit(0.5), AnyKernel::BSpline5));
     }
 
     #[test]
@@ -155,6 +164,10 @@ mod tests {
             ("--box 0", "--box 0: must be a number above 0 and at most 1e6"),
             ("--dt soon", "--dt soon: must be a number above 0 or 'auto'"),
             ("--offset 1", "--offset 1: must be two numbers with a comma between them"),
+            (
+                "--kernel best",
+                "--kernel best: must be one of peskin4, roma3, gaussian6, bspline3, bspline4, bspline5, bspline6",
+            ),
             ("--preset best", "--preset best is not one of thesis, accurate"),
             ("--time", "--time needs a value"),
             ("--time 1 --time 2", "--time is given more than once"),

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
+use motile::{InitialState, Swimmer, ib_core::AnyKernel, ib_core::StepSize};
 
-use crate::parse::{TimeStep, activity, finite, not_negative, pair, positive, seed};
+use crate::parse::{TimeStep, activity, finite, kernel, not_negative, pair, positive, seed};
 
 /// Radius of a droplet, the unit of length.
 const RADIUS: f64 = 1.0;
@@ -15,6 +16,10 @@ const RADIUS: f64 = 1.0;
 const MOST_CELLS: f64 = 4096.0;
 /// Longest box or channel (R0).
 const LONGEST: f64 = 1000.0;
+/// Automatic time steps, as a fraction of the stability limit.
+const STEP_OF_LIMIT: f64 = 0.5;
+/// Relative amplitude of the random perturbation.
+const PERTURBATION: f64 = 0.05;
 
 /// How the concentration starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -32,19 +37,6 @@ pub enum Preset {
     Thesis,
     /// The accurate one.
     Accurate,
-}
-
-/// The regularised delta function.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum KernelName {
-    /// Peskin's 4-point function, thesis (2.36).
-    Peskin4,
-    /// Roma's 3-point function.
-    Roma3,
-    /// The Gaussian-like 6-point function of Bao, Kaye and Peskin.
-    Gaussian6,
-    /// Composite B-splines, cubic and quadratic.
-    Bspline,
 }
 
 /// What drives the flow along a channel.
@@ -79,6 +71,31 @@ pub struct DropletFlags {
     pub seed: u64,
 }
 
+impl DropletFlags {
+    /// The droplet of these flags by that method, in a box and at a position that are still to be set.
+    #[must_use]
+    pub fn swimmer(&self, method: &MethodFlags) -> Swimmer {
+        let base = match method.preset {
+            Preset::Thesis => Swimmer::thesis(),
+            Preset::Accurate => Swimmer::default(),
+        };
+        Swimmer {
+            activity: self.activity,
+            excluded_volume: self.excluded_volume,
+            viscosity: self.viscosity,
+            spacing: method.spacing,
+            kernel: method.kernel.unwrap_or(base.kernel),
+            angle: self.angle.to_radians(),
+            initial: match self.initial {
+                Initial::Polarised => InitialState::Polarised,
+                Initial::Perturbed => InitialState::Perturbed { amplitude: PERTURBATION, seed: self.seed },
+            },
+            step: method.step(),
+            ..base
+        }
+    }
+}
+
 /// The numerical method.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct MethodFlags {
@@ -91,9 +108,9 @@ pub struct MethodFlags {
     /// Time to be simulated
     #[arg(long, default_value_t = 60.0, value_parser = positive, allow_hyphen_values = true)]
     pub time: f64,
-    /// Regularised delta function; without it the preset's
-    #[arg(long, value_enum)]
-    pub kernel: Option<KernelName>,
+    /// Regularised delta function (peskin4, roma3, gaussian6, bspline3 to bspline6); without it the preset's
+    #[arg(long, value_parser = kernel)]
+    pub kernel: Option<AnyKernel>,
     /// Numerical method
     #[arg(long, value_enum, default_value_t = Preset::Accurate)]
     pub preset: Preset,
@@ -102,20 +119,12 @@ pub struct MethodFlags {
 impl MethodFlags {
     /// The time step asked for: by `--dt`, or else the preset's (1e-3 for the thesis').
     #[must_use]
-    pub fn step(&self) -> TimeStep {
-        self.dt.unwrap_or(match self.preset {
-            Preset::Thesis => TimeStep::Fixed(1e-3),
-            Preset::Accurate => TimeStep::Auto,
-        })
-    }
-
-    /// The kernel asked for: by `--kernel`, or else the preset's.
-    #[must_use]
-    pub fn kernel(&self) -> KernelName {
-        self.kernel.unwrap_or(match self.preset {
-            Preset::Thesis => KernelName::Peskin4,
-            Preset::Accurate => KernelName::Bspline,
-        })
+    pub fn step(&self) -> StepSize {
+        match (self.dt, self.preset) {
+            (Some(TimeStep::Fixed(dt)), _) => StepSize::Fixed(dt),
+            (None, Preset::Thesis) => Swimmer::thesis().step,
+            (Some(TimeStep::Auto), _) | (None, Preset::Accurate) => StepSize::OfLimit(STEP_OF_LIMIT),
+        }
     }
 
     /// The number of cells over `length` (R0), the value of flag `flag`.
@@ -141,7 +150,7 @@ impl MethodFlags {
     }
 
     fn steps_are_bearable(&self) -> Result<()> {
-        if let TimeStep::Fixed(dt) = self.step() {
+        if let StepSize::Fixed(dt) = self.step() {
             let (time, steps) = (self.time, self.time / dt);
             ensure!(dt <= time, "--dt {dt} is longer than --time {time}: give a smaller time step");
             ensure!(steps <= 1e9, "--time {time} takes {steps:.1e} steps of --dt {dt}: give a larger time step");

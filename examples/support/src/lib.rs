@@ -1,5 +1,6 @@
 //! What the examples of motile share: the command line, a progress bar, pictures of flows, animations, plots, and files
-//! for other programs. Everything works on plain data (positions, samples, numbers), so that any scene can use it.
+//! for other programs. Most works on plain data (positions, samples, numbers), so that any scene can use it; what scenes
+//! with a droplet share is built on that.
 //!
 //! | for | there are |
 //! |---|---|
@@ -10,6 +11,7 @@
 //! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG |
 //! | results | [`Summary`] (`summary.json` and a table), [`Trajectory`] (CSV) |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
+//! | runs with a droplet | the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`]; [`droplet_summary`], [`time_series`] |
 //!
 //! Pictures need no fonts of the system and no C libraries: lines, areas and letters are drawn by [`Canvas`] and
 //! [`Svg`], two implementations of [`Surface`].
@@ -30,6 +32,9 @@ mod canvas;
 mod colour;
 mod colour_bar;
 mod command_line;
+mod droplet_plots;
+mod droplet_summary;
+mod film;
 mod flags;
 mod font;
 mod palette;
@@ -40,6 +45,9 @@ mod plot;
 mod plot_paint;
 mod progress;
 mod raster;
+mod recorder;
+mod snapshot;
+mod steady;
 mod streamlines;
 mod summary;
 mod surface;
@@ -47,24 +55,32 @@ mod svg;
 mod ticks;
 mod trajectory;
 mod vtk;
+mod vtk_output;
 
 pub use animation::Animation;
 pub use axes::AxisScale;
 pub use canvas::Canvas;
 pub use colour::{ColourMap, ColourScale, Limits, Rgb, SERIES_COLOURS};
 pub use command_line::run;
-pub use flags::{BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, KernelName, MethodFlags, OutputFlags, Preset};
-pub use parse::{TimeStep, activity, finite, not_negative, pair, positive, seed};
+pub use droplet_plots::{concentration_plot, time_series};
+pub use droplet_summary::{RunCost, droplet_summary};
+pub use film::{Film, Look};
+pub use flags::{BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, MethodFlags, OutputFlags, Preset};
+pub use parse::{TimeStep, activity, finite, kernel, not_negative, pair, positive, seed};
 pub use picture::{Format, Picture};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::Progress;
 pub use raster::{Raster, ScalarSamples, VectorSamples};
+pub use recorder::{Dial, Recorder, measure};
+pub use snapshot::{Snapshot, at_markers, domain_raster};
+pub use steady::Steadiness;
 pub use streamlines::streamlines;
 pub use summary::{Summary, make_directory};
 pub use surface::{Anchor, Pen, Pixel, Rect, Surface, TextStyle};
 pub use svg::Svg;
 pub use trajectory::Trajectory;
 pub use vtk::{VtkFile, VtkSeries};
+pub use vtk_output::VtkOutput;
 
 /// A point or vector in the plane.
 pub type Vec2 = nalgebra::Vector2<f64>;

@@ -2,6 +2,8 @@
 
 use std::{fmt, str::FromStr};
 
+use motile::ib_core::{AnyKernel, Kernel};
+
 /// The time step that is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TimeStep {
@@ -84,6 +86,14 @@ pub fn activity(text: &str) -> Result<f64, String> {
 pub fn pair(text: &str) -> Result<[f64; 2], String> {
     let numbers = text.split_once(',').and_then(|(x, y)| Some([finite(x).ok()?, finite(y).ok()?]));
     numbers.ok_or_else(|| "must be two numbers with a comma between them".to_string())
+}
+
+/// A regularised delta function by its name.
+///
+/// # Errors
+/// The names that there are.
+pub fn kernel(text: &str) -> Result<AnyKernel, String> {
+    text.parse().map_err(|_| format!("must be one of {}", AnyKernel::ALL.map(|kernel| kernel.name()).join(", ")))
 }
 
 /// A whole number that is not negative.

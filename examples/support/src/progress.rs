@@ -75,6 +75,14 @@ impl Progress {
         }
     }
 
+    /// Writes a line to the error output, above the bar.
+    pub fn note(&self, line: &str) {
+        match &self.display {
+            Display::Bar(bar) => bar.suspend(|| eprintln!("{line}")),
+            Display::Lines | Display::Nothing => eprintln!("{line}"),
+        }
+    }
+
     /// Wall clock time since the start (seconds).
     #[must_use]
     pub fn seconds(&self) -> f64 {

@@ -1,0 +1,87 @@
+//! Whether and when a run became steady.
+
+use serde_json::{Value, json};
+
+/// Largest deviation from the final speed in a steady state, relative to it.
+const DEVIATION: f64 = 1e-3;
+/// Part of the run over which the final speed is averaged.
+const LATE: f64 = 0.2;
+/// Speeds below this are rest, in units of D/R0: what decays to nothing never has a constant speed.
+const REST: f64 = 1e-5;
+/// Least time for which the speed must have been constant, in units of R0^2/D: a short run has not had the time to show
+/// that it is steady.
+const PATIENCE: f64 = 0.5;
+
+/// Whether and when a steady state was reached.
+///
+/// The final speed is the mean over the last fifth of the run. The state is steady from the time on after which the speed
+/// stays within 0.1 % of it (or below 1e-5 D/R0, at rest), provided that this is at least the last fifth of the run and
+/// at least half a diffusion time R0^2/D.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steadiness {
+    /// Since when the state has been steady; `None` if it is not.
+    pub since: Option<f64>,
+    /// Mean speed over the last fifth of the run (length per time).
+    pub final_speed: f64,
+    /// Largest relative deviation from it there.
+    pub deviation: f64,
+}
+
+impl Steadiness {
+    /// From points (time, speed) in the order of time, and the diffusion constant of the particles in R0^2 per time.
+    #[must_use]
+    pub fn of(points: &[(f64, f64)], diffusion: f64) -> Self {
+        let nothing = Self { since: None, final_speed: f64::NAN, deviation: f64::NAN };
+        let (Some(&(start, _)), Some(&(end, _))) = (points.first(), points.last()) else { return nothing };
+        let late = points.iter().filter(|(t, _)| *t >= end - LATE * (end - start));
+        let (count, sum) = late.clone().fold((0.0, 0.0), |(n, sum), (_, v)| (n + 1.0, sum + v));
+        let mean: f64 = sum / count;
+        let rest = REST * diffusion;
+        let within = |v: f64| (v - mean).abs() <= DEVIATION * mean.abs() || v.abs() <= rest;
+        let first = points.iter().rposition(|&(_, v)| !within(v)).map_or(0, |k| k + 1);
+        let since = points.get(first).map(|&(t, _)| t);
+        let long_enough = |t: f64| end - t >= LATE * (end - start) && (end - t) * diffusion >= PATIENCE;
+        let deviation = late.map(|(_, v)| (v / mean - 1.0).abs()).fold(0.0, f64::max);
+        Self { since: since.filter(|&t| long_enough(t)), final_speed: mean, deviation }
+    }
+
+    /// As it stands in `summary.json`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        json!({ "reached": self.since.is_some(), "time": self.since })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(end: f64, speed: impl Fn(f64) -> f64) -> Steadiness {
+        let points: Vec<_> = (0..=600).map(|k| f64::from(k) / 600.0 * end).map(|t| (t, speed(t))).collect();
+        Steadiness::of(&points, 0.1)
+    }
+
+    #[test]
+    fn an_exponential_approach_is_steady_when_it_comes_close() {
+        // 0.1 (1 - exp(-t/2)) is within 0.1 % for t > 2 ln(1000) = 13.8.
+        let steady = run(60.0, |t| 0.1 * (1.0 - (-0.5 * t).exp()));
+        let since = steady.since.unwrap();
+        assert!((since - 13.8).abs() < 0.2, "{since}");
+        assert!((steady.final_speed - 0.1).abs() < 1e-6 && steady.deviation < 1e-6);
+    }
+
+    #[test]
+    fn what_has_not_settled_or_not_lasted_is_not_steady() {
+        assert_eq!(run(60.0, |t| 0.1 + 0.01 * t.sin()).since, None);
+        assert_eq!(run(15.0, |t| 0.1 * (1.0 - (-0.5 * t).exp())).since, None);
+        assert_eq!(run(1.0, |_| 0.1).since, None);
+        assert_eq!(Steadiness::of(&[], 0.1).since, None);
+        assert_eq!(run(60.0, |_| f64::NAN).since, None);
+    }
+
+    #[test]
+    fn rest_is_steady() {
+        let since = run(200.0, |t| 1e-2 * (-0.2 * t).exp()).since.unwrap();
+        assert!((since - 46.0).abs() < 2.0, "{since}");
+    }
+}
