@@ -15,6 +15,7 @@ mod sampling;
 mod scene;
 mod system;
 mod transfer;
+mod wall_gap;
 
 pub use body::{Body, StepLimit};
 pub use error::{BodyError, FlowError, SceneError};
@@ -28,3 +29,4 @@ pub use run::{Every, Observer, Run, StepSize};
 pub use scene::{Handle, Scene};
 pub use system::System;
 pub use transfer::Transfer;
+pub use wall_gap::wall_gap;
