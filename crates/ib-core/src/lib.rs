@@ -55,6 +55,7 @@ mod sampling;
 mod scene;
 mod system;
 mod transfer;
+mod wall_gap;
 
 pub use band_limit::BandLimit;
 pub use body::{Body, StepLimit};
@@ -69,3 +70,4 @@ pub use run::{Every, Observer, Run, StepSize};
 pub use scene::{Handle, Scene};
 pub use system::System;
 pub use transfer::Transfer;
+pub use wall_gap::wall_gap;

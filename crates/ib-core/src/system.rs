@@ -2,7 +2,7 @@
 
 use std::any::Any;
 
-use crate::{Body, BodyError, FlowReport, FlowSample, Hydrodynamics, Markers, SceneError, StepLimit, Vec2};
+use crate::{Body, BodyError, FlowReport, FlowSample, Hydrodynamics, Markers, SceneError, StepLimit, Vec2, wall_gap};
 
 /// The bodies of a scene, the fluid between them, and the time.
 ///
@@ -17,6 +17,9 @@ pub struct System<H> {
     report: FlowReport,
     /// Whether the markers hold the flow of the bodies' present state.
     current: bool,
+    /// Marker positions of the present state, for the gap to the walls.
+    positions: Vec<Vec2>,
+    minimum_wall_gap: Option<f64>,
 }
 
 impl<H: Hydrodynamics> System<H> {
@@ -29,6 +32,8 @@ impl<H: Hydrodynamics> System<H> {
             steps: 0,
             report: FlowReport::default(),
             current: false,
+            positions: Vec::new(),
+            minimum_wall_gap: None,
         }
     }
 
@@ -36,6 +41,7 @@ impl<H: Hydrodynamics> System<H> {
         self.markers.push_group(body.marker_count(), body.kind());
         self.bodies.push(body);
         self.current = false;
+        self.record_wall_gap();
         self.bodies.len() - 1
     }
 
@@ -117,6 +123,33 @@ impl<H: Hydrodynamics> System<H> {
         self.evaluate()?;
         let time = self.time;
         self.hydrodynamics.sample(&self.markers, points, out).map_err(|source| SceneError::Flow { time, source })
+    }
+
+    /// The smallest distance of a marker to a wall at the present state (length; negative beyond a wall, see
+    /// [`wall_gap`]); `None` without walls or markers. Needs no evaluation.
+    pub fn wall_gap(&mut self) -> Option<f64> {
+        let walls = self.hydrodynamics.medium().domain.walls?;
+        self.positions.resize(self.bodies.iter().map(|body| body.marker_count()).sum(), Vec2::zeros());
+        let mut start = 0;
+        for body in &self.bodies {
+            let end = start + body.marker_count();
+            body.write_markers(&mut self.positions[start..end]);
+            start = end;
+        }
+        (start > 0).then(|| wall_gap(&self.positions, walls))
+    }
+
+    /// The smallest [`System::wall_gap`] since the start (length): over the states after each addition of a body and at the
+    /// end of each step.
+    #[must_use]
+    pub fn minimum_wall_gap(&self) -> Option<f64> {
+        self.minimum_wall_gap
+    }
+
+    fn record_wall_gap(&mut self) {
+        if let Some(gap) = self.wall_gap() {
+            self.minimum_wall_gap = Some(self.minimum_wall_gap.map_or(gap, |least| least.min(gap)));
+        }
     }
 
     /// The smallest of the bodies' stable time steps at the present state, with the body's name.
@@ -269,6 +302,7 @@ impl<H: Hydrodynamics> System<H> {
         for body in &mut self.bodies {
             body.end_step(&medium, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
         }
+        self.record_wall_gap();
         Ok(())
     }
 }
