@@ -77,7 +77,7 @@ impl BoxFlow {
                 if a == b {
                     total.add(&self.moments[b]);
                 } else {
-                    total.add_shifted(&self.moments[b], shift, &self.binomials);
+                    total.add_shifted(&self.moments[b], shift);
                 }
             }
             if any {

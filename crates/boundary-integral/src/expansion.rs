@@ -8,7 +8,10 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
-use crate::{lattice::Lattice, planes::Vectors};
+use crate::{
+    lattice::{Lattice, MOST_TERMS},
+    planes::Vectors,
+};
 
 /// Moments of sources about a point, k = 0 .. degree, in units of the shorter period.
 #[derive(Debug, Default, Clone)]
@@ -40,22 +43,57 @@ impl Moments {
         }
     }
 
-    /// Adds the moments of `other`, whose origin lies at `shift` (in units of the shorter period) from this one's.
-    pub(crate) fn add_shifted(&mut self, other: &Self, shift: Complex64, binomials: &Binomials) {
-        let mut powers = [Complex64::default(); 128];
-        powers[0] = Complex64::new(1.0, 0.0);
-        let len = self.plain.len();
-        for k in 1..len {
-            powers[k] = powers[k - 1] * shift;
+    /// Adds the moments of `other`, whose origin lies at `shift` (in units of the shorter period) from this one's:
+    /// `sum over q of binomial(k, q) shift^(k - q) M_q`. With M_q scaled by shift^-q this is Pascal's triangle.
+    pub(crate) fn add_shifted(&mut self, other: &Self, shift: Complex64) {
+        const LEAST_SHIFT: f64 = 1e-2;
+        if shift.norm() < LEAST_SHIFT {
+            // The powers of a small shift would overflow: go there by way of a point farther away.
+            let detour = Complex64::new(0.1, 0.0);
+            let mut between = Self::default();
+            between.clear(self.plain.len() - 1);
+            between.add_shifted(other, shift - detour);
+            self.add_shifted(&between, detour);
+            return;
         }
-        for k in 0..len {
-            for q in 0..=k {
-                let factor = powers[k - q] * binomials.get(k, q);
-                self.plain[k] += other.plain[q] * factor;
-                self.conjugate[k] += other.conjugate[q] * factor;
-                self.mixed[k] += (other.mixed[q] + shift.conj() * other.plain[q]) * factor;
-                self.flux[k] += other.flux[q] * factor;
+        // The families side by side, so that the triangle runs in vector registers.
+        let len = self.plain.len();
+        let mut lanes = [[0.0; 8]; MOST_TERMS + 1];
+        let inverse = shift.inv();
+        let mut power = Complex64::new(1.0, 0.0);
+        for (q, lane) in lanes[..len].iter_mut().enumerate() {
+            let values = [other.plain[q], other.conjugate[q], other.mixed[q], other.flux[q]].map(|value| value * power);
+            *lane = [
+                values[0].re,
+                values[0].im,
+                values[1].re,
+                values[1].im,
+                values[2].re,
+                values[2].im,
+                values[3].re,
+                values[3].im,
+            ];
+            power *= inverse;
+        }
+        for first in 1..len {
+            let mut last = lanes[first - 1];
+            for lane in &mut lanes[first..len] {
+                let old = *lane;
+                for (value, last) in lane.iter_mut().zip(last) {
+                    *value += last;
+                }
+                last = old;
             }
+        }
+        let mut power = Complex64::new(1.0, 0.0);
+        for (k, lane) in lanes[..len].iter().enumerate() {
+            let value = |family: usize| Complex64::new(lane[2 * family], lane[2 * family + 1]) * power;
+            let plain = value(0);
+            self.plain[k] += plain;
+            self.conjugate[k] += value(1);
+            self.mixed[k] += value(2) + shift.conj() * plain;
+            self.flux[k] += value(3);
+            power *= shift;
         }
     }
 }
@@ -290,6 +328,39 @@ fn horner(coefficients: &[Complex64], points: &Vectors, out: &mut Vectors) {
             let (a, b) = (re[i], im[i]);
             re[i] = a * x[i] - b * y[i] + c.re;
             im[i] = a * y[i] + b * x[i] + c.im;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shifted_moments_are_those_about_the_other_point() {
+        let lattice = Lattice::new([6.0, 7.0]);
+        let degree = 24;
+        let mut expansion = Expansion::default();
+        let positions: Vec<Complex64> = (0..20).map(|k| Complex64::from_polar(0.8, 0.3 * f64::from(k))).collect();
+        let forces: Vec<Complex64> = (0..20).map(|k| Complex64::from_polar(1.0, 0.7 * f64::from(k * k))).collect();
+        // Far, close, nearly and exactly on the old point.
+        for shift in [[0.3, -0.2], [0.02, 0.0], [1e-3, 2e-3], [0.0, 0.0]] {
+            let shift = Complex64::new(shift[0], shift[1]);
+            let moved: Vec<Complex64> = positions.iter().map(|z| z + shift * lattice.unit).collect();
+            let (mut own, mut expected, mut found) = (Moments::default(), Moments::default(), Moments::default());
+            for moments in [&mut own, &mut expected, &mut found] {
+                moments.clear(degree);
+            }
+            expansion.forces(&lattice, &positions, &forces, &mut own);
+            expansion.forces(&lattice, &moved, &forces, &mut expected);
+            found.add_shifted(&own, shift);
+            let scale = 0.14 + shift.norm();
+            for k in 0..=degree {
+                let bound = 1e-12 * 20.0 * scale.max(0.25).powi(k as i32);
+                assert!((found.plain[k] - expected.plain[k]).norm() < bound, "{shift} {k}");
+                assert!((found.conjugate[k] - expected.conjugate[k]).norm() < bound, "{shift} {k}");
+                assert!((found.mixed[k] - expected.mixed[k]).norm() < bound, "{shift} {k}");
+            }
         }
     }
 }

@@ -19,6 +19,15 @@ pub(crate) trait PairKernel {
     /// The stress (xxx, xxy, xyy, yyy) as a function of source minus target.
     fn stress(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> [f64; 4];
 
+    /// The stress acting on dipoles (xx, s, yy) at the source and at the target: velocity at the target, and at the source.
+    #[inline(always)]
+    fn act(&self, t: &Window<'_>, s: &Window<'_>, i: usize, source: [f64; 3], target: [f64; 3]) -> [[f64; 2]; 2] {
+        let [xxx, xxy, xyy, yyy] = self.stress(t, s, i);
+        let act = |[xx, s, yy]: [f64; 3]| [xxx * xx + xxy * s + xyy * yy, xxy * xx + xyy * s + yyy * yy];
+        // The stress is odd in the distance.
+        [act(source), act(target).map(|u| -u)]
+    }
+
     /// Diagonal (xx, xy, yy) of `G + ln|alpha difference|` on a curve with derivative (tx, ty) by the parameter.
     fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3];
 }
@@ -46,6 +55,17 @@ impl PairKernel for FreePair {
         let xx = -4.0 * dx * dx * inverse * inverse;
         let yy = -4.0 * dy * dy * inverse * inverse;
         [xx * dx, xx * dy, yy * dx, yy * dy]
+    }
+
+    #[inline(always)]
+    fn act(&self, t: &Window<'_>, s: &Window<'_>, i: usize, source: [f64; 3], target: [f64; 3]) -> [[f64; 2]; 2] {
+        let (dx, dy) = (s.x[i] - t.x[i] + self.offset[0], s.y[i] - t.y[i] + self.offset[1]);
+        let (xx, xy, yy) = (dx * dx, dx * dy, dy * dy);
+        let inverse = 1.0 / (xx + yy);
+        let factor = -4.0 * inverse * inverse;
+        let a = factor * (xx * source[0] + xy * source[1] + yy * source[2]);
+        let b = factor * (xx * target[0] + xy * target[1] + yy * target[2]);
+        [[a * dx, a * dy], [-b * dx, -b * dy]]
     }
 
     fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3] {

@@ -6,7 +6,7 @@ use boundary_integral::{PeriodicCalculus, TensionPlacement};
 use ib_core::{MarkerKind, Markers, Vec2};
 
 /// An ellipse with semi-axes a and b, turned by an angle, with its tension as a function of the parameter.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Ellipse {
     pub(crate) centre: [f64; 2],
     pub(crate) axes: [f64; 2],
