@@ -109,7 +109,11 @@ mod tests {
             let area = active_interface::polygon_area(body.markers()).unwrap();
             assert!((area / body.initial_area() - 1.0).abs() < 1e-12);
             if motion == Motion::WithFluid {
+                (0..300).for_each(|_| scene.step(0.05).unwrap());
+                let body = scene.body(droplet);
                 assert!(body.redistributed().0 + body.redistributed().1 > 0, "markers crowd at the rear");
+                let after: f64 = body.particle_numbers().iter().sum();
+                assert!((after / before - 1.0).abs() < 1e-12);
             } else {
                 let [max, min] = body
                     .segment_lengths()
