@@ -7,6 +7,7 @@ use ib_core::{BandLimit, Hydrodynamics, Medium, StepLimit, System, Vec2};
 use crate::error::{not_negative, positive};
 use crate::filter::WiggleFilter;
 use crate::geometry::{Geometry, signed_area};
+use crate::spectral::SpectralCurve;
 use crate::{
     CrossingFinder, Flux, InterfaceError, InterfaceState, Repair, Tension, TensionWarning, Transport, cell_peclet,
 };
@@ -92,6 +93,8 @@ pub struct ActiveDroplet {
     pub(crate) filter: WiggleFilter,
     /// Truncation of the motion, where the flow resolves fewer modes than there are markers.
     pub(crate) band: Option<BandLimit>,
+    /// The smooth curve through the markers, where the flow is spectrally accurate.
+    pub(crate) spectral: Option<SpectralCurve>,
     pub(crate) crossing: CrossingFinder,
     pub(crate) repair: Repair,
     pub(crate) redistributed: (usize, usize),
@@ -160,6 +163,7 @@ impl ActiveDroplet {
             other_geometry: Geometry::default(),
             filter: WiggleFilter::default(),
             band: None,
+            spectral: None,
             crossing: CrossingFinder::new(),
             repair: Repair::default(),
             redistributed: (0, 0),
@@ -330,6 +334,9 @@ impl ActiveDroplet {
     pub(crate) fn update(&mut self) -> Result<(), InterfaceError> {
         self.geometry.update(&self.markers);
         let count = self.markers.len();
+        if let Some(spectral) = self.spectral.as_mut().filter(|spectral| spectral.len() == count) {
+            spectral.refine(&self.markers, &mut self.geometry);
+        }
         self.concentrations.resize(count, 0.0);
         self.tensions.resize(count, 0.0);
         for (k, c) in self.concentrations.iter_mut().enumerate() {
@@ -338,14 +345,20 @@ impl ActiveDroplet {
         self.tension.values(&self.concentrations, &mut self.tensions)
     }
 
-    /// The truncation that `medium` asks for, made anew only where it has changed.
-    pub(crate) fn fit_band(&mut self, medium: &Medium) {
+    /// The truncation and the geometry that `medium` asks for, made anew only where they have changed.
+    pub(crate) fn fit(&mut self, medium: &Medium) -> Result<(), InterfaceError> {
         let count = self.markers.len();
+        let smooth = medium.shape_modes.is_some() && matches!(self.motion, Motion::Equidistributed { .. });
+        if smooth != self.spectral.as_ref().is_some_and(|spectral| spectral.len() == count) {
+            self.spectral = smooth.then(|| SpectralCurve::new(count));
+            self.update()?;
+        }
         match medium.shape_modes.filter(|&modes| modes < count) {
             None => self.band = None,
             Some(modes) if self.band.as_ref().is_some_and(|b| b.len() == count && b.modes() == modes) => {}
             Some(modes) => self.band = Some(BandLimit::new(count, modes)),
         }
+        Ok(())
     }
 
     /// Mean of the viscosities on both sides, on which the speed of an interface depends (stress times time).

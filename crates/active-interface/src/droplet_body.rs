@@ -34,13 +34,17 @@ impl Body for ActiveDroplet {
         positions.copy_from_slice(&self.markers);
     }
 
-    fn write_forces(&mut self, _medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        self.fit(medium)?;
         let count = self.markers.len();
         let mut before = self.tensions[count - 1] * self.geometry.directions[count - 1];
         for (k, force) in forces.iter_mut().enumerate() {
             let here = self.tensions[k] * self.geometry.directions[k];
             *force = here - before;
             before = here;
+        }
+        if let Some(spectral) = self.spectral.as_mut() {
+            spectral.sharpen(forces);
         }
         Ok(())
     }
@@ -79,7 +83,11 @@ impl Body for ActiveDroplet {
         self.slip.resize(count, 0.0);
         match self.motion {
             Motion::Equidistributed { relaxation, .. } => {
-                equidistribute(&self.geometry, velocities, relaxation, &mut self.motions, &mut self.slip);
+                let (motions, slip) = (&mut self.motions, &mut self.slip);
+                match self.spectral.as_mut() {
+                    Some(curve) => curve.equidistribute(&self.geometry, velocities, relaxation, motions, slip),
+                    None => equidistribute(&self.geometry, velocities, relaxation, motions, slip),
+                }
             }
             Motion::WithFluid => {
                 self.motions.copy_from_slice(velocities);
@@ -110,7 +118,7 @@ impl Body for ActiveDroplet {
 
     fn begin_step(&mut self, medium: &Medium, _dt: f64) -> Result<(), BodyError> {
         let count = self.markers.len();
-        self.fit_band(medium);
+        self.fit(medium)?;
         self.diffusivities.resize(count, 0.0);
         self.diffusivities.fill(self.diffusion);
         self.stabiliser.clear();
@@ -227,6 +235,9 @@ impl ActiveDroplet {
         self.other_markers
             .extend(state[..2 * self.markers.len()].chunks_exact(2).map(|pair| Vec2::new(pair[0], pair[1])));
         self.other_geometry.update(&self.other_markers);
+        if let Some(spectral) = self.spectral.as_mut() {
+            spectral.refine(&self.other_markers, &mut self.other_geometry);
+        }
     }
 
     /// Moves all markers along their normals by the same distance so that the area is the initial one (twice, the second time for the

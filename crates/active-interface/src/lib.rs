@@ -75,6 +75,7 @@ mod observables;
 mod polygon;
 mod positivity;
 mod redistribution;
+mod spectral;
 mod spline;
 mod tension;
 mod theory;
