@@ -2,6 +2,7 @@
 
 use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, StokesSolver};
 
+use crate::contrast::{Contrast, Images, RigidWalls, other_viscosity};
 use crate::correction::{MobilityCorrection, Setting};
 use crate::sampling;
 use crate::{
@@ -9,11 +10,23 @@ use crate::{
     MobilityDeficit, Transfer, Vec2,
 };
 
+/// Distance from an interface, in grid spacings, within which the flow on the grid is smeared.
+const SMEARED: f64 = 3.0;
 /// How far beyond a wall a marker may lie, in grid spacings.
 const WALL_TOLERANCE: f64 = 0.25;
 
 /// Velocities of markers by spreading their forces to a grid, solving the Stokes equations there and interpolating
 /// (thesis section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).
+///
+/// **Other viscosities inside interfaces.** The grid solves for one viscosity, that of the surroundings; where a group of markers
+/// has another one inside, the boundary integral equation
+///
+/// `(eta_in + eta)/2 v(x) = eta u(x) - (eta_in - eta)/(4 pi) PV INT v(y) T(x, y) n ds`
+///
+/// gives its velocity v from the grid's velocity u, with the stress T of the Green's function of the box or channel, n outward
+/// (Pozrikidis, Boundary Integral and Singularity Methods, 1992). It is solved on the markers by GMRES, to errors that do
+/// not grow with the ratio of viscosities and are of second order in h. All other markers receive the flow that goes with it.
+/// Without such groups none of this costs anything.
 #[derive(Debug)]
 pub struct ImmersedBoundary<S, K> {
     solver: S,
@@ -23,7 +36,20 @@ pub struct ImmersedBoundary<S, K> {
     correction: Option<MobilityCorrection>,
     stiffness: f64,
     variance: f64,
+    contrast: Option<ContrastFlow>,
     work: FlowWork,
+}
+
+/// What interfaces to other viscosities need beside the grid.
+#[derive(Debug)]
+struct ContrastFlow {
+    contrast: Contrast,
+    /// The flow without forces (imposed fluxes, walls that move) and its mean pressure gradient; none where it vanishes.
+    imposed: Option<(StaggeredField, [f64; 2])>,
+    forces: Vec<Vec2>,
+    own: Vec<Vec2>,
+    velocity: StaggeredField,
+    density: StaggeredField,
 }
 
 impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
@@ -52,6 +78,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             correction: corrected.then(|| MobilityCorrection::new(deficit)),
             stiffness,
             variance: std::f64::consts::PI * constant * constant,
+            contrast: None,
             work: FlowWork::default(),
             solver,
         }
@@ -81,7 +108,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.correction.is_some()
     }
 
-    /// The velocity on the grid (length per time) of the last evaluation.
+    /// The velocity on the grid (length per time) of the last evaluation; where viscosities differ, that of a fluid of one
+    /// viscosity under the same forces.
     #[must_use]
     pub fn velocity_field(&self) -> &StaggeredField {
         &self.velocity
@@ -117,6 +145,133 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.work.iterations += after.iterations - before.iterations;
         self.work.markers_spread += positions.len();
         Ok(report)
+    }
+
+    /// Adds the mobility correction of a group to its velocities.
+    fn correct(&mut self, group: usize, markers: &mut Markers) -> Result<(), FlowError> {
+        let setting = Setting {
+            spacing: self.grid().spacing(),
+            origin: self.grid().origin(),
+            viscosity: self.solver.viscosity(),
+            walls: self.walls(),
+            variance: self.variance,
+        };
+        let group = &markers.groups()[group];
+        if let Some(correction) = self.correction.as_mut()
+            && matches!(group.kind, MarkerKind::Interface { .. })
+        {
+            let range = group.range.clone();
+            let (positions, forces) = (&markers.positions[range.clone()], &markers.forces[range.clone()]);
+            correction.apply(&setting, positions, forces, &mut markers.velocities[range])?;
+            self.work.corrections += 1;
+        }
+        Ok(())
+    }
+
+    /// Whether the viscosity inside any group differs from that of the surroundings.
+    fn has_contrast(&self, markers: &Markers) -> Result<bool, FlowError> {
+        for group in markers.groups() {
+            if other_viscosity(&group.kind, self.solver.viscosity())?.is_some() {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Makes what interfaces to other viscosities need, once.
+    fn prepare_contrast(&mut self) -> Result<(), FlowError> {
+        if self.contrast.is_some() {
+            return Ok(());
+        }
+        let grid = *self.solver.grid();
+        let ([lx, ly], walls) = (grid.lengths(), self.walls());
+        let mut density = StaggeredField::zeros(grid);
+        let mut velocity = StaggeredField::zeros(grid);
+        let at_rest = self.solver.solve(&density, &mut velocity)?;
+        let moves = velocity.x().iter().chain(velocity.y()).any(|value| *value != 0.0);
+        let imposed = moves.then(|| (velocity.clone(), at_rest.mean_pressure_gradient));
+        let rigid = walls.map(|heights| {
+            // Whether the mean pressure gradient or the flux is held fixed shows in the answer to a force along x.
+            let index = grid.ny() / 2 * grid.nx();
+            density.components_mut().0[index] = 1.0;
+            let pushed = self.solver.solve(&density, &mut velocity);
+            density.components_mut().0[index] = 0.0;
+            pushed.map(|pushed| {
+                let zero_flux = pushed.mean_pressure_gradient[0] != at_rest.mean_pressure_gradient[0];
+                RigidWalls::new(lx, heights, zero_flux, 0.1 * grid.spacing())
+            })
+        });
+        let images = Images { along: lx, across: walls.is_none().then_some(ly) };
+        let contrast = Contrast::new(images, rigid.transpose()?, self.solver.viscosity());
+        self.contrast =
+            Some(ContrastFlow { contrast, imposed, forces: Vec::new(), own: Vec::new(), velocity, density });
+        Ok(())
+    }
+
+    /// The flow with interfaces to other viscosities: one solve on the grid for their forces, one for all others if there are
+    /// any, and the double layer.
+    fn contrast_velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+        self.prepare_contrast()?;
+        let Some(mut flow) = self.contrast.take() else { return Ok(FlowReport::default()) };
+        let outcome = self.contrast_with(&mut flow, markers);
+        self.contrast = Some(flow);
+        outcome
+    }
+
+    fn contrast_with(&mut self, flow: &mut ContrastFlow, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+        let viscosity = self.solver.viscosity();
+        let differs = |kind: &MarkerKind| other_viscosity(kind, viscosity).map(|value| value.is_some());
+        flow.forces.clear();
+        flow.forces.extend_from_slice(&markers.forces);
+        flow.own.resize(markers.len(), Vec2::zeros());
+        let mut others = flow.imposed.is_some();
+        for group in markers.groups() {
+            if !differs(&group.kind)? {
+                let forces = &mut flow.forces[group.range.clone()];
+                others |= forces.iter().any(|force| *force != Vec2::zeros());
+                forces.fill(Vec2::zeros());
+            }
+        }
+        let own = self.solve(&markers.positions, &flow.forces)?;
+        let mut gradient = own.mean_pressure_gradient;
+        if let Some((imposed, [x, y])) = &flow.imposed {
+            add(&mut self.velocity, imposed, -1.0);
+            gradient = [gradient[0] - x, gradient[1] - y];
+        }
+        self.transfer.interpolate(&self.velocity, &mut markers.velocities);
+        for index in 0..markers.groups().len() {
+            if differs(&markers.groups()[index].kind)? {
+                self.correct(index, markers)?;
+            }
+        }
+        flow.own.copy_from_slice(&markers.velocities);
+        if others {
+            for (other, force) in flow.forces.iter_mut().zip(&markers.forces) {
+                *other = force - *other;
+            }
+            std::mem::swap(&mut self.velocity, &mut flow.velocity);
+            std::mem::swap(&mut self.density, &mut flow.density);
+            let other = self.solve(&markers.positions, &flow.forces)?;
+            self.transfer.interpolate(&self.velocity, &mut markers.velocities);
+            for index in 0..markers.groups().len() {
+                if !differs(&markers.groups()[index].kind)? {
+                    self.correct(index, markers)?;
+                }
+            }
+            for (velocity, own) in markers.velocities.iter_mut().zip(&flow.own) {
+                *velocity += own;
+            }
+            add(&mut self.velocity, &flow.velocity, 1.0);
+            add(&mut self.density, &flow.density, 1.0);
+            for (total, other) in gradient.iter_mut().zip(other.mean_pressure_gradient) {
+                *total += other;
+            }
+        }
+        self.work.evaluations += 1;
+        let effort = flow.contrast.solve(markers, &flow.own)?;
+        self.work.iterations += effort.iterations;
+        gradient[0] += effort.pressure_gradient;
+        Ok(FlowReport { iterations: effort.iterations, residual: effort.residual, mean_pressure_gradient: gradient })
     }
 
     /// Refuses markers that are not finite or too far beyond a wall, and forces that are not finite.
@@ -167,42 +322,14 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
         self.check(markers)?;
-        for group in markers.groups() {
-            if let MarkerKind::Interface { viscosity_inside: Some(value) }
-            | MarkerKind::UnevenInterface { viscosity_inside: Some(value) } = group.kind
-                && value != self.solver.viscosity()
-            {
-                return Err(FlowError::Parameter {
-                    name: "viscosity inside an interface",
-                    value,
-                    remedy: "the grid method takes interfaces of equal viscosity only: give that of the surroundings",
-                });
-            }
+        if self.has_contrast(markers)? {
+            return self.contrast_velocities(markers);
         }
         let report = self.solve(&markers.positions, &markers.forces)?;
         self.transfer.interpolate(&self.velocity, &mut markers.velocities);
         self.work.evaluations += 1;
-        let setting = Setting {
-            spacing: self.grid().spacing(),
-            origin: self.grid().origin(),
-            viscosity: self.solver.viscosity(),
-            walls: self.walls(),
-            variance: self.variance,
-        };
-        if let Some(correction) = self.correction.as_mut() {
-            for index in 0..markers.groups().len() {
-                let group = &markers.groups()[index];
-                if matches!(group.kind, MarkerKind::Interface { .. }) {
-                    let range = group.range.clone();
-                    correction.apply(
-                        &setting,
-                        &markers.positions[range.clone()],
-                        &markers.forces[range.clone()],
-                        &mut markers.velocities[range],
-                    )?;
-                    self.work.corrections += 1;
-                }
-            }
+        for index in 0..markers.groups().len() {
+            self.correct(index, markers)?;
         }
         Ok(FlowReport {
             iterations: report.iterations,
@@ -219,11 +346,27 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         self.check(markers)?;
         self.solve(&markers.positions, &markers.forces)?;
         let pressure = self.pressure_field()?;
+        if self.has_contrast(markers)? {
+            self.prepare_contrast()?;
+            let Some(flow) = self.contrast.as_mut() else { return Ok(()) };
+            let smeared = SMEARED * self.solver.grid().spacing();
+            let grid =
+                |points: &[Vec2], out: &mut [FlowSample]| sampling::sample(&self.velocity, &pressure, points, out);
+            return flow.contrast.sample(markers, smeared, points, grid, out);
+        }
         sampling::sample(&self.velocity, &pressure, points, out);
         Ok(())
     }
 
     fn work(&self) -> FlowWork {
         self.work
+    }
+}
+
+/// `target += factor * term`.
+fn add(target: &mut StaggeredField, term: &StaggeredField, factor: f64) {
+    let (x, y) = target.components_mut();
+    for (target, term) in x.iter_mut().zip(term.x()).chain(y.iter_mut().zip(term.y())) {
+        *target += factor * term;
     }
 }

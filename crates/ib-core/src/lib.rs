@@ -41,6 +41,7 @@
 
 mod band_limit;
 mod body;
+mod contrast;
 mod correction;
 mod error;
 mod hydrodynamics;

@@ -12,6 +12,7 @@
 //! ```
 
 pub mod channel;
+pub mod contrast;
 pub mod fixed_shapes;
 pub mod growth;
 mod order;
@@ -45,6 +46,9 @@ pub enum StudyError {
     /// The droplet.
     #[error(transparent)]
     Interface(#[from] motile::active_interface::InterfaceError),
+    /// The boundary integrals.
+    #[error(transparent)]
+    BoundaryIntegral(#[from] motile::boundary_integral::BoundaryIntegralError),
     /// The reference values.
     #[error("the reference values are not readable: {0}")]
     Reference(String),

@@ -1,0 +1,270 @@
+//! Interfaces between fluids of different viscosity on a grid: a dense double layer on their markers.
+
+mod double_layer;
+mod droplet;
+mod field;
+mod gmres;
+mod images;
+mod rigid;
+mod rigid_walls;
+mod stress;
+mod wall_flow;
+mod wall_points;
+mod walls;
+
+use crate::{FlowError, MarkerKind, Markers, Vec2};
+
+use double_layer::DoubleLayer;
+use droplet::Droplet;
+use gmres::{Gmres, Outcome, dot};
+pub(crate) use images::Images;
+use rigid::{RIGID, RigidModes};
+pub(crate) use rigid_walls::RigidWalls;
+
+/// Residual of the iterations relative to the right-hand side.
+const TOLERANCE: f64 = 1e-6;
+/// Iterations before giving up.
+const MOST_ITERATIONS: usize = 400;
+
+/// What the solution for the velocities needed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Effort {
+    pub(crate) iterations: usize,
+    pub(crate) residual: f64,
+    /// Part of the mean pressure gradient along x that comes from the contrast (force per volume).
+    pub(crate) pressure_gradient: f64,
+}
+
+/// Velocities on interfaces between different viscosities from the velocities that the same forces have in a fluid of one
+/// viscosity (boundary integral equation of Pozrikidis, 1992, with the single layer from a grid):
+///
+/// `A v = s`, A the [`DoubleLayer`], s the one-viscosity velocity times viscosity.
+///
+/// A stiff droplet answers to a rigid motion with the viscosity of its surroundings, to all else with the mean viscosity. A
+/// small error of s along the corresponding left eigenvectors phi, `A^T phi = eta phi`, is therefore amplified by the ratio of
+/// viscosities. Reciprocity tells what a droplet's own forces have there: their net force and torque, which are zero. So
+/// phi is computed and that part of s is removed from the flow of the droplets' own forces, while the flow of all other forces
+/// (solids, other interfaces, walls that move) keeps it.
+#[derive(Debug)]
+pub(crate) struct Contrast {
+    layer: DoubleLayer,
+    viscosity: f64,
+    droplets: Vec<Droplet>,
+    count: usize,
+    nodes: usize,
+    rigid: RigidModes,
+    /// Left eigenvectors, dual to the rigid motions.
+    left: Vec<f64>,
+    gmres: Gmres,
+    own: Vec<f64>,
+    other: Vec<f64>,
+    right: Vec<f64>,
+    velocities: Vec<f64>,
+    /// Markers that are not on a droplet of another viscosity.
+    targets: Vec<usize>,
+}
+
+/// The viscosity inside a group if it is an interface to another viscosity than that of the surroundings.
+///
+/// # Errors
+/// A viscosity that is not positive and finite.
+pub(crate) fn other_viscosity(kind: &MarkerKind, surroundings: f64) -> Result<Option<f64>, FlowError> {
+    let (MarkerKind::Interface { viscosity_inside: Some(value) }
+    | MarkerKind::UnevenInterface { viscosity_inside: Some(value) }) = *kind
+    else {
+        return Ok(None);
+    };
+    if !(value.is_finite() && value > 0.0) {
+        let remedy = "give a positive finite viscosity, or none for that of the surroundings";
+        return Err(FlowError::Parameter { name: "the viscosity inside an interface", value, remedy });
+    }
+    Ok((value != surroundings).then_some(value))
+}
+
+impl Contrast {
+    /// For surroundings of the given viscosity in a box or a channel.
+    pub(crate) fn new(images: Images, walls: Option<RigidWalls>, viscosity: f64) -> Self {
+        Self {
+            layer: DoubleLayer::new(images, walls, viscosity),
+            viscosity,
+            droplets: Vec::new(),
+            count: 0,
+            nodes: 0,
+            rigid: RigidModes::default(),
+            left: Vec::new(),
+            gmres: Gmres::default(),
+            own: Vec::new(),
+            other: Vec::new(),
+            right: Vec::new(),
+            velocities: Vec::new(),
+            targets: Vec::new(),
+        }
+    }
+
+    /// Takes over the shapes of the droplets.
+    fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+        let (mut count, mut nodes) = (0, 0);
+        self.targets.clear();
+        for group in markers.groups() {
+            let Some(viscosity) = other_viscosity(&group.kind, self.viscosity)? else {
+                self.targets.extend(group.range.clone());
+                continue;
+            };
+            if count == self.droplets.len() {
+                self.droplets.push(Droplet::default());
+            }
+            let droplet = &mut self.droplets[count];
+            droplet.markers = group.range.clone();
+            droplet.first = nodes;
+            droplet.viscosity = viscosity;
+            droplet.contrast = viscosity - self.viscosity;
+            droplet.load(self.layer.kernel(), &markers.positions[group.range.clone()])?;
+            count += 1;
+            nodes += group.range.len();
+        }
+        if nodes != self.nodes || count != self.count {
+            // The last solutions are no guesses for other nodes.
+            self.left.clear();
+            self.velocities.clear();
+        }
+        (self.count, self.nodes) = (count, nodes);
+        Ok(())
+    }
+
+    /// Replaces `markers.velocities`, which hold the one-viscosity velocities of all forces, by the velocities with the
+    /// contrast; `own` holds those of the droplets' own forces alone, for all markers.
+    pub(crate) fn solve(&mut self, markers: &mut Markers, own: &[Vec2]) -> Result<Effort, FlowError> {
+        self.load(markers)?;
+        let len = 2 * self.nodes;
+        for array in [&mut self.own, &mut self.other, &mut self.right] {
+            array.resize(len, 0.0);
+        }
+        for droplet in &self.droplets[..self.count] {
+            for (k, marker) in droplet.markers.clone().enumerate() {
+                let (x, y) = (droplet.first + k, self.nodes + droplet.first + k);
+                let (total, own) = (self.viscosity * markers.velocities[marker], self.viscosity * own[marker]);
+                (self.own[x], self.own[y]) = (own.x, own.y);
+                (self.other[x], self.other[y]) = (total.x - own.x, total.y - own.y);
+            }
+        }
+        self.layer.build(&self.droplets[..self.count]);
+        self.rigid.fill(&self.droplets[..self.count], self.nodes);
+        let outcome = self.solve_nodes();
+        let outcome = match outcome {
+            Ok(outcome) => outcome,
+            Err(error) => {
+                self.left.clear();
+                self.velocities.clear();
+                return Err(error);
+            }
+        };
+        self.store(markers);
+        let pressure_gradient = self.layer.pressure_gradient();
+        Ok(Effort { iterations: outcome.iterations, residual: outcome.residual, pressure_gradient })
+    }
+
+    /// Left eigenvectors, then the velocities at the nodes.
+    fn solve_nodes(&mut self) -> Result<Outcome, FlowError> {
+        let Self { layer, droplets, count, nodes, rigid, left, gmres, own, other, right, velocities, .. } = self;
+        let (droplets, nodes, viscosity) = (&droplets[..*count], *nodes, self.viscosity);
+        let len = 2 * nodes;
+        let mut iterations = 0;
+
+        let weighted = || rigid.weighted(nodes);
+        if left.is_empty() {
+            weighted().for_each(|motion| left.extend_from_slice(motion));
+        }
+        for (index, column) in left.chunks_exact_mut(len).enumerate() {
+            // About half the contrast is what the other eigenvalues lie above that of the rigid motions.
+            let lift = |index: usize| 0.5 * droplets[index / RIGID].contrast;
+            let scale = lift(index);
+            for (right, motion) in right.iter_mut().zip(weighted().nth(index).unwrap_or_default()) {
+                *right = scale * motion;
+            }
+            let product = |q: &[f64], out: &mut [f64]| {
+                layer.transposed_product(droplets, q, out);
+                for (out, q) in out.iter_mut().zip(q) {
+                    *out -= viscosity * q;
+                }
+                for (k, (motion, weighted)) in rigid.motions(nodes).zip(rigid.weighted(nodes)).enumerate() {
+                    let amount = lift(k) * dot(motion, q);
+                    for (out, weighted) in out.iter_mut().zip(weighted) {
+                        *out += amount * weighted;
+                    }
+                }
+            };
+            let outcome = gmres.solve(product, right, column, TOLERANCE, MOST_ITERATIONS);
+            iterations += check("the rigid motions of droplets of another viscosity", outcome)?.iterations;
+        }
+
+        // Splits off the rigid part, which the surroundings' viscosity alone resists.
+        let project = |values: &mut [f64]| {
+            for (motion, left) in rigid.motions(nodes).zip(left.chunks_exact(len)) {
+                let amount = dot(left, values);
+                for (value, motion) in values.iter_mut().zip(motion) {
+                    *value -= amount * motion;
+                }
+            }
+        };
+        for ((right, own), other) in right.iter_mut().zip(&*own).zip(&*other) {
+            *right = own + other;
+        }
+        project(right);
+        if velocities.is_empty() {
+            velocities.resize(len, 0.0);
+            for droplet in droplets {
+                let scale = 1.0 / (viscosity + 0.5 * droplet.contrast);
+                for start in [droplet.first, nodes + droplet.first] {
+                    for i in start..start + droplet.nodes() {
+                        velocities[i] = scale * right[i];
+                    }
+                }
+            }
+        }
+        project(velocities);
+        let product = |v: &[f64], out: &mut [f64]| {
+            layer.product(droplets, v, out);
+            project(out);
+        };
+        let outcome = gmres.solve(product, right, velocities, TOLERANCE, MOST_ITERATIONS);
+        let outcome = check("the velocities of droplets of another viscosity", outcome)?;
+        project(velocities);
+        for (motion, left) in rigid.motions(nodes).zip(left.chunks_exact(len)) {
+            let amount = dot(left, other) / viscosity;
+            for (value, motion) in velocities.iter_mut().zip(motion) {
+                *value += amount * motion;
+            }
+        }
+        Ok(Outcome { iterations: iterations + outcome.iterations, residual: outcome.residual })
+    }
+
+    /// Writes the velocities to the droplets' markers and what the double layer adds to all others.
+    fn store(&mut self, markers: &mut Markers) {
+        for droplet in &self.droplets[..self.count] {
+            for (k, marker) in droplet.markers.clone().enumerate() {
+                let i = droplet.first + k;
+                markers.velocities[marker] = Vec2::new(self.velocities[i], self.velocities[self.nodes + i]);
+            }
+        }
+        let mean = self.layer.begin_field(&self.droplets[..self.count], &self.velocities);
+        if self.targets.is_empty() {
+            return;
+        }
+        self.layer.begin_walls(self.targets.iter().map(|&marker| markers.positions[marker]));
+        for index in 0..self.targets.len() {
+            let marker = self.targets[index];
+            let stress = self.viscosity * markers.velocities[marker];
+            markers.velocities[marker] = self.flow_at(markers.positions[marker], index, stress, mean).velocity;
+        }
+    }
+}
+
+fn check(what: &'static str, outcome: Outcome) -> Result<Outcome, FlowError> {
+    let Outcome { iterations, residual } = outcome;
+    // Round-off is what is left of a right-hand side of zero.
+    if residual <= 2.0 * TOLERANCE {
+        Ok(outcome)
+    } else {
+        Err(FlowError::NoConvergence { what, iterations, residual, tolerance: TOLERANCE })
+    }
+}

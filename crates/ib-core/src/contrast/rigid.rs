@@ -1,0 +1,56 @@
+//! Rigid motions of droplets: the modes in which a stiff droplet answers with the viscosity of its surroundings.
+
+use crate::Vec2;
+
+use super::droplet::Droplet;
+
+/// Rigid motions of one droplet: along x, along y, and a rotation.
+pub(crate) const RIGID: usize = 3;
+
+/// Rigid motions on the nodes of all droplets, orthonormal in the product weighted by the arc length; x components of all
+/// nodes first, then y components.
+#[derive(Debug, Default)]
+pub(crate) struct RigidModes {
+    /// Motion by motion, with zeros on the other droplets.
+    motions: Vec<f64>,
+    /// The same times the weights.
+    weighted: Vec<f64>,
+}
+
+impl RigidModes {
+    pub(crate) fn fill(&mut self, droplets: &[Droplet], nodes: usize) {
+        let len = 2 * nodes * RIGID * droplets.len();
+        for array in [&mut self.motions, &mut self.weighted] {
+            array.clear();
+            array.resize(len, 0.0);
+        }
+        for (index, droplet) in droplets.iter().enumerate() {
+            let perimeter: f64 = droplet.weights.iter().sum();
+            let centre = droplet.positions.iter().zip(&droplet.weights).map(|(x, w)| x * *w).sum::<Vec2>() / perimeter;
+            let moment: f64 =
+                droplet.positions.iter().zip(&droplet.weights).map(|(x, w)| w * (x - centre).norm_squared()).sum();
+            let scales = [1.0 / perimeter.sqrt(), 1.0 / perimeter.sqrt(), 1.0 / moment.sqrt()];
+            for (motion, scale) in scales.into_iter().enumerate() {
+                let start = 2 * nodes * (RIGID * index + motion) + droplet.first;
+                for (i, (x, w)) in droplet.positions.iter().zip(&droplet.weights).enumerate() {
+                    let r = x - centre;
+                    let [u, v] = [[1.0, 0.0], [0.0, 1.0], [-r.y, r.x]][motion];
+                    for (component, value) in [(0, u), (nodes, v)] {
+                        self.motions[start + component + i] = scale * value;
+                        self.weighted[start + component + i] = scale * value * w;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The motions, one after the other.
+    pub(crate) fn motions(&self, nodes: usize) -> std::slice::ChunksExact<'_, f64> {
+        self.motions.chunks_exact((2 * nodes).max(1))
+    }
+
+    /// The motions times the weights, one after the other.
+    pub(crate) fn weighted(&self, nodes: usize) -> std::slice::ChunksExact<'_, f64> {
+        self.weighted.chunks_exact((2 * nodes).max(1))
+    }
+}

@@ -1,0 +1,286 @@
+//! The stress of the Green's function of a periodic box or of a row of images.
+
+use std::f64::consts::TAU;
+
+use crate::Vec2;
+
+/// Relative size of the rows of images that are left out.
+const TOLERANCE: f64 = 1e-7;
+
+/// The stress `T_abc` at a source of the Green's function `lap G - grad p = -4 pi delta` with its pole at a target, as a
+/// function of source minus target.
+///
+/// Images in rows along x of period l are summed in closed form. With k = 2 pi/l and the harmonic
+/// `A = 1/2 ln(2 cosh ky - 2 cos kx)`:
+///
+/// ```text
+/// T_xxx = -4 A_x - 2 y A_xy,  T_xxy = -2 A_y + 2 y A_xx,  T_xyy = 2 y A_xy,  T_yyy = -2 A_y - 2 y A_xx
+/// ```
+///
+/// A doubly periodic box sums rows, whose distance from the first makes them fall off like `exp(-k |y|)`, and adds
+/// `2 k y/L_y` to T_xxy and T_yyy, which makes the mean velocity zero. Rows run along the shorter period.
+#[derive(Debug, Clone)]
+pub(crate) struct StressKernel {
+    k: f64,
+    /// Period across the rows (length), none in a channel.
+    across: Option<f64>,
+    rows: usize,
+    decay: f64,
+    transposed: bool,
+    work: Work,
+}
+
+/// Sums over rows for one target and many sources.
+#[derive(Debug, Clone, Default)]
+struct Work {
+    dy: Vec<f64>,
+    sin: Vec<f64>,
+    cos: Vec<f64>,
+    up: Vec<f64>,
+    down: Vec<f64>,
+    ax: Vec<f64>,
+    ay: Vec<f64>,
+    axx: Vec<f64>,
+    axy: Vec<f64>,
+    /// y A_xx and y A_xy, y the distance from each row.
+    bent: [Vec<f64>; 2],
+}
+
+/// Sources with the functions of their coordinates that the rows need.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Sources {
+    across: Vec<f64>,
+    sin: Vec<f64>,
+    cos: Vec<f64>,
+    up: Vec<f64>,
+    down: Vec<f64>,
+}
+
+/// A target in the frame of the sources.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Target {
+    across: f64,
+    sin: f64,
+    cos: f64,
+    up: f64,
+    down: f64,
+}
+
+/// Stress between one target and one source.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stress {
+    pub(crate) xxx: f64,
+    pub(crate) xxy: f64,
+    pub(crate) xyy: f64,
+    pub(crate) yyy: f64,
+}
+
+impl StressKernel {
+    /// For a box with these periods, or a channel where there is only one along x.
+    pub(crate) fn new(period_x: f64, period_y: Option<f64>) -> Self {
+        let transposed = period_y.is_some_and(|y| y < period_x);
+        let (along, across) = match period_y {
+            Some(y) if transposed => (y, Some(period_x)),
+            other => (period_x, other),
+        };
+        let k = TAU / along;
+        // Sources and targets are less than one and a half half-periods apart across the rows.
+        let rows = across.map_or(0, |across| {
+            let reach = 0.75 * across;
+            (((-TOLERANCE.ln() / k + reach) / across).ceil() as usize).max(2) - 1
+        });
+        let decay = across.map_or(0.0, |across| (-k * across).exp());
+        Self { k, across, rows, decay, transposed, work: Work::default() }
+    }
+
+    /// Takes over source positions relative to their centre.
+    pub(crate) fn load(&self, positions: impl Iterator<Item = Vec2>, sources: &mut Sources) {
+        let Sources { across, sin, cos, up, down } = sources;
+        for array in [&mut *across, sin, cos, up, down] {
+            array.clear();
+        }
+        for position in positions {
+            let target = self.target(position);
+            sources.across.push(target.across);
+            sources.sin.push(target.sin);
+            sources.cos.push(target.cos);
+            sources.up.push(target.up);
+            sources.down.push(target.down);
+        }
+    }
+
+    /// A target at a position relative to the centre of the sources.
+    pub(crate) fn target(&self, position: Vec2) -> Target {
+        let (along, across) = if self.transposed { (position.y, position.x) } else { (position.x, position.y) };
+        let (sin, cos) = (0.5 * self.k * along).sin_cos();
+        let up = (0.5 * self.k * across).exp();
+        Target { across, sin, cos, up, down: 1.0 / up }
+    }
+
+    /// Sums the rows for `target` and the sources from `first` on; a source at the target gives no numbers.
+    pub(crate) fn sum(&mut self, target: &Target, sources: &Sources, first: usize) {
+        let n = sources.across.len() - first;
+        self.work.resize(n);
+        let Work { dy, sin, cos, up, down, ax, ay, axx, axy, bent: [bend_xx, bend_xy] } = &mut self.work;
+        let (s_y, s_sin, s_cos) = (&sources.across[first..], &sources.sin[first..], &sources.cos[first..]);
+        let (s_up, s_down) = (&sources.up[first..], &sources.down[first..]);
+        let k = self.k;
+        let t = *target;
+        for i in 0..n {
+            let s = s_sin[i] * t.cos - s_cos[i] * t.sin;
+            let c = s_cos[i] * t.cos + s_sin[i] * t.sin;
+            let (u, d) = (s_up[i] * t.down, s_down[i] * t.up);
+            let (sh, ch) = (0.5 * (u - d), 0.5 * (u + d));
+            let (s2, sh2) = (s * s, sh * sh);
+            let factor = k / (2.0 * (s2 + sh2));
+            let (sc, shch) = (s * c, sh * ch);
+            let square = factor * factor;
+            dy[i] = s_y[i] - t.across;
+            sin[i] = 2.0 * sc;
+            cos[i] = 1.0 - 2.0 * s2;
+            up[i] = u * u;
+            down[i] = d * d;
+            ax[i] = factor * sc;
+            ay[i] = factor * shch;
+            axx[i] = square * (sh2 - s2 - 2.0 * s2 * sh2);
+            axy[i] = -2.0 * square * sc * shch;
+            bend_xx[i] = dy[i] * axx[i];
+            bend_xy[i] = dy[i] * axy[i];
+        }
+        let Some(across) = self.across else { return };
+        for m in 1..=self.rows {
+            let shrink = self.decay.powi(m as i32);
+            let height = across * m as f64;
+            for (power, side) in [(&*down, 1.0), (&*up, -1.0)] {
+                for i in 0..n {
+                    let b = power[i] * shrink;
+                    let y = dy[i] + side * height;
+                    let inverse = 1.0 / (1.0 - 2.0 * b * cos[i] + b * b);
+                    let factor = k * b * inverse;
+                    let square = k * factor * inverse;
+                    let (xx, xy) =
+                        (square * (cos[i] * (1.0 + b * b) - 2.0 * b), -side * square * sin[i] * (1.0 - b * b));
+                    ax[i] += factor * sin[i];
+                    ay[i] += side * factor * (cos[i] - b);
+                    axx[i] += xx;
+                    axy[i] += xy;
+                    bend_xx[i] += y * xx;
+                    bend_xy[i] += y * xy;
+                }
+            }
+        }
+    }
+
+    /// The stress of the last sums at source `first + i`.
+    #[inline(always)]
+    pub(crate) fn stress(&self, i: usize) -> Stress {
+        let w = &self.work;
+        let mean = self.across.map_or(0.0, |across| 2.0 * self.k * w.dy[i] / across);
+        let (ax, ay, bend_xx, bend_xy) = (w.ax[i], w.ay[i], w.bent[0][i], w.bent[1][i]);
+        let [a, b, c, d] = [
+            -4.0 * ax - 2.0 * bend_xy,
+            mean - 2.0 * ay + 2.0 * bend_xx,
+            2.0 * bend_xy,
+            mean - 2.0 * ay - 2.0 * bend_xx,
+        ];
+        if self.transposed {
+            Stress { xxx: d, xxy: c, xyy: b, yyy: a }
+        } else {
+            Stress { xxx: a, xxy: b, xyy: c, yyy: d }
+        }
+    }
+
+    /// Pressure at the target of the stress as a flow, for the last sums at source `first + i`: factors of
+    /// `v_x n_x - v_y n_y` and of `v_x n_y + v_y n_x`.
+    #[inline(always)]
+    pub(crate) fn pressure(&self, i: usize) -> [f64; 2] {
+        let sign = if self.transposed { 4.0 } else { -4.0 };
+        [sign * self.work.axx[i], -4.0 * self.work.axy[i]]
+    }
+}
+
+impl Work {
+    fn resize(&mut self, n: usize) {
+        let Self { dy, sin, cos, up, down, ax, ay, axx, axy, bent: [bend_xx, bend_xy] } = self;
+        for array in [dy, sin, cos, up, down, ax, ay, axx, axy, bend_xx, bend_xy] {
+            array.resize(n, 0.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(kernel: &mut StressKernel, d: Vec2) -> (Stress, [f64; 2]) {
+        let mut sources = Sources::default();
+        kernel.load([d].into_iter(), &mut sources);
+        let target = kernel.target(Vec2::zeros());
+        kernel.sum(&target, &sources, 0);
+        (kernel.stress(0), kernel.pressure(0))
+    }
+
+    #[test]
+    fn close_to_the_source_it_is_that_of_free_space() {
+        for (x, y) in [(7.0, Some(5.0)), (5.0, Some(7.0)), (6.0, None)] {
+            let mut kernel = StressKernel::new(x, y);
+            let d = Vec2::new(0.003, -0.002);
+            let (t, _) = at(&mut kernel, d);
+            let r4 = d.norm_squared().powi(2);
+            for (value, product) in
+                [(t.xxx, d.x * d.x * d.x), (t.xxy, d.x * d.x * d.y), (t.xyy, d.x * d.y * d.y), (t.yyy, d.y * d.y * d.y)]
+            {
+                assert!((value + 4.0 * product / r4).abs() < 0.02, "{value}, {}", -4.0 * product / r4);
+            }
+        }
+    }
+
+    #[test]
+    fn it_is_periodic_and_symmetric_under_exchange_of_the_axes() {
+        let (mut wide, mut tall) = (StressKernel::new(7.0, Some(5.0)), StressKernel::new(5.0, Some(7.0)));
+        let d = Vec2::new(1.3, -1.1);
+        let (a, p) = at(&mut wide, d);
+        for shift in [Vec2::new(7.0, 0.0), Vec2::new(-7.0, 0.0), Vec2::new(0.0, 5.0)] {
+            // Two periods across are the most that sources and targets are apart.
+            let (b, q) = at(&mut wide, d + shift);
+            // T_xxy and T_yyy have a jump of a pressure that is uniform in the source.
+            let jump = a.xxy - b.xxy;
+            assert!((jump - (a.yyy - b.yyy)).abs() < 1e-5, "{a:?} {b:?}");
+            assert!((a.xxx - b.xxx).abs() < 1e-5 && (a.xyy - b.xyy).abs() < 1e-5, "{a:?} {b:?}");
+            assert!((p[0] - q[0]).abs() < 1e-5 && (p[1] - q[1]).abs() < 1e-5);
+        }
+        let (b, q) = at(&mut tall, Vec2::new(d.y, d.x));
+        // The difference is the uniform pressure of the mean flow again.
+        assert!((a.xxx - b.yyy - (a.xyy - b.xxy)).abs() < 1e-6, "{a:?} {b:?}");
+        assert!((a.yyy - b.xxx - (a.xxy - b.xyy)).abs() < 1e-6, "{a:?} {b:?}");
+        assert!((p[0] + q[0]).abs() < 0.51 && (p[1] - q[1]).abs() < 1e-6, "{p:?} {q:?}");
+    }
+
+    #[test]
+    fn as_a_flow_of_the_target_it_obeys_the_stokes_equations() {
+        let e = 1e-3;
+        for (x, y) in [(7.0, Some(5.0)), (5.0, Some(7.0)), (6.0, None)] {
+            let mut kernel = StressKernel::new(x, y);
+            let d = Vec2::new(0.9, 0.7);
+            // With the dipole v n = (p, q): xx - yy part p, symmetric part q; no flux, so that pressures are periodic.
+            let mut flow = |shift: Vec2| {
+                let (t, pressure) = at(&mut kernel, d - shift);
+                let (difference, mixed) = (0.6, -1.1);
+                let u = 0.5 * difference * (t.xxx - t.xyy) + mixed * t.xxy;
+                let v = 0.5 * difference * (t.xxy - t.yyy) + mixed * t.xyy;
+                [u, v, pressure[0] * difference + pressure[1] * mixed]
+            };
+            let [c, l, r, b, t] =
+                [(0.0, 0.0), (-e, 0.0), (e, 0.0), (0.0, -e), (0.0, e)].map(|(x, y)| flow(Vec2::new(x, y)));
+            let laplacian = |i: usize| (l[i] + r[i] + b[i] + t[i] - 4.0 * c[i]) / (e * e);
+            assert!(((r[0] - l[0] + t[1] - b[1]) / (2.0 * e)).abs() < 1e-4);
+            assert!(
+                (laplacian(0) - (r[2] - l[2]) / (2.0 * e)).abs() < 1e-3,
+                "{} {}",
+                laplacian(0),
+                (r[2] - l[2]) / (2.0 * e)
+            );
+            assert!((laplacian(1) - (t[2] - b[2]) / (2.0 * e)).abs() < 1e-3);
+        }
+    }
+}

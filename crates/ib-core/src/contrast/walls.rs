@@ -1,0 +1,402 @@
+//! What two no-slip walls add to the flow of forces and dipoles that are periodic along them.
+//!
+//! The correction is a Fourier series in x with modes `exp(-k s)`, s the distance from a wall, so that sources and
+//! targets enter by products and the cost is (nodes) x (modes). Modes are as many as the gaps to the walls ask for.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use super::wall_points::{LANES, Lanes, WallPoints};
+
+/// No gap asks for more modes than this.
+const MOST_MODES: usize = 4096;
+
+/// Sums over sources for eight modes: real and imaginary parts of five moments.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    re: [Lanes; 5],
+    im: [Lanes; 5],
+}
+
+/// Velocities that the sources alone would have at a wall, mode by mode.
+#[derive(Debug, Clone, Copy, Default)]
+struct Slip {
+    u: Complex64,
+    v: Complex64,
+}
+
+/// Coefficients of eight modes near one wall: the streamfunction is `exp(-k s + i k x) (R - s B)`.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Coefficients {
+    /// k R + B.
+    sum: [Lanes; 2],
+    /// k R.
+    pub(crate) plain: [Lanes; 2],
+    /// k B.
+    pub(crate) linear: [Lanes; 2],
+}
+
+/// Factors of one mode that depend on the height alone.
+#[derive(Debug, Clone, Copy)]
+struct Factors {
+    even: [f64; 4],
+    odd: [f64; 4],
+}
+
+/// The correction by the walls as a series, and the flow that does not depend on x.
+#[derive(Debug)]
+pub(crate) struct WallModes {
+    /// 2 pi / period (1/length).
+    pub(crate) k: f64,
+    /// Half the distance between the walls (length).
+    pub(crate) half: f64,
+    zero_flux: bool,
+    /// Smallest decay that still counts, as an exponent.
+    exponent: f64,
+    factors: Vec<Factors>,
+    sums: [Vec<Sums>; 2],
+    slips: [Vec<Slip>; 2],
+    pub(crate) coefficients: [Vec<Coefficients>; 2],
+    /// Coefficients of 1, y and half^2 - y^2 in the velocity that does not depend on x.
+    pub(crate) mean: [f64; 3],
+    modes: usize,
+}
+
+impl WallModes {
+    pub(crate) fn new(period: f64, half: f64, zero_flux: bool, tolerance: f64) -> Self {
+        Self {
+            k: TAU / period,
+            half,
+            zero_flux,
+            exponent: 4.0 - tolerance.ln(),
+            factors: Vec::new(),
+            sums: Default::default(),
+            slips: Default::default(),
+            coefficients: Default::default(),
+            mean: [0.0; 3],
+            modes: 0,
+        }
+    }
+
+    /// Clears the sources for targets no closer to a wall than `target_gap` and sources no closer than `source_gap`.
+    pub(crate) fn begin(&mut self, source_gap: f64, target_gap: f64) {
+        self.modes = self.count(source_gap + target_gap);
+        let chunks = self.modes.div_ceil(LANES);
+        while self.factors.len() < chunks * LANES {
+            let n = self.factors.len() + 1;
+            self.factors.push(factors(self.k * n as f64, self.half));
+        }
+        for slips in &mut self.slips {
+            slips.clear();
+            slips.resize(chunks * LANES, Slip::default());
+        }
+        self.mean = [0.0; 3];
+    }
+
+    fn count(&self, distance: f64) -> usize {
+        let needed = self.exponent / (self.k * distance.max(1e-300));
+        (needed.min(MOST_MODES as f64).ceil() as usize).max(1)
+    }
+
+    fn moments<const N: usize>(
+        &mut self,
+        points: &WallPoints,
+        target_gap: f64,
+        columns: impl Fn(usize, f64) -> [f64; N],
+    ) {
+        let (k, exponent, modes) = (self.k, self.exponent, self.modes);
+        for (side, sums) in points.sides.iter().zip(&mut self.sums) {
+            sums.clear();
+            sums.resize(modes.div_ceil(LANES), Sums::default());
+            for (j, powers) in side.iter().enumerate() {
+                let needed = exponent / (k * (powers.distance + target_gap).max(1e-300));
+                let chunks = (needed.min(modes as f64) as usize / LANES + 1).min(sums.len());
+                let column = columns(j, powers.distance);
+                let mut powers = *powers;
+                for sum in &mut sums[..chunks] {
+                    for (c, value) in column.iter().enumerate() {
+                        for lane in 0..LANES {
+                            sum.re[c][lane] += value * powers.re[lane];
+                            // The phase of a source is the conjugate of that of a target.
+                            sum.im[c][lane] -= value * powers.im[lane];
+                        }
+                    }
+                    powers.advance();
+                }
+            }
+        }
+    }
+
+    /// Adds forces (times weight) at points; `target_gap` as in [`WallModes::begin`].
+    pub(crate) fn add_forces(&mut self, points: &WallPoints, target_gap: f64, forces: impl Fn(usize) -> Complex64) {
+        self.moments(points, target_gap, |j, s| {
+            let f = forces(j);
+            [f.re, f.im, s * f.re, s * f.im]
+        });
+        for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
+            for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
+                let k = self.k * (n + 1) as f64;
+                let [fx, fy, gx, gy] = [0, 1, 2, 3].map(|c| moment(sums, n, c));
+                let inverse = 1.0 / (n + 1) as f64;
+                slip.u += (fx - gx * k - I * gy * (side * k)) * inverse;
+                slip.v += (fy + gy * k - I * gx * (side * k)) * inverse;
+            }
+        }
+        let (c, h) = (self.k, self.half);
+        let (mut s0, mut s1, mut s2) = (0.0, 0.0, 0.0);
+        for (j, y) in points.y.iter().enumerate() {
+            let fx = forces(j).re;
+            s0 += fx;
+            s1 += y * fx;
+            s2 += (h * h - y * y) * fx;
+        }
+        self.mean[0] += (c * h - 1.0) * s0;
+        self.mean[1] -= c / h * s1;
+        if self.zero_flux {
+            self.mean[2] -= 0.75 * c / (h * h * h) * s2;
+        }
+    }
+
+    /// Adds dipoles: (v_x n_x, v_x n_y + v_y n_x, v_y n_y) times weight at points, with x measured from anywhere as long
+    /// as the flux through the curve is zero.
+    pub(crate) fn add_dipoles(
+        &mut self,
+        points: &WallPoints,
+        target_gap: f64,
+        dipoles: impl Fn(usize) -> [f64; 3],
+        x: impl Fn(usize) -> f64,
+    ) {
+        self.moments(points, target_gap, |j, s| {
+            let [xx, mixed, yy] = dipoles(j);
+            [xx, mixed, yy, s * (xx - yy), s * mixed]
+        });
+        for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
+            for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
+                let k = self.k * (n + 1) as f64;
+                let [xx, mixed, yy, s_difference, s_mixed] = [0, 1, 2, 3, 4].map(|c| moment(sums, n, c));
+                let (ax, ay) = (I * self.k, -side * self.k);
+                let (axx, axy) = (-side * self.k * k, I * (-self.k * k));
+                slip.u += xx * ax * -4.0 - mixed * (2.0 * ay) - axy * s_difference * 2.0 + s_mixed * (2.0 * axx);
+                slip.v += (xx + yy) * (-2.0 * ay) + s_difference * (2.0 * axx) + axy * s_mixed * 2.0;
+            }
+        }
+        let (c, h) = (self.k, self.half);
+        let (mut shear, mut moment) = (0.0, 0.0);
+        for (j, y) in points.y.iter().enumerate() {
+            let [xx, mixed, yy] = dipoles(j);
+            shear += mixed;
+            moment += y * mixed - x(j) * (xx + yy);
+        }
+        self.mean[1] -= c / h * shear;
+        if self.zero_flux {
+            self.mean[2] += 1.5 * c / (h * h * h) * moment;
+        }
+    }
+
+    /// Solves for the series that cancels the velocity of the sources at the walls.
+    pub(crate) fn solve(&mut self) {
+        let chunks = self.modes.div_ceil(LANES);
+        for coefficients in &mut self.coefficients {
+            coefficients.clear();
+            coefficients.resize(chunks, Coefficients::default());
+        }
+        for n in 0..self.modes {
+            let k = self.k * (n + 1) as f64;
+            let [upper, lower] = [self.slips[0][n], self.slips[1][n]];
+            let (psi_upper, psi_lower) = (-I * upper.v / k, -I * lower.v / k);
+            let (slope_upper, slope_lower) = (-upper.u, -lower.u);
+            let (pe, po) = (0.5 * (psi_upper + psi_lower), 0.5 * (psi_upper - psi_lower));
+            let (qe, qo) = (0.5 * (slope_upper - slope_lower), 0.5 * (slope_upper + slope_lower));
+            let Factors { even, odd } = self.factors[n];
+            let (a, b) = (pe * even[0] + qe * even[1], qe * even[2] - pe * even[3]);
+            let (c, d) = (po * odd[0] - qo * odd[1], qo * odd[2] - po * odd[3]);
+            for (side, sign) in [(0, 0.5), (1, -0.5)] {
+                let (r, b) = ((0.5 * a + sign * c) * k, 0.5 * b + sign * d);
+                let slot = &mut self.coefficients[side][n / LANES];
+                for (array, value) in [(&mut slot.sum, r + b), (&mut slot.plain, r), (&mut slot.linear, b * k)] {
+                    (array[0][n % LANES], array[1][n % LANES]) = (value.re, value.im);
+                }
+            }
+        }
+    }
+
+    /// Adds the velocity of the correction at points by `add(index, u, v)`; `source_gap` as in [`WallModes::begin`].
+    pub(crate) fn velocities(&self, points: &WallPoints, source_gap: f64, mut add: impl FnMut(usize, f64, f64)) {
+        for (i, y) in points.y.iter().enumerate() {
+            let (mut u, mut v) = (self.mean_velocity(*y), 0.0);
+            for (side, sign) in [(0, 1.0), (1, -1.0)] {
+                let mut powers = points.sides[side][i];
+                let s = powers.distance;
+                let coefficients = &self.coefficients[side];
+                let needed = self.exponent / (self.k * (s + source_gap).max(1e-300));
+                let chunks = (needed.min(self.modes as f64) as usize / LANES + 1).min(coefficients.len());
+                let (mut along, mut across) = ([0.0; LANES], [0.0; LANES]);
+                for c in &coefficients[..chunks] {
+                    for lane in 0..LANES {
+                        let (re, im) = (powers.re[lane], powers.im[lane]);
+                        along[lane] += re * (c.sum[0][lane] - s * c.linear[0][lane])
+                            - im * (c.sum[1][lane] - s * c.linear[1][lane]);
+                        across[lane] += re * (c.plain[1][lane] - s * c.linear[1][lane])
+                            + im * (c.plain[0][lane] - s * c.linear[0][lane]);
+                    }
+                    powers.advance();
+                }
+                u += sign * along.iter().sum::<f64>();
+                v += across.iter().sum::<f64>();
+            }
+            add(i, u, v);
+        }
+    }
+
+    pub(crate) fn mean_velocity(&self, y: f64) -> f64 {
+        self.mean[0] + self.mean[1] * y + self.mean[2] * (self.half * self.half - y * y)
+    }
+}
+
+const I: Complex64 = Complex64::new(0.0, 1.0);
+
+fn moment(sums: &[Sums], n: usize, column: usize) -> Complex64 {
+    let sum = &sums[n / LANES];
+    Complex64::new(sum.re[column][n % LANES], sum.im[column][n % LANES])
+}
+
+/// Solution of the biharmonic equation between the walls for given values and slopes, split into even and odd parts and
+/// scaled by exp(-k half) to stay finite.
+fn factors(k: f64, half: f64) -> Factors {
+    let kh = k * half;
+    let decay = (-2.0 * kh).exp();
+    let (sinh, cosh) = (0.5 * (1.0 - decay), 0.5 * (1.0 + decay));
+    let even = 0.25 * (1.0 - decay * decay) + kh * decay;
+    let z = 2.0 * kh;
+    let odd = if z < 0.5 {
+        // (sinh z - z)/2 by its series, since the difference of the two cancels.
+        let mut term = z * z * z / 6.0;
+        let mut sum = term;
+        for j in 2..12 {
+            term *= z * z / f64::from(2 * j * (2 * j + 1));
+            sum += term;
+        }
+        0.5 * sum * (-z).exp()
+    } else {
+        0.25 * (1.0 - decay * decay) - kh * decay
+    };
+    Factors {
+        even: [sinh + kh * decay, half * decay, cosh, k * sinh].map(|value| value / even),
+        odd: [cosh - kh * decay, half * decay, sinh, k * cosh].map(|value| value / odd),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        field::{FieldKernel, Flow},
+        wall_flow::WallFlow,
+    };
+
+    /// Velocity and gradient at a target by a unit force at a source, times 4 pi viscosity.
+    fn greens_function(
+        modes: &mut WallModes,
+        target: [f64; 2],
+        source: [f64; 2],
+        force: Complex64,
+    ) -> (Complex64, WallFlow) {
+        let (mut from, mut to) = (WallPoints::default(), WallPoints::default());
+        from.push(modes, source[0], source[1]);
+        to.push(modes, target[0], target[1]);
+        modes.begin(from.gap(), to.gap());
+        modes.add_forces(&from, to.gap(), |_| force);
+        modes.solve();
+        let walls = modes.flow(&to, 0);
+        let mut row = Flow::default();
+        let d = Complex64::new(source[0] - target[0], source[1] - target[1]);
+        row.add_force(&FieldKernel::Row { k: modes.k }.at(d), force, 1.0);
+        let mut fast = Complex64::default();
+        modes.velocities(&to, from.gap(), |_, u, v| fast = Complex64::new(u, v));
+        let slow = Complex64::new(walls.velocity[0], walls.velocity[1]);
+        assert!((fast - slow).norm() < 1e-11, "{fast} {slow}");
+        (row.velocity + slow, walls)
+    }
+
+    #[test]
+    fn greens_function_of_a_channel() {
+        // channel_greens_function.csv: period 4, width 2; zero flux, target, source, (Gxx, Gxy, Gyx, Gyy).
+        let table = [
+            (false, [0.5, 0.3], [0.0, 0.0], [1.1784861392876, 0.44573020238905, 0.2745808454774, -0.046810182975054]),
+            (false, [0.1, 0.05], [0.0, 0.0], [2.7597646762562, 0.40098683955777, 0.3933797966449, 1.2832398475756]),
+            (
+                false,
+                [1.9, -0.6],
+                [0.0, 0.4],
+                [0.60845732698052, -0.01223564484989, -0.0066381849594813, -0.02968392467597],
+            ),
+            (false, [0.0, 0.75], [0.0, 0.2], [0.1874090388085, 0.0, 0.0, 0.26449726269913]),
+            (
+                false,
+                [-0.7, -0.85],
+                [-0.6, -0.8],
+                [1.4982178003109, 0.60070494851271, 0.12361745052196, 0.070804536013316],
+            ),
+            (false, [2.0, 0.0], [0.0, 0.0], [1.1789380383492, 0.0, 0.0, -0.12475063742573]),
+            (
+                false,
+                [0.3, 0.95],
+                [0.2, 0.93],
+                [0.92305173530545, 0.39248444104763, -0.17181458083639, -0.17705677679815],
+            ),
+            (true, [0.5, 0.3], [0.0, 0.0], [0.10641764625007, 0.44573020238905, 0.2745808454774, -0.046810182975054]),
+            (true, [0.1, 0.05], [0.0, 0.0], [1.5846126742728, 0.40098683955777, 0.3933797966449, 1.2832398475756]),
+            (
+                true,
+                [1.9, -0.6],
+                [0.0, 0.4],
+                [-0.024887751983179, -0.01223564484989, -0.0066381849594813, -0.02968392467597],
+            ),
+            (true, [0.0, 0.75], [0.0, 0.2], [-0.30739180413189, 0.0, 0.0, 0.26449726269913]),
+            (
+                true,
+                [-0.7, -0.85],
+                [-0.6, -0.8],
+                [1.3805258855258, 0.60070494851271, 0.12361745052196, 0.070804536013316],
+            ),
+            (true, [2.0, 0.0], [0.0, 0.0], [0.00084079325303654, 0.0, 0.0, -0.12475063742573]),
+            (
+                true,
+                [0.3, 0.95],
+                [0.2, 0.93],
+                [0.90753354386873, 0.39248444104763, -0.17181458083639, -0.17705677679815],
+            ),
+        ];
+        for (zero_flux, target, source, [xx, xy, yx, yy]) in table {
+            let mut modes = WallModes::new(4.0, 1.0, zero_flux, 1e-14);
+            let (x, _) = greens_function(&mut modes, target, source, Complex64::new(1.0, 0.0));
+            let (y, _) = greens_function(&mut modes, target, source, I);
+            let error = (x - Complex64::new(xx, yx)).norm().max((y - Complex64::new(xy, yy)).norm());
+            assert!(error < 1e-12, "{target:?} {source:?}: {error:e}");
+        }
+    }
+
+    #[test]
+    fn gradient_and_pressure_satisfy_the_stokes_equations() {
+        let mut modes = WallModes::new(5.0, 1.2, true, 1e-15);
+        let (source, force) = ([0.3, 0.5], Complex64::new(0.6, -0.8));
+        let step = 1e-4;
+        let mut at = |dx: f64, dy: f64| greens_function(&mut modes, [0.9 + dx, -0.4 + dy], source, force).1;
+        let centre = at(0.0, 0.0);
+        let (east, west) = (at(step, 0.0), at(-step, 0.0));
+        let (north, south) = (at(0.0, step), at(0.0, -step));
+        let scale = 0.5 / step;
+        for i in 0..2 {
+            assert!((centre.gradient[i][0] - scale * (east.velocity[i] - west.velocity[i])).abs() < 1e-7);
+            assert!((centre.gradient[i][1] - scale * (north.velocity[i] - south.velocity[i])).abs() < 1e-7);
+        }
+        let laplacian = |i: usize| {
+            scale * (east.gradient[i][0] - west.gradient[i][0] + north.gradient[i][1] - south.gradient[i][1])
+        };
+        // The mean pressure gradient is not part of the pressure.
+        let mean = 1.5 * modes.k / 1.2f64.powi(3) * (1.2f64.powi(2) - 0.25) * force.re;
+        assert!((scale * (east.pressure - west.pressure) + mean - laplacian(0)).abs() < 1e-7);
+        assert!((scale * (north.pressure - south.pressure) - laplacian(1)).abs() < 1e-7);
+    }
+}
