@@ -28,15 +28,22 @@
 mod deformation;
 mod energy;
 mod error;
+mod lattice;
+mod mesh;
 mod moduli;
 mod mooney_rivlin;
 mod neo_hookean;
+mod quality;
 mod saint_venant_kirchhoff;
+mod topology;
 
 pub use deformation::{DeformationGradient, Mat2};
 pub use energy::EnergyDensity;
 pub use error::SolidError;
+pub use lattice::{equilateral_block, equilateral_strip, fitted_strip};
+pub use mesh::{BoundaryLoop, Edge, TriangleMesh};
 pub use moduli::Moduli;
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
+pub use quality::MeshQuality;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
