@@ -1,1 +1,49 @@
-//! placeholder
+//! Elastic solids in the plane, for channels with soft walls and any other geometry.
+//!
+//! A material is an [`EnergyDensity`]: the strain energy W per reference area as a function of the deformation gradient
+//! A (thesis section 4.2), and its derivative, the stress P = dW/dA. Ready are [`NeoHookean`] (the thesis' material),
+//! [`SaintVenantKirchhoff`] and [`MooneyRivlin`]; [`Moduli`] converts between the constants.
+//!
+//! # Conventions
+//!
+//! Two dimensions: moduli and stresses are forces per length. Quantities have the units that you choose; every item names its
+//! dimension. Bad input ends in a [`SolidError`].
+//!
+//! # Example
+//!
+//! The thesis' wall with a spring constant of 1e4, sheared by a tenth:
+//! ```
+//! use elastic_solids::*;
+//!
+//! let moduli = Moduli::from_thesis_spring_constant(1e4)?;
+//! let material = NeoHookean::from(moduli);
+//! let sheared = DeformationGradient::new(Mat2::new(1.0, 0.1, 0.0, 1.0))?;
+//!
+//! let stress = material.cauchy_stress(&sheared);
+//! println!("shear stress {:.3}", stress.m12); // 9.375: the shear modulus is 93.75
+//! assert!((stress.m12 - 9.375).abs() < 1e-10);
+//! # Ok::<(), SolidError>(())
+//! ```
+
+mod deformation;
+mod energy;
+mod error;
+mod lattice;
+mod mesh;
+mod moduli;
+mod mooney_rivlin;
+mod neo_hookean;
+mod quality;
+mod saint_venant_kirchhoff;
+mod topology;
+
+pub use deformation::{DeformationGradient, Mat2};
+pub use energy::EnergyDensity;
+pub use error::SolidError;
+pub use lattice::{equilateral_block, equilateral_strip, fitted_strip};
+pub use mesh::{BoundaryLoop, Edge, TriangleMesh};
+pub use moduli::Moduli;
+pub use mooney_rivlin::MooneyRivlin;
+pub use neo_hookean::NeoHookean;
+pub use quality::MeshQuality;
+pub use saint_venant_kirchhoff::SaintVenantKirchhoff;

@@ -1,0 +1,168 @@
+//! What can go wrong with an elastic solid.
+
+use ib_core::Vec2;
+
+/// An error of this crate, with the offending values and the remedy.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolidError {
+    /// A quantity that must be positive and finite is not.
+    #[error("{name} is {value}: give a positive finite number")]
+    NotPositive {
+        /// The quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A quantity outside its range.
+    #[error("{name} is {value}: give a number from {minimum} to {maximum}")]
+    OutOfRange {
+        /// The quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// Least value.
+        minimum: f64,
+        /// Largest value.
+        maximum: f64,
+    },
+    /// A bulk modulus too small for the energy.
+    #[error("bulk modulus {bulk} with shear modulus {shear}: this energy needs a bulk modulus above {minimum}")]
+    BulkTooSmall {
+        /// The bulk modulus (force per length).
+        bulk: f64,
+        /// The shear modulus (force per length).
+        shear: f64,
+        /// What it must be above (force per length).
+        minimum: f64,
+    },
+    /// A deformation that turns the material inside out, flattens it, or is not finite.
+    #[error(
+        "the deformation gradient [[{a11}, {a12}], [{a21}, {a22}]] has the determinant {jacobian}: it must be positive"
+    )]
+    NotOrientationPreserving {
+        /// Entry 11.
+        a11: f64,
+        /// Entry 12.
+        a12: f64,
+        /// Entry 21.
+        a21: f64,
+        /// Entry 22.
+        a22: f64,
+        /// Determinant.
+        jacobian: f64,
+    },
+    /// An entry of a list that must be finite is not.
+    #[error("entry {index} of {name} is ({x}, {y}): all entries must be finite")]
+    EntryNotFinite {
+        /// The list.
+        name: &'static str,
+        /// Which entry.
+        index: usize,
+        /// Its x component.
+        x: f64,
+        /// Its y component.
+        y: f64,
+    },
+    /// Too few of something.
+    #[error("{found} {name} are too few: give at least {minimum}")]
+    TooFew {
+        /// Of what.
+        name: &'static str,
+        /// How many there are.
+        found: usize,
+        /// The least number.
+        minimum: usize,
+    },
+    /// Slices of different length.
+    #[error("{name} has {found} entries where {expected} are needed")]
+    WrongLength {
+        /// The slice.
+        name: &'static str,
+        /// Entries needed.
+        expected: usize,
+        /// Entries given.
+        found: usize,
+    },
+    /// A triangle of points that do not exist.
+    #[error("triangle {triangle} names point {point} of {points}: points are counted from 0")]
+    NoSuchPoint {
+        /// Which triangle.
+        triangle: usize,
+        /// The point it names.
+        point: usize,
+        /// How many there are.
+        points: usize,
+    },
+    /// A triangle without area.
+    #[error("triangle {triangle} near ({x}, {y}) has the area {area:e}: its points must not lie on a line")]
+    FlatTriangle {
+        /// Which triangle.
+        triangle: usize,
+        /// x of its first corner (length).
+        x: f64,
+        /// y of its first corner (length).
+        y: f64,
+        /// Its area.
+        area: f64,
+    },
+    /// A triangle of a periodic mesh whose corners cannot be told from their images.
+    #[error("triangle {triangle} is {width} wide, half the period {period} or more: use smaller triangles")]
+    TriangleTooWide {
+        /// Which triangle.
+        triangle: usize,
+        /// Its width (length).
+        width: f64,
+        /// The period (length).
+        period: f64,
+    },
+    /// A point that no triangle uses.
+    #[error("point {point} at ({x}, {y}) belongs to no triangle: leave it out")]
+    LoosePoint {
+        /// Which point.
+        point: usize,
+        /// Its x (length).
+        x: f64,
+        /// Its y (length).
+        y: f64,
+    },
+    /// An edge with more than one triangle on a side.
+    #[error(
+        "the edge between points {first} and {second} has two triangles on one side, one of them {triangle}: triangles must not overlap"
+    )]
+    FoldedMesh {
+        /// A point of the edge.
+        first: usize,
+        /// The other point.
+        second: usize,
+        /// One of the triangles.
+        triangle: usize,
+    },
+}
+
+/// `value` if it is positive and finite.
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, SolidError> {
+    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(SolidError::NotPositive { name, value }) }
+}
+
+/// `value` if it lies in the closed range.
+pub(crate) fn within(name: &'static str, value: f64, minimum: f64, maximum: f64) -> Result<f64, SolidError> {
+    if value >= minimum && value <= maximum {
+        Ok(value)
+    } else {
+        Err(SolidError::OutOfRange { name, value, minimum, maximum })
+    }
+}
+
+/// `found` if it is at least `minimum`.
+pub(crate) fn at_least(name: &'static str, found: usize, minimum: usize) -> Result<usize, SolidError> {
+    if found >= minimum { Ok(found) } else { Err(SolidError::TooFew { name, found, minimum }) }
+}
+
+/// Whether all points are finite.
+pub(crate) fn all_points_finite(name: &'static str, points: &[Vec2]) -> Result<(), SolidError> {
+    match points.iter().position(|point| !(point.x.is_finite() && point.y.is_finite())) {
+        None => Ok(()),
+        Some(index) => Err(SolidError::EntryNotFinite { name, index, x: points[index].x, y: points[index].y }),
+    }
+}

@@ -1,0 +1,159 @@
+//! Lattices of equilateral triangles.
+
+use ib_core::Vec2;
+
+use crate::error::{all_points_finite, at_least, positive};
+use crate::{SolidError, TriangleMesh};
+
+/// Height of an equilateral triangle over its side.
+pub(crate) const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
+
+/// A strip of equilateral triangles, periodic in x: `columns` points a row, `rows` layers of triangles (`rows + 1` rows of
+/// points) of side `spacing` (length). The lowest row starts at `corner` (length). The period is `columns * spacing`, the
+/// thickness `rows * sqrt(3)/2 spacing`: the wall of thesis section 4.1.
+///
+/// Points are numbered row by row from below.
+///
+/// # Errors
+/// A spacing that is not positive, a corner that is not finite, fewer than three columns or one row.
+pub fn equilateral_strip(corner: Vec2, columns: usize, rows: usize, spacing: f64) -> Result<TriangleMesh, SolidError> {
+    strip(corner, columns, rows, [positive("the lattice spacing", spacing)?, ROW_HEIGHT * spacing])
+}
+
+/// A strip of almost equilateral triangles, periodic in x, that fills a rectangle exactly: the number of columns and rows is the
+/// nearest to `spacing` (length), and the triangles are stretched to fit `size` = period and thickness (length), with the
+/// lower left corner at `corner` (length).
+///
+/// # Errors
+/// Sizes or a spacing that are not positive, a corner that is not finite, fewer than three columns or one row.
+pub fn fitted_strip(corner: Vec2, size: [f64; 2], spacing: f64) -> Result<TriangleMesh, SolidError> {
+    positive("the lattice spacing", spacing)?;
+    let columns = count("columns of the strip", positive("the period", size[0])? / spacing, 3)?;
+    let rows = count("rows of the strip", positive("the thickness", size[1])? / (ROW_HEIGHT * spacing), 1)?;
+    strip(corner, columns, rows, [size[0] / columns as f64, size[1] / rows as f64])
+}
+
+/// A block of equilateral triangles of side `spacing` (length): `columns + 1` points in the even rows, `columns` in the odd ones, `rows`
+/// layers of triangles. Its lower left point is `corner` (length); the sides to the left and right are toothed.
+///
+/// Points are numbered row by row from below.
+///
+/// # Errors
+/// A spacing that is not positive, a corner that is not finite, no column or no row.
+pub fn equilateral_block(corner: Vec2, columns: usize, rows: usize, spacing: f64) -> Result<TriangleMesh, SolidError> {
+    positive("the lattice spacing", spacing)?;
+    all_points_finite("the corner of the block", &[corner])?;
+    at_least("rows of the block", rows, 1)?;
+    // A single column of several rows would hang together by points.
+    at_least("columns of the block", columns, rows.min(2))?;
+    let mut points = Vec::new();
+    let mut starts = Vec::with_capacity(rows + 2);
+    for row in 0..=rows {
+        starts.push(points.len());
+        let odd = row % 2;
+        let first = corner + Vec2::new(0.5 * odd as f64, ROW_HEIGHT * row as f64) * spacing;
+        points.extend((0..=columns - odd).map(|column| first + Vec2::new(column as f64 * spacing, 0.0)));
+    }
+    let mut triangles = Vec::new();
+    for row in 0..rows {
+        // The longer row has the base of `columns` triangles, the shorter one that of the `columns - 1` between them.
+        let (long, short) = if row % 2 == 0 { (starts[row], starts[row + 1]) } else { (starts[row + 1], starts[row]) };
+        triangles.extend((0..columns).map(|i| [long + i, long + i + 1, short + i]));
+        triangles.extend((0..columns - 1).map(|i| [short + i, long + i + 1, short + i + 1]));
+    }
+    TriangleMesh::new(points, triangles)
+}
+
+fn strip(corner: Vec2, columns: usize, rows: usize, [dx, dy]: [f64; 2]) -> Result<TriangleMesh, SolidError> {
+    all_points_finite("the corner of the strip", &[corner])?;
+    at_least("columns of the strip", columns, 3)?;
+    at_least("rows of the strip", rows, 1)?;
+    let points = (0..=rows)
+        .flat_map(|row| {
+            let first = corner + Vec2::new(0.5 * dx * (row % 2) as f64, dy * row as f64);
+            (0..columns).map(move |column| first + Vec2::new(dx * column as f64, 0.0))
+        })
+        .collect();
+    let mut triangles = Vec::with_capacity(2 * columns * rows);
+    for row in 0..rows {
+        let (below, above) = (row * columns, (row + 1) * columns);
+        // Odd rows stand half a spacing further right.
+        let (lower, upper) = if row % 2 == 0 { (1, 0) } else { (0, 1) };
+        for i in 0..columns {
+            let j = (i + 1) % columns;
+            let shifted = |k: usize| if k == 0 { i } else { j };
+            triangles.push([below + i, below + j, above + shifted(upper)]);
+            triangles.push([below + shifted(lower), above + j, above + i]);
+        }
+    }
+    TriangleMesh::periodic(points, triangles, dx * columns as f64)
+}
+
+fn count(name: &'static str, exact: f64, minimum: usize) -> Result<usize, SolidError> {
+    /// More points than fit into memory.
+    const MOST: f64 = 1e9;
+    if exact > MOST {
+        return Err(SolidError::OutOfRange { name, value: exact, minimum: minimum as f64, maximum: MOST });
+    }
+    Ok(at_least(name, exact.round() as usize, minimum)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_strip_is_equilateral_and_periodic() {
+        let mesh = equilateral_strip(Vec2::new(-1.0, 2.0), 8, 5, 0.25).unwrap();
+        let quality = mesh.quality();
+        assert_eq!((quality.points, quality.triangles), (8 * 6, 2 * 8 * 5));
+        assert!(quality.edge_deviation < 1e-14);
+        assert!((quality.smallest_angle - 60.0).abs() < 1e-10);
+        assert!((mesh.area() - 2.0 * 5.0 * ROW_HEIGHT * 0.25).abs() < 1e-13);
+        assert_eq!(mesh.period(), Some(2.0));
+        // Two surfaces, the solid to their left.
+        let loops = mesh.boundary_loops();
+        assert_eq!(loops.len(), 2);
+        let mut advances = loops.iter().map(|l| (l.periods, l.points.len())).collect::<Vec<_>>();
+        advances.sort_unstable();
+        assert_eq!(advances, [(-1, 8), (1, 8)]);
+        // Euler's formula on a cylinder: points - edges + triangles = 0.
+        assert_eq!(quality.points + quality.triangles, mesh.edges().len());
+    }
+
+    #[test]
+    fn a_fitted_strip_fills_its_rectangle() {
+        let mesh = fitted_strip(Vec2::zeros(), [3.0, 1.0], 0.11).unwrap();
+        assert!((mesh.area() - 3.0).abs() < 1e-12);
+        let highest = mesh.points().iter().map(|p| p.y).fold(0.0, f64::max);
+        assert!((highest - 1.0).abs() < 1e-14);
+        assert!(mesh.quality().edge_deviation < 0.05);
+    }
+
+    #[test]
+    fn a_block_is_equilateral() {
+        for (columns, rows) in [(1, 1), (2, 2), (4, 3), (3, 6)] {
+            let mesh = equilateral_block(Vec2::zeros(), columns, rows, 0.5).unwrap();
+            let quality = mesh.quality();
+            assert_eq!(quality.triangles, rows * (2 * columns - 1));
+            assert!(quality.edge_deviation < 1e-13);
+            assert_eq!(mesh.boundary_loops().len(), 1);
+            assert_eq!(mesh.boundary_loops()[0].periods, 0);
+            // Euler's formula on a disc.
+            assert_eq!(quality.points + quality.triangles, mesh.edges().len() + 1);
+        }
+    }
+
+    #[test]
+    fn sizes_that_make_no_lattice_are_refused() {
+        let origin = Vec2::zeros();
+        assert!(matches!(equilateral_strip(origin, 2, 4, 0.1), Err(SolidError::TooFew { minimum: 3, .. })));
+        assert!(matches!(equilateral_strip(origin, 5, 0, 0.1), Err(SolidError::TooFew { minimum: 1, .. })));
+        assert!(matches!(equilateral_strip(origin, 5, 4, -0.1), Err(SolidError::NotPositive { .. })));
+        assert!(matches!(fitted_strip(origin, [1.0, 1.0], 1e-12), Err(SolidError::OutOfRange { .. })));
+        assert!(matches!(fitted_strip(origin, [f64::NAN, 1.0], 0.1), Err(SolidError::NotPositive { .. })));
+        assert!(matches!(equilateral_block(origin, 0, 1, 0.1), Err(SolidError::TooFew { .. })));
+        let nowhere = Vec2::new(f64::NAN, 0.0);
+        assert!(matches!(equilateral_block(nowhere, 1, 1, 0.1), Err(SolidError::EntryNotFinite { .. })));
+    }
+}

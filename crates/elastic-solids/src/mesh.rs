@@ -1,0 +1,262 @@
+//! Triangle meshes of the reference state.
+
+use ib_core::Vec2;
+
+use crate::SolidError;
+use crate::error::{all_points_finite, positive};
+use crate::topology::{connect, loops};
+
+/// An edge of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Edge {
+    /// Its two points.
+    pub points: [usize; 2],
+    /// How many periods to add to x of the second point to stand beside the first: 0, 1 or -1.
+    pub periods: i32,
+    /// The triangle to its left, and the one to its right where there is one (none: the edge lies on the boundary).
+    pub triangles: (usize, Option<usize>),
+}
+
+/// A closed loop of boundary edges with the solid to their left: outer boundaries run counter-clockwise, holes clockwise.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct BoundaryLoop {
+    /// Its points in order; the last one is joined to the first.
+    pub points: Vec<usize>,
+    /// How many periods the loop advances in x before it closes: 1 for the lower surface of a periodic wall, -1 for the upper one, 0
+    /// for a loop that closes on itself.
+    pub periods: i32,
+}
+
+/// A triangle mesh of the reference state of a solid, possibly periodic in x.
+///
+/// Triangles are counter-clockwise. In a periodic mesh the two ends share their points: a triangle across the seam has corners
+/// one period away from its points, which [`TriangleMesh::corners`] and [`TriangleMesh::edge_vector`] account for. Every point belongs
+/// to a triangle and every edge to one or two.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TriangleMesh {
+    points: Vec<Vec2>,
+    triangles: Vec<[usize; 3]>,
+    /// Periods to add to x of the second and third corner.
+    shifts: Vec<[i8; 2]>,
+    period: Option<f64>,
+    edges: Vec<Edge>,
+    loops: Vec<BoundaryLoop>,
+    areas: Vec<f64>,
+}
+
+impl TriangleMesh {
+    /// From points (length) and triangles, each by the numbers of its three points; clockwise triangles are turned round.
+    ///
+    /// # Errors
+    /// No triangle, points that are not finite or in no triangle, numbers beyond the points, triangles without area, edges
+    /// of more than two triangles or of two that lie on the same side.
+    pub fn new(points: Vec<Vec2>, triangles: Vec<[usize; 3]>) -> Result<Self, SolidError> {
+        Self::build(points, triangles, None)
+    }
+
+    /// A mesh that repeats itself in x with `period` (length): triangles whose points seem further apart than half a period are
+    /// taken across the seam.
+    ///
+    /// # Errors
+    /// As [`TriangleMesh::new`], a period that is not positive, triangles as wide as half a period.
+    pub fn periodic(points: Vec<Vec2>, triangles: Vec<[usize; 3]>, period: f64) -> Result<Self, SolidError> {
+        positive("the period", period)?;
+        Self::build(points, triangles, Some(period))
+    }
+
+    fn build(points: Vec<Vec2>, mut triangles: Vec<[usize; 3]>, period: Option<f64>) -> Result<Self, SolidError> {
+        all_points_finite("the points of the mesh", &points)?;
+        if triangles.is_empty() {
+            return Err(SolidError::TooFew { name: "triangles", found: 0, minimum: 1 });
+        }
+        let mut shifts = vec![[0; 2]; triangles.len()];
+        let mut areas = Vec::with_capacity(triangles.len());
+        let mut used = vec![false; points.len()];
+        for (number, (triangle, shift)) in triangles.iter_mut().zip(&mut shifts).enumerate() {
+            for &point in triangle.iter() {
+                let seen = used.get_mut(point).ok_or(SolidError::NoSuchPoint {
+                    triangle: number,
+                    point,
+                    points: points.len(),
+                })?;
+                *seen = true;
+            }
+            if let Some(period) = period {
+                *shift = nearest_images(number, triangle.map(|point| points[point].x), period)?;
+            }
+            let corners = corners_of(triangle, *shift, period.unwrap_or(0.0), &points);
+            let (first, second) = (corners[1] - corners[0], corners[2] - corners[0]);
+            let area = 0.5 * first.perp(&second);
+            let longest = first.norm_squared().max(second.norm_squared()).max((second - first).norm_squared());
+            // The negation also catches an area that overflowed.
+            if !(area.abs() > 1e-12 * longest && area.is_finite()) {
+                let [x, y] = corners[0].into();
+                return Err(SolidError::FlatTriangle { triangle: number, x, y, area: area.abs() });
+            }
+            if area < 0.0 {
+                triangle.swap(1, 2);
+                shift.swap(0, 1);
+            }
+            areas.push(area.abs());
+        }
+        if let Some(point) = used.iter().position(|used| !used) {
+            return Err(SolidError::LoosePoint { point, x: points[point].x, y: points[point].y });
+        }
+        let (edges, twins) = connect(&triangles, &shifts)?;
+        let loops = loops(&triangles, &shifts, &twins);
+        Ok(Self { points, triangles, shifts, period, edges, loops, areas })
+    }
+
+    /// Reference positions of the points (length).
+    #[must_use]
+    pub fn points(&self) -> &[Vec2] {
+        &self.points
+    }
+
+    /// Triangles by the numbers of their points, counter-clockwise.
+    #[must_use]
+    pub fn triangles(&self) -> &[[usize; 3]] {
+        &self.triangles
+    }
+
+    /// Period in x (length), where there is one.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        self.period
+    }
+
+    /// All edges, each once.
+    #[must_use]
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// The boundary.
+    #[must_use]
+    pub fn boundary_loops(&self) -> &[BoundaryLoop] {
+        &self.loops
+    }
+
+    /// Areas of the triangles (area).
+    #[must_use]
+    pub fn areas(&self) -> &[f64] {
+        &self.areas
+    }
+
+    /// Area of the whole (area).
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.areas.iter().sum()
+    }
+
+    /// A third of the areas of the triangles around each point, dA_i of thesis (4.2) (area).
+    #[must_use]
+    pub fn point_areas(&self) -> Vec<f64> {
+        let mut areas = vec![0.0; self.points.len()];
+        for (triangle, area) in self.triangles.iter().zip(&self.areas) {
+            for &point in triangle {
+                areas[point] += area / 3.0;
+            }
+        }
+        areas
+    }
+
+    /// The corners of a triangle when the points are at `positions` (length, one a point of the mesh): one continuous
+    /// triangle, also across the seam of a periodic mesh.
+    ///
+    /// # Panics
+    /// A triangle beyond the last, fewer positions than points.
+    #[inline]
+    #[must_use]
+    pub fn corners(&self, triangle: usize, positions: &[Vec2]) -> [Vec2; 3] {
+        corners_of(&self.triangles[triangle], self.shifts[triangle], self.period.unwrap_or(0.0), positions)
+    }
+
+    /// What to add to x of the second and third corner of a triangle across the seam (length).
+    pub(crate) fn corner_shifts(&self, triangle: usize) -> [f64; 2] {
+        self.shifts[triangle].map(|shift| f64::from(shift) * self.period.unwrap_or(0.0))
+    }
+
+    /// The centroid of a triangle in the reference state (length).
+    ///
+    /// # Panics
+    /// A triangle beyond the last.
+    #[must_use]
+    pub fn centroid(&self, triangle: usize) -> Vec2 {
+        self.corners(triangle, &self.points).iter().sum::<Vec2>() / 3.0
+    }
+
+    /// The vector from the first to the second point of an edge when the points are at `positions` (length).
+    ///
+    /// # Panics
+    /// Fewer positions than points.
+    #[inline]
+    #[must_use]
+    pub fn edge_vector(&self, edge: &Edge, positions: &[Vec2]) -> Vec2 {
+        let mut vector = positions[edge.points[1]] - positions[edge.points[0]];
+        vector.x += f64::from(edge.periods) * self.period.unwrap_or(0.0);
+        vector
+    }
+
+    /// The boundary loop as a polygon when the points are at `positions` (length): one continuous line, without the repeated first
+    /// point; for a loop with periods its end is that many periods ahead of its start.
+    ///
+    /// # Panics
+    /// Fewer positions than points.
+    #[must_use]
+    pub fn boundary_polygon(&self, boundary: &BoundaryLoop, positions: &[Vec2]) -> Vec<Vec2> {
+        let period = self.period.unwrap_or(0.0);
+        let mut polygon: Vec<Vec2> = Vec::with_capacity(boundary.points.len());
+        let mut shift = 0.0;
+        for (k, &point) in boundary.points.iter().enumerate() {
+            if k > 0 && period > 0.0 {
+                // Reference positions decide, so that the deformation cannot change the image.
+                let step = self.points[point].x - self.points[boundary.points[k - 1]].x;
+                shift -= period * (step / period).round();
+            }
+            polygon.push(positions[point] + Vec2::new(shift, 0.0));
+        }
+        polygon
+    }
+
+    /// The mesh moved by `offset` (length).
+    ///
+    /// # Errors
+    /// An offset that is not finite.
+    pub fn translated(mut self, offset: Vec2) -> Result<Self, SolidError> {
+        all_points_finite("the offset", &[offset])?;
+        for point in &mut self.points {
+            *point += offset;
+        }
+        Ok(self)
+    }
+}
+
+#[inline]
+fn corners_of(triangle: &[usize; 3], shift: [i8; 2], period: f64, positions: &[Vec2]) -> [Vec2; 3] {
+    let at = |corner: usize, shift: i8| {
+        let point = positions[triangle[corner]];
+        Vec2::new(point.x + f64::from(shift) * period, point.y)
+    };
+    [at(0, 0), at(1, shift[0]), at(2, shift[1])]
+}
+
+/// How many periods bring the second and third corner next to the first.
+fn nearest_images(triangle: usize, x: [f64; 3], period: f64) -> Result<[i8; 2], SolidError> {
+    let steps = [x[1] - x[0], x[2] - x[0]];
+    let periods = steps.map(|step| -(step / period).round());
+    let wide = |step: f64| step.abs() > 0.499 * period;
+    let [first, second] = [0, 1].map(|k| steps[k] + periods[k] * period);
+    let width = first.abs().max(second.abs()).max((second - first).abs());
+    if wide(width) || periods.iter().any(|n| n.abs() > 1.0) {
+        return Err(SolidError::TriangleTooWide {
+            triangle,
+            width: width.max(steps[0].abs()).max(steps[1].abs()),
+            period,
+        });
+    }
+    Ok(periods.map(|n| n as i8))
+}
+
+#[cfg(test)]
+mod tests;

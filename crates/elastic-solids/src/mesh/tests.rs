@@ -1,0 +1,107 @@
+//! Connectivity of hand-made meshes.
+
+use super::*;
+
+fn v(x: f64, y: f64) -> Vec2 {
+    Vec2::new(x, y)
+}
+
+/// A square with a square hole: eight points, eight triangles.
+fn frame() -> TriangleMesh {
+    let square = |r: f64| [v(-r, -r), v(r, -r), v(r, r), v(-r, r)];
+    let points = square(2.0).into_iter().chain(square(1.0)).collect();
+    // Every other triangle is given clockwise.
+    let triangles = (0..4).flat_map(|k| {
+        let n = (k + 1) % 4;
+        [[k, n, 4 + k], [n, 4 + k, 4 + n]]
+    });
+    TriangleMesh::new(points, triangles.collect()).unwrap()
+}
+
+#[test]
+fn a_frame_has_two_loops_with_the_solid_to_their_left() {
+    let mesh = frame();
+    assert!((mesh.area() - 12.0).abs() < 1e-14);
+    assert!((mesh.point_areas().iter().sum::<f64>() - 12.0).abs() < 1e-14);
+    assert_eq!(mesh.edges().len(), 16);
+    assert_eq!(mesh.edges().iter().filter(|edge| edge.triangles.1.is_none()).count(), 8);
+    let signed: Vec<f64> = mesh
+        .boundary_loops()
+        .iter()
+        .map(|boundary| {
+            let polygon = mesh.boundary_polygon(boundary, mesh.points());
+            (0..polygon.len()).map(|k| 0.5 * polygon[k].perp(&polygon[(k + 1) % polygon.len()])).sum()
+        })
+        .collect();
+    assert!(signed.len() == 2 && signed.contains(&16.0) && signed.contains(&-4.0), "{signed:?}");
+}
+
+#[test]
+fn edges_name_the_triangles_to_their_left_and_right() {
+    let mesh = frame();
+    for edge in mesh.edges() {
+        let left = &mesh.triangles()[edge.triangles.0];
+        let from = left.iter().position(|&p| p == edge.points[0]).unwrap();
+        assert_eq!(left[(from + 1) % 3], edge.points[1]);
+        if let Some(right) = edge.triangles.1 {
+            let right = &mesh.triangles()[right];
+            let from = right.iter().position(|&p| p == edge.points[1]).unwrap();
+            assert_eq!(right[(from + 1) % 3], edge.points[0]);
+        }
+    }
+}
+
+#[test]
+fn a_point_where_two_parts_touch_gives_loops_that_follow_their_triangles() {
+    let points = vec![v(0.0, 0.0), v(1.0, 0.0), v(0.0, 1.0), v(-1.0, 0.0), v(0.0, -1.0)];
+    let mesh = TriangleMesh::new(points, vec![[0, 1, 2], [0, 3, 4]]).unwrap();
+    assert_eq!(mesh.boundary_loops().iter().map(|l| l.points.len()).collect::<Vec<_>>(), [3, 3]);
+}
+
+#[test]
+fn triangles_across_the_seam_are_as_large_as_the_others() {
+    let points: Vec<Vec2> = (0..8).map(|k| v(0.3 + f64::from(k % 4), f64::from(k / 4))).collect();
+    let triangles = (0..4).flat_map(|k| {
+        let n = (k + 1) % 4;
+        [[k, n, 4 + k], [n, 4 + n, 4 + k]]
+    });
+    let mesh = TriangleMesh::periodic(points, triangles.collect(), 4.0).unwrap();
+    assert!(mesh.areas().iter().all(|area| (area - 0.5).abs() < 1e-14));
+    for edge in mesh.edges() {
+        assert!(mesh.edge_vector(edge, mesh.points()).norm() < 1.5);
+    }
+    // Moved as a whole by more than a period, nothing changes.
+    let moved: Vec<Vec2> = mesh.points().iter().map(|p| p + v(5.7, 1.0)).collect();
+    for triangle in 0..8 {
+        let corners = mesh.corners(triangle, &moved);
+        assert!(((corners[1] - corners[0]).perp(&(corners[2] - corners[0])) - 1.0).abs() < 1e-13);
+    }
+    for boundary in mesh.boundary_loops() {
+        let polygon = mesh.boundary_polygon(boundary, &moved);
+        let advance = polygon[3].x - polygon[0].x;
+        assert!((advance - 3.0 * f64::from(boundary.periods)).abs() < 1e-13);
+    }
+}
+
+#[test]
+fn bad_meshes_are_refused() {
+    let corners = || vec![v(0.0, 0.0), v(1.0, 0.0), v(0.0, 1.0), v(1.0, 1.0)];
+    let refused =
+        |points: Vec<Vec2>, triangles: &[[usize; 3]]| TriangleMesh::new(points, triangles.to_vec()).unwrap_err();
+    assert!(matches!(refused(corners(), &[]), SolidError::TooFew { .. }));
+    assert!(matches!(refused(corners(), &[[0, 1, 2]]), SolidError::LoosePoint { point: 3, .. }));
+    assert!(matches!(refused(corners(), &[[0, 1, 4]]), SolidError::NoSuchPoint { point: 4, .. }));
+    assert!(matches!(refused(corners(), &[[0, 1, 1]]), SolidError::FlatTriangle { .. }));
+    let mut points = corners();
+    points[3] = v(0.5, 0.5);
+    assert!(matches!(refused(points, &[[1, 2, 3]]), SolidError::FlatTriangle { triangle: 0, .. }));
+    let mut points = corners();
+    points[2].y = f64::NAN;
+    assert!(matches!(refused(points, &[[0, 1, 2]]), SolidError::EntryNotFinite { index: 2, .. }));
+    // The same triangle twice, and two on the same side of an edge.
+    assert!(matches!(refused(corners(), &[[0, 1, 2], [0, 1, 2], [1, 2, 3]]), SolidError::FoldedMesh { .. }));
+    assert!(matches!(refused(corners(), &[[0, 1, 2], [0, 1, 3]]), SolidError::FoldedMesh { .. }));
+    let wide = TriangleMesh::periodic(corners(), vec![[0, 1, 2], [1, 2, 3]], 2.0);
+    assert!(matches!(wide, Err(SolidError::TriangleTooWide { .. })));
+    assert!(matches!(TriangleMesh::periodic(corners(), vec![[0, 1, 2]], -1.0), Err(SolidError::NotPositive { .. })));
+}

@@ -1,0 +1,128 @@
+//! The two moduli of an isotropic material in the plane.
+
+use crate::SolidError;
+use crate::error::{positive, within};
+
+/// Shear and bulk modulus of an isotropic material in two dimensions (force per length).
+///
+/// Under a small strain e the stress is `kappa tr(e) 1 + 2 mu (e - tr(e)/2 1)`, with mu the shear and kappa the bulk
+/// modulus. Both are positive, so that every strain costs energy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moduli {
+    shear: f64,
+    bulk: f64,
+}
+
+impl Moduli {
+    /// From shear and bulk modulus (force per length).
+    ///
+    /// # Errors
+    /// A modulus that is not positive and finite.
+    pub fn new(shear: f64, bulk: f64) -> Result<Self, SolidError> {
+        Ok(Self { shear: positive("the shear modulus", shear)?, bulk: positive("the bulk modulus", bulk)? })
+    }
+
+    /// From Young's modulus E (force per length) and Poisson's ratio nu of the plane: `mu = E / (2 (1 + nu))`,
+    /// `kappa = E / (2 (1 - nu))`.
+    ///
+    /// # Errors
+    /// Young's modulus not positive, Poisson's ratio not between -1 and 1 (its bounds in two dimensions).
+    pub fn from_young(young: f64, poisson: f64) -> Result<Self, SolidError> {
+        positive("Young's modulus", young)?;
+        within("Poisson's ratio", poisson, -1.0, 1.0)?;
+        if poisson.abs() == 1.0 {
+            return Err(SolidError::OutOfRange {
+                name: "Poisson's ratio",
+                value: poisson,
+                minimum: -1.0 + f64::EPSILON,
+                maximum: 1.0 - f64::EPSILON,
+            });
+        }
+        Self::new(young / (2.0 * (1.0 + poisson)), young / (2.0 * (1.0 - poisson)))
+    }
+
+    /// Those of a lattice of springs: kappa = 2 mu, Poisson's ratio 1/3 (thesis (4.17) and below).
+    ///
+    /// # Errors
+    /// A shear modulus that is not positive and finite.
+    pub fn of_springs(shear: f64) -> Result<Self, SolidError> {
+        Self::new(shear, 2.0 * shear)
+    }
+
+    /// Those that stand for the thesis' spring constant k: `mu = 3/16 h k` (thesis (4.18)), kappa = 2 mu, where h = 0.05 is the
+    /// lattice spacing of the thesis, whatever that of the run.
+    ///
+    /// # Errors
+    /// A spring constant that is not positive and finite.
+    pub fn from_thesis_spring_constant(k: f64) -> Result<Self, SolidError> {
+        positive("the spring constant", k)?;
+        Self::of_springs(3.0 / 16.0 * THESIS_SPACING * k)
+    }
+
+    /// Shear modulus mu (force per length).
+    #[must_use]
+    pub fn shear(&self) -> f64 {
+        self.shear
+    }
+
+    /// Bulk modulus kappa (force per length).
+    #[must_use]
+    pub fn bulk(&self) -> f64 {
+        self.bulk
+    }
+
+    /// First Lame coefficient of the plane, kappa - mu (force per length); may be negative.
+    #[must_use]
+    pub fn lame(&self) -> f64 {
+        self.bulk - self.shear
+    }
+
+    /// Young's modulus of the plane, `4 kappa mu / (kappa + mu)` (force per length).
+    #[must_use]
+    pub fn young(&self) -> f64 {
+        4.0 * self.bulk * self.shear / (self.bulk + self.shear)
+    }
+
+    /// Poisson's ratio of the plane, `(kappa - mu) / (kappa + mu)` = (4.17); dimensionless.
+    #[must_use]
+    pub fn poisson(&self) -> f64 {
+        (self.bulk - self.shear) / (self.bulk + self.shear)
+    }
+}
+
+/// Lattice spacing of the thesis (length, in units of the droplet's radius).
+const THESIS_SPACING: f64 = 0.05;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn conversions_agree() {
+        let moduli = Moduli::new(3.0, 7.0).unwrap();
+        let back = Moduli::from_young(moduli.young(), moduli.poisson()).unwrap();
+        assert!((back.shear() - 3.0).abs() < 1e-14 && (back.bulk() - 7.0).abs() < 1e-14);
+        // (4.17) in terms of the Lame coefficients.
+        let lame = moduli.lame();
+        assert!((moduli.poisson() - lame / (lame + 2.0 * 3.0)).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_thesis_springs() {
+        let moduli = Moduli::from_thesis_spring_constant(1e4).unwrap();
+        assert!((moduli.shear() - 93.75).abs() < 1e-12);
+        assert!((moduli.poisson() - 1.0 / 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn bad_moduli_are_refused() {
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(matches!(Moduli::new(bad, 1.0), Err(SolidError::NotPositive { .. })));
+            assert!(matches!(Moduli::new(1.0, bad), Err(SolidError::NotPositive { .. })));
+            assert!(matches!(Moduli::from_thesis_spring_constant(bad), Err(SolidError::NotPositive { .. })));
+        }
+        for bad in [-1.0, 1.0, 1.5, f64::NAN] {
+            assert!(matches!(Moduli::from_young(1.0, bad), Err(SolidError::OutOfRange { .. })));
+        }
+    }
+}
