@@ -154,6 +154,22 @@ pub enum InterfaceError {
         /// Their sum.
         total: f64,
     },
+    /// A list that must increase does not.
+    #[error("entry {index} of {name} is {value}, not above the one before it: all entries must increase")]
+    NotIncreasing {
+        /// The list.
+        name: &'static str,
+        /// Which entry.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A body of a scene that is not an active droplet.
+    #[error("body {index} of the scene is not an active droplet: give the handle or the number of one")]
+    NotADroplet {
+        /// Number of the body, in the order of addition.
+        index: usize,
+    },
     /// The points do not determine what is fitted to them.
     #[error("{what} cannot be fitted to {points} points that lie as these do")]
     NoFit {
@@ -194,6 +210,15 @@ pub(crate) fn all_finite(name: &'static str, values: &[f64]) -> Result<(), Inter
     match values.iter().position(|value| !value.is_finite()) {
         None => Ok(()),
         Some(index) => Err(InterfaceError::EntryNotFinite { name, index, value: values[index] }),
+    }
+}
+
+/// Whether all entries are finite and each is above the one before it.
+pub(crate) fn increasing(name: &'static str, values: &[f64]) -> Result<(), InterfaceError> {
+    all_finite(name, values)?;
+    match values.windows(2).position(|pair| pair[1] <= pair[0]) {
+        None => Ok(()),
+        Some(before) => Err(InterfaceError::NotIncreasing { name, index: before + 1, value: values[before + 1] }),
     }
 }
 

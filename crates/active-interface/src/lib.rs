@@ -59,6 +59,7 @@
 //! # Ok::<(), InterfaceError>(())
 //! ```
 
+mod channel_flow;
 mod crossing;
 mod curve;
 mod cyclic;
@@ -74,14 +75,17 @@ mod initial;
 mod observables;
 mod polygon;
 mod positivity;
+mod recorder;
 mod redistribution;
 mod spectral;
 mod spline;
 mod tension;
 mod theory;
+mod trajectory;
 mod transport;
 mod units;
 
+pub use channel_flow::{GapFlow, gap_flow, net_flux, pressure_drop};
 pub use crossing::{CrossingFinder, first_crossing};
 pub use curve::{Curve, markers_from_points};
 pub use cyclic::{CirculantTridiagonal, CyclicTridiagonal};
@@ -98,7 +102,12 @@ pub use observables::{
 };
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
 pub use positivity::{Repair, repair_positivity};
+pub use recorder::{Record, TrajectoryRecorder};
 pub use tension::{ConstantTension, ContractileTension, Tension, TensionWarning};
 pub use theory::{LinearTheory, ModeFlow, RoundDroplet, SquirmerFlow, equivalent_radius};
+pub use trajectory::{
+    Doubt, Estimate, Evidence, Extremum, LinearMode, LinearPair, Regime, RegimeCriteria, RegimeReport, Trajectory,
+    extrema, fit_linear_mode, fit_linear_pair,
+};
 pub use transport::{Transport, cell_peclet};
 pub use units::{Quantity, Units};

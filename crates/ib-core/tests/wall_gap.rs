@@ -18,6 +18,7 @@ impl Hydrodynamics for Wind {
             domain: Domain { origin: [0.0, 0.0], periods: [None, None], walls: self.walls },
             viscosity: 1.0,
             spacing: None,
+            shape_modes: None,
             interface_stiffness: 1.0,
         }
     }

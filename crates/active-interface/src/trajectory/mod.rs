@@ -1,0 +1,20 @@
+//! What a droplet does across a channel: lateral amplitude, period, growth, and the regime they make.
+
+mod classify;
+mod extrema;
+mod linear_mode;
+mod linear_pair;
+mod quadrature;
+mod regime;
+mod regression;
+mod samples;
+mod separable;
+mod swings;
+mod tendency;
+
+pub use extrema::{Extremum, extrema};
+pub use linear_mode::{LinearMode, fit_linear_mode};
+pub use linear_pair::{LinearPair, fit_linear_pair};
+pub use regime::{Doubt, Evidence, Regime, RegimeCriteria, RegimeReport};
+pub use regression::Estimate;
+pub use samples::Trajectory;

@@ -1,0 +1,213 @@
+//! What a droplet in a channel does in the long run, and the evidence for it.
+
+use std::fmt;
+
+use super::{Estimate, Extremum, LinearMode};
+use crate::InterfaceError;
+use crate::error::positive;
+
+/// What a droplet in a channel does in the long run, seen across the channel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Regime {
+    /// It swims on the centre line and has not left it by more than [`RegimeCriteria::centre`].
+    CentreLine,
+    /// It comes back to the centre line, with or without oscillations.
+    Decaying,
+    /// It leaves the centre line exponentially, with or without oscillations.
+    Growing,
+    /// It oscillates with an amplitude that stays the same.
+    SteadyOscillation,
+    /// It does not move.
+    AtRest,
+    /// It goes to one side, towards a wall, or keeps away from the centre line at one side of it.
+    Drifting,
+    /// The record does not tell.
+    Undecided(Doubt),
+}
+
+/// Why a record does not tell the regime.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// Too few samples after the transient.
+    TooFewSamples {
+        /// How many there are.
+        found: usize,
+    },
+    /// The record contains too little of a period or of a decay: make the run longer.
+    TooShort {
+        /// How many periods it contains, as far as they are known; 0 without a turning point.
+        periods: f64,
+    },
+    /// The amplitude goes up and down.
+    Irregular {
+        /// Largest over smallest amplitude of the swings.
+        ratio: f64,
+    },
+    /// It is hardly moving, but is getting faster: make the run longer.
+    SpeedingUp {
+        /// Growth rate of the speed (1/time).
+        rate: f64,
+    },
+}
+
+impl fmt::Display for Regime {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::CentreLine => "centre line",
+            Self::Decaying => "decaying",
+            Self::Growing => "growing",
+            Self::SteadyOscillation => "steady oscillation",
+            Self::AtRest => "at rest",
+            Self::Drifting => "drifting",
+            Self::Undecided(doubt) => return write!(f, "undecided: {doubt}"),
+        })
+    }
+}
+
+impl fmt::Display for Doubt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooFewSamples { found } => write!(f, "only {found} samples"),
+            Self::TooShort { periods } if *periods > 0.0 => write!(f, "only {periods:.1} periods"),
+            Self::TooShort { .. } => f.write_str("the record is too short"),
+            Self::Irregular { ratio } => write!(f, "the amplitude goes up and down, by a factor of {ratio:.2}"),
+            Self::SpeedingUp { rate } => write!(f, "hardly moving, but speeding up at the rate {rate:.2e}"),
+        }
+    }
+}
+
+/// What counts as how much for [`Trajectory::regime`](crate::Trajectory::regime).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RegimeCriteria {
+    /// Part of the record, from its beginning, that is left out (no dimension, at least 0 and below 1).
+    pub transient: f64,
+    /// A droplet this near to the centre line is on it (length). The default is far above the round-off of a symmetric run and
+    /// far below any perturbation made on purpose.
+    pub centre: f64,
+    /// A droplet this slow is at rest (length per time).
+    pub rest: f64,
+    /// Part of the range of heights that the motion has to come back by for a turning point to count (no dimension).
+    pub hysteresis: f64,
+    /// Relative change of the amplitude per period up to which an oscillation is steady (no dimension).
+    pub steady: f64,
+    /// How far a droplet has to have swum without turning to be called drifting (length); on a shorter path it may as well be about to
+    /// turn.
+    pub travel: f64,
+    /// Relative residual of a [`LinearMode`] up to which the motion counts as linear (no dimension). Used where there are fewer than four turning
+    /// points.
+    pub linear: f64,
+}
+
+impl Default for RegimeCriteria {
+    /// For droplets of radius 1 and speeds of order 0.1, as in the thesis' units.
+    fn default() -> Self {
+        Self { transient: 0.2, centre: 1e-6, rest: 1e-3, hysteresis: 0.02, steady: 0.01, travel: 10.0, linear: 3e-3 }
+    }
+}
+
+impl RegimeCriteria {
+    /// The default for droplets of the radius `radius` (length) whose speeds are of the order of `speed` (length per time).
+    ///
+    /// # Errors
+    /// Values that are not positive and finite.
+    pub fn scaled(radius: f64, speed: f64) -> Result<Self, InterfaceError> {
+        positive("the radius", radius)?;
+        positive("the speed", speed)?;
+        let unit = Self::default();
+        Ok(Self { centre: unit.centre * radius, rest: 10.0 * unit.rest * speed, travel: unit.travel * radius, ..unit })
+    }
+
+    pub(super) fn check(&self) -> Result<(), InterfaceError> {
+        if !(0.0..1.0).contains(&self.transient) {
+            let (name, value) = ("the transient's part of the record", self.transient);
+            return Err(InterfaceError::OutOfRange { name, value, minimum: 0.0, maximum: 1.0 });
+        }
+        positive("the tolerance of the centre line", self.centre)?;
+        positive("the speed of rest", self.rest)?;
+        positive("the hysteresis", self.hysteresis)?;
+        positive("the change of a steady amplitude", self.steady)?;
+        positive("the path of a drift", self.travel)?;
+        positive("the residual of a linear motion", self.linear)?;
+        Ok(())
+    }
+}
+
+/// The numbers that a regime rests on, all from the record without its transient.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evidence {
+    /// First and last time.
+    pub window: [f64; 2],
+    /// Number of samples.
+    pub samples: usize,
+    /// Mean speed over the last quarter of the window (length per time).
+    pub speed: f64,
+    /// Largest distance from the centre line (length).
+    pub largest: f64,
+    /// The same at the end: over the last period, or over the last quarter of the window where there is no period (length). The thesis' amplitude
+    /// (section 3.1.2).
+    pub amplitude: f64,
+    /// Half of the last swing from one turning point to the next one (length).
+    pub half_swing: Option<f64>,
+    /// Height about which the last swings go (length).
+    pub midline: Option<f64>,
+    /// Height at the end (length).
+    pub last_height: f64,
+    /// Slope of the straight line through all heights (length per time).
+    pub drift: Estimate,
+    /// Turning points.
+    pub extrema: Vec<Extremum>,
+    /// How many periods are seen: between the first and the last turning point, or, where these are few, by a linear fit.
+    pub periods: f64,
+    /// Period (time), of the tail of the motion whose amplitude is exponential or constant.
+    pub period: Option<Estimate>,
+    /// Growth rate of the amplitude in that tail, negative for a decay (1/time).
+    pub growth_rate: Option<Estimate>,
+    /// The linear fit, where there are too few turning points.
+    pub mode: Option<LinearMode>,
+}
+
+/// A regime and the evidence for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RegimeReport {
+    /// The regime.
+    pub regime: Regime,
+    /// What it rests on.
+    pub evidence: Evidence,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names() {
+        assert_eq!(Regime::SteadyOscillation.to_string(), "steady oscillation");
+        let short = Regime::Undecided(Doubt::TooShort { periods: 0.62 });
+        assert_eq!(short.to_string(), "undecided: only 0.6 periods");
+        assert_eq!(Regime::Undecided(Doubt::TooFewSamples { found: 3 }).to_string(), "undecided: only 3 samples");
+    }
+
+    #[test]
+    fn criteria() {
+        let unit = RegimeCriteria::default();
+        assert!(unit.check().is_ok());
+        assert_eq!(RegimeCriteria::scaled(1.0, 0.1).unwrap(), unit);
+        let small = RegimeCriteria::scaled(1e-5, 2e-6).unwrap();
+        assert!((small.centre / 1e-11 - 1.0).abs() < 1e-14 && (small.rest / 2e-8 - 1.0).abs() < 1e-14);
+        assert!((small.travel / 1e-4 - 1.0).abs() < 1e-14);
+        assert!(RegimeCriteria::scaled(0.0, 0.1).is_err() && RegimeCriteria::scaled(1.0, f64::NAN).is_err());
+        for transient in [-0.1, 1.0, f64::NAN] {
+            assert!(RegimeCriteria { transient, ..unit }.check().is_err());
+        }
+        for bad in [0.0, f64::NAN, f64::INFINITY] {
+            assert!(RegimeCriteria { centre: bad, ..unit }.check().is_err());
+            assert!(RegimeCriteria { rest: bad, ..unit }.check().is_err());
+            assert!(RegimeCriteria { hysteresis: bad, ..unit }.check().is_err());
+            assert!(RegimeCriteria { steady: bad, ..unit }.check().is_err());
+            assert!(RegimeCriteria { travel: bad, ..unit }.check().is_err());
+            assert!(RegimeCriteria { linear: bad, ..unit }.check().is_err());
+        }
+    }
+}

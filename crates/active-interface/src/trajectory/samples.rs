@@ -1,0 +1,130 @@
+//! A recorded trajectory.
+
+use super::{LinearMode, fit_linear_mode};
+use crate::InterfaceError;
+use crate::error::{all_finite, increasing, length, not_negative};
+
+/// Where a droplet was across a channel, at increasing times, not necessarily evenly spaced.
+///
+/// [`Trajectory::regime`] says what it does, [`Trajectory::linear_mode`] how fast a small lateral motion grows and oscillates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Trajectory {
+    times: Vec<f64>,
+    heights: Vec<f64>,
+    speeds: Vec<f64>,
+    velocities: Option<Vec<f64>>,
+}
+
+impl Trajectory {
+    /// A trajectory from times, heights of the centroid above the centre line (length) and speeds (of the centroid, along and across the
+    /// channel; length per time).
+    ///
+    /// # Errors
+    /// Lists of different length, values that are not finite, times that do not increase, negative speeds.
+    pub fn new(times: Vec<f64>, heights: Vec<f64>, speeds: Vec<f64>) -> Result<Self, InterfaceError> {
+        length("the heights", times.len(), heights.len())?;
+        length("the speeds", times.len(), speeds.len())?;
+        increasing("the times", &times)?;
+        all_finite("the heights", &heights)?;
+        for &speed in &speeds {
+            not_negative("a speed", speed)?;
+        }
+        Ok(Self { times, heights, speeds, velocities: None })
+    }
+
+    /// The same trajectory with the lateral velocities (length per time), which make fits to short records better.
+    ///
+    /// # Errors
+    /// A list of another length, values that are not finite.
+    pub fn with_lateral_velocities(mut self, velocities: Vec<f64>) -> Result<Self, InterfaceError> {
+        length("the lateral velocities", self.times.len(), velocities.len())?;
+        all_finite("the lateral velocities", &velocities)?;
+        self.velocities = Some(velocities);
+        Ok(self)
+    }
+
+    /// Times of the samples.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Heights above the centre line (length).
+    #[must_use]
+    pub fn heights(&self) -> &[f64] {
+        &self.heights
+    }
+
+    /// Speeds (length per time).
+    #[must_use]
+    pub fn speeds(&self) -> &[f64] {
+        &self.speeds
+    }
+
+    /// Lateral velocities (length per time), if they are known.
+    #[must_use]
+    pub fn lateral_velocities(&self) -> Option<&[f64]> {
+        self.velocities.as_deref()
+    }
+
+    /// Time from the first to the last sample; 0 without samples.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        self.times.last().zip(self.times.first()).map_or(0.0, |(last, first)| last - first)
+    }
+
+    /// The samples from time `start` to time `end`, both included.
+    #[must_use]
+    pub fn between(&self, start: f64, end: f64) -> Self {
+        let range = self.times.partition_point(|&t| t < start)..self.times.partition_point(|&t| t <= end);
+        let range = range.start.min(range.end)..range.end;
+        Self {
+            times: self.times[range.clone()].to_vec(),
+            heights: self.heights[range.clone()].to_vec(),
+            speeds: self.speeds[range.clone()].to_vec(),
+            velocities: self.velocities.as_ref().map(|velocities| velocities[range].to_vec()),
+        }
+    }
+
+    /// Growth rate and frequency of a small lateral motion, with the lateral velocities if they are known; see
+    /// [`fit_linear_mode`].
+    ///
+    /// # Errors
+    /// Fewer than eight samples, heights that determine no rate.
+    pub fn linear_mode(&self) -> Result<LinearMode, InterfaceError> {
+        fit_linear_mode(&self.times, &self.heights, self.lateral_velocities())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts() {
+        let list = vec![0.0, 1.0, 2.0, 4.0];
+        let whole = Trajectory::new(list.clone(), list.clone(), list.clone()).unwrap();
+        assert_eq!(whole.duration(), 4.0);
+        let part = whole.clone().with_lateral_velocities(list).unwrap().between(0.5, 2.0);
+        assert_eq!((part.times(), part.lateral_velocities()), (&[1.0, 2.0][..], Some(&[1.0, 2.0][..])));
+        assert_eq!((part.heights(), part.speeds()), (&[1.0, 2.0][..], &[1.0, 2.0][..]));
+        let none = whole.between(3.0, 1.0);
+        assert!(none.times().is_empty() && none.duration() == 0.0);
+    }
+
+    #[test]
+    fn bad_input_is_refused() {
+        let new = |times: &[f64], heights: &[f64], speeds: &[f64]| {
+            Trajectory::new(times.to_vec(), heights.to_vec(), speeds.to_vec())
+        };
+        let good = new(&[0.0, 1.0], &[0.0, 1.0], &[0.0, 1.0]).unwrap();
+        let error = new(&[0.0, 0.0], &[0.0; 2], &[0.0; 2]).unwrap_err();
+        assert_eq!(error, InterfaceError::NotIncreasing { name: "the times", index: 1, value: 0.0 });
+        assert!(new(&[0.0, 1.0], &[0.0], &[0.0; 2]).is_err() && new(&[0.0, 1.0], &[0.0; 2], &[0.0]).is_err());
+        assert!(new(&[0.0, f64::NAN], &[0.0; 2], &[0.0; 2]).is_err());
+        assert!(new(&[0.0, 1.0], &[0.0, f64::INFINITY], &[0.0; 2]).is_err());
+        assert!(new(&[0.0, 1.0], &[0.0; 2], &[0.0, -1.0]).is_err());
+        assert!(good.clone().with_lateral_velocities(vec![0.0]).is_err());
+        assert!(good.with_lateral_velocities(vec![0.0, f64::NAN]).is_err());
+    }
+}

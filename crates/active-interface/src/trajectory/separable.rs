@@ -1,0 +1,230 @@
+//! Least squares for models that are linear in their amplitudes and not in one or two rates.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::regression::{Solution, inflation};
+
+/// The two ways in which a linear system relaxes, in times t of the length of the record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Model {
+    /// `A e^(p0 t)`.
+    Exponential,
+    /// `e^(p0 t) (A cosh(q t) + B sinh(q t)/q)` with `q^2 = p1`: an oscillation where p1 is negative.
+    Oscillator,
+}
+
+/// Values of the functions of a model at one time, their derivatives by t (second index 1) and by the rates.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Basis {
+    values: [[f64; 2]; 2],
+    by_rate: [[[f64; 2]; 2]; 2],
+}
+
+impl Model {
+    /// How many rates there are, and as many amplitudes.
+    pub(super) fn order(self) -> usize {
+        match self {
+            Self::Exponential => 1,
+            Self::Oscillator => 2,
+        }
+    }
+
+    /// At time `t`: values[function][derivative], by_rate[function][derivative][rate].
+    fn basis(self, rates: &[f64], t: f64) -> Basis {
+        let s = rates[0];
+        let e = (s * t).exp();
+        if self == Self::Exponential {
+            return Basis {
+                values: [[e, s * e], [0.0; 2]],
+                by_rate: [[[t * e, 0.0], [(1.0 + s * t) * e, 0.0]], [[0.0; 2]; 2]],
+            };
+        }
+        let d = rates[1];
+        let [c, f, f_d] = hyperbolic(d, t);
+        let c_d = 0.5 * t * f;
+        let (c1, f1) = (e * (s * c + d * f), e * (s * f + c));
+        let (c, f) = (e * c, e * f);
+        Basis {
+            values: [[c, c1], [f, f1]],
+            by_rate: [
+                [[t * c, e * c_d], [t * c1 + c, e * (s * c_d + d * f_d) + f]],
+                [[t * f, e * f_d], [t * f1 + f, e * (s * f_d + c_d)]],
+            ],
+        }
+    }
+}
+
+/// `cosh(q t)`, `sinh(q t)/q` and the derivative of the latter by d, where `q^2 = d`; smooth in d through zero.
+fn hyperbolic(d: f64, t: f64) -> [f64; 3] {
+    let x = d * t * t;
+    if x.abs() < 1e-2 {
+        let cosh = 1.0 + x / 2.0 * (1.0 + x / 12.0 * (1.0 + x / 30.0 * (1.0 + x / 56.0)));
+        let sinh = t * (1.0 + x / 6.0 * (1.0 + x / 20.0 * (1.0 + x / 42.0 * (1.0 + x / 72.0))));
+        let slope = t.powi(3) / 6.0 * (1.0 + x / 10.0 * (1.0 + x / 28.0 * (1.0 + x / 54.0)));
+        return [cosh, sinh, slope];
+    }
+    let q = d.abs().sqrt();
+    let [cosh, sinh] = if d > 0.0 { [(q * t).cosh(), (q * t).sinh() / q] } else { [(q * t).cos(), (q * t).sin() / q] };
+    [cosh, sinh, (t * cosh - sinh) / (2.0 * d)]
+}
+
+/// The data of a fit: values, and their derivatives times a weight where they are known, at times from 0 to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Data {
+    times: Vec<f64>,
+    data: DVector<f64>,
+    /// Weight of the derivatives; `None` where there are none.
+    weight: Option<f64>,
+}
+
+/// A fitted model.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SeparableFit {
+    pub(super) rates: Vec<f64>,
+    /// Covariance of the rates.
+    pub(super) covariance: DMatrix<f64>,
+    /// Root mean square of the residuals over that of the data.
+    pub(super) residual: f64,
+}
+
+impl Data {
+    /// `values` and `derivatives` are brought to a mean square of one; `None` where one of them vanishes.
+    pub(super) fn new(times: Vec<f64>, values: &[f64], derivatives: Option<&[f64]>) -> Option<Self> {
+        let rms = |list: &[f64]| (list.iter().map(|v| v * v).sum::<f64>() / list.len() as f64).sqrt();
+        let size = rms(values);
+        let usable = |size: f64| size.is_finite() && size > 0.0;
+        let rate = derivatives.map(rms);
+        if !(usable(size) && rate.is_none_or(usable)) {
+            return None;
+        }
+        let mut data: Vec<f64> = values.iter().map(|y| y / size).collect();
+        if let (Some(derivatives), Some(rate)) = (derivatives, rate) {
+            data.extend(derivatives.iter().map(|d| d / rate));
+        }
+        Some(Self { times, data: DVector::from_vec(data), weight: rate.map(|rate| size / rate) })
+    }
+
+    /// Weights of the values and of their derivatives.
+    fn weights(&self) -> impl Iterator<Item = f64> {
+        [Some(1.0), self.weight].into_iter().flatten()
+    }
+
+    fn bases(&self, model: Model, rates: &[f64]) -> Vec<Basis> {
+        self.times.iter().map(|&t| model.basis(rates, t)).collect()
+    }
+
+    fn rows(&self, columns: usize, bases: &[Basis], entry: impl Fn(&Basis, usize, usize) -> f64) -> DMatrix<f64> {
+        let mut matrix = DMatrix::zeros(self.data.len(), columns);
+        for (derivative, weight) in self.weights().enumerate() {
+            for (i, basis) in bases.iter().enumerate() {
+                for column in 0..columns {
+                    matrix[(derivative * bases.len() + i, column)] = weight * entry(basis, derivative, column);
+                }
+            }
+        }
+        matrix
+    }
+
+    /// The best amplitudes for given rates.
+    fn amplitudes(&self, model: Model, rates: &[f64]) -> Option<Solution> {
+        let bases = self.bases(model, rates);
+        Solution::new(self.rows(model.order(), &bases, |basis, k, j| basis.values[j][k]), &self.data)
+    }
+
+    /// The columns by which rates and amplitudes change the model, and the change of them that Gauss and Newton propose.
+    fn linearised(&self, model: Model, rates: &[f64], best: &Solution) -> Option<Solution> {
+        let (order, bases) = (model.order(), self.bases(model, rates));
+        let matrix = self.rows(2 * order, &bases, |basis, k, column| {
+            if column < order {
+                (0..order).map(|j| best.coefficients[j] * basis.by_rate[j][k][column]).sum()
+            } else {
+                basis.values[column - order][k]
+            }
+        });
+        Solution::new(matrix, &best.residuals)
+    }
+
+    /// Fits a model, starting from `rates`; `None` where the data do not determine it.
+    pub(super) fn fit(&self, model: Model, mut rates: Vec<f64>) -> Option<SeparableFit> {
+        const ITERATIONS: usize = 100;
+        const HALVINGS: usize = 30;
+        let mut best = self.amplitudes(model, &rates)?;
+        for _ in 0..ITERATIONS {
+            let direction = self.linearised(model, &rates, &best)?.coefficients;
+            let before = best.residuals.norm_squared();
+            let improved = (0..HALVINGS).find_map(|halving| {
+                let factor = 0.5_f64.powi(halving as i32);
+                let trial: Vec<f64> = rates.iter().zip(direction.iter()).map(|(p, d)| p + factor * d).collect();
+                let solution = self.amplitudes(model, &trial)?;
+                (solution.residuals.norm_squared() < before).then_some((trial, solution))
+            });
+            let Some((trial, solution)) = improved else { break };
+            let gain = 1.0 - solution.residuals.norm_squared() / before;
+            (rates, best) = (trial, solution);
+            if gain < 1e-10 {
+                break;
+            }
+        }
+        let last = self.linearised(model, &rates, &best)?;
+        let (rows, order) = (self.data.len(), model.order());
+        let count = self.times.len();
+        // Values and derivatives are two series.
+        let parts = best.residuals.as_slice().chunks_exact(count);
+        let correlated = parts.map(inflation).fold(1.0, f64::max);
+        let freedom = rows.checked_sub(2 * order).filter(|&freedom| freedom > 0);
+        let power = best.residuals.norm_squared();
+        let variance = freedom.map_or(f64::INFINITY, |freedom| power / freedom as f64 * correlated);
+        let covariance = last.inverse.view((0, 0), (order, order)) * variance;
+        Some(SeparableFit { rates, covariance, residual: (power / rows as f64).sqrt() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_of_the_basis() {
+        for rates in [[0.3, -4.0], [-1.0, 2.5], [0.2, 3e-4], [0.2, -0.02], [0.5, 0.0]] {
+            for model in [Model::Exponential, Model::Oscillator] {
+                for t in [0.0, 0.4, 1.0] {
+                    let here = model.basis(&rates, t);
+                    let step = 1e-5;
+                    let slope = |plus: &Basis, minus: &Basis, f: usize, k: usize| {
+                        (plus.values[f][k] - minus.values[f][k]) / (2.0 * step)
+                    };
+                    let (later, earlier) = (model.basis(&rates, t + step), model.basis(&rates, t - step));
+                    for f in 0..model.order() {
+                        assert!((slope(&later, &earlier, f, 0) - here.values[f][1]).abs() < 1e-8);
+                        for p in 0..model.order() {
+                            let moved = |by: f64| {
+                                let mut rates = rates;
+                                rates[p] += by;
+                                model.basis(&rates, t)
+                            };
+                            let (plus, minus) = (moved(step), moved(-step));
+                            for k in 0..2 {
+                                let error = slope(&plus, &minus, f, k) - here.by_rate[f][k][p];
+                                assert!(error.abs() < 1e-7, "{model:?} {rates:?} {t} {f} {k} {p}: {error}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn rates_from_a_rough_start() {
+        let times: Vec<f64> = (0..=60).map(|i| f64::from(i) / 60.0).collect();
+        let values: Vec<f64> = times.iter().map(|t| (0.4 * t).exp() * (9.0 * t + 0.7).cos()).collect();
+        let fit = Data::new(times.clone(), &values, None).unwrap().fit(Model::Oscillator, vec![0.0, -70.0]).unwrap();
+        assert!((fit.rates[0] - 0.4).abs() < 1e-10 && (fit.rates[1] + 81.0).abs() < 1e-8, "{fit:?}");
+        assert!(fit.residual < 1e-12);
+        // One exponential does not determine two.
+        let values: Vec<f64> = times.iter().map(|t| (-2.0 * t).exp()).collect();
+        let data = Data::new(times, &values, None).unwrap();
+        assert!((data.fit(Model::Exponential, vec![-1.0]).unwrap().rates[0] + 2.0).abs() < 1e-12);
+        assert!(Data::new(vec![0.0, 1.0], &[0.0, 0.0], None).is_none());
+    }
+}

@@ -1,0 +1,146 @@
+//! Amplitude, growth and period from turning points.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::extrema::turns;
+use super::regression::{Solution, line};
+use super::{Estimate, Extremum};
+
+/// Two swings do not tell a trend.
+pub(super) const FEWEST_SWINGS: usize = 3;
+/// The tail of a motion has at least as many swings, if there are that many.
+const USUAL_SWINGS: usize = 4;
+/// Scatter of the logarithm of the amplitude up to which a tail counts as exponential.
+const SCATTER: f64 = 5e-3;
+
+/// The swings from each turning point to the next one.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Swings {
+    /// Turning points, one more than swings.
+    turns: Vec<Extremum>,
+    /// Times halfway between turning points.
+    times: Vec<f64>,
+    /// Half the heights of the swings (length).
+    pub(super) amplitudes: Vec<f64>,
+    /// Heights halfway between turning points (length).
+    pub(super) midlines: Vec<f64>,
+}
+
+/// What the last swings of a motion have in common.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tail {
+    /// Number of the first swing that belongs to it.
+    pub(super) start: usize,
+    /// Growth rate of the amplitude (1/time).
+    pub(super) growth_rate: Estimate,
+    /// Period (time).
+    pub(super) period: Estimate,
+}
+
+impl Swings {
+    pub(super) fn new(turns: Vec<Extremum>) -> Self {
+        let pairs = || turns.windows(2).map(|pair| (pair[0], pair[1]));
+        let times = pairs().map(|(a, b)| 0.5 * (a.time + b.time)).collect();
+        let amplitudes = pairs().map(|(a, b)| 0.5 * (b.height - a.height).abs()).collect();
+        let midlines = pairs().map(|(a, b)| 0.5 * (a.height + b.height)).collect();
+        Self { turns, times, amplitudes, midlines }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.amplitudes.len()
+    }
+
+    /// How often the amplitude turns from growth to decay or back, by more than a fifth.
+    pub(super) fn wavering(&self) -> usize {
+        let logarithms: Vec<f64> = self.amplitudes.iter().map(|a| a.ln()).collect();
+        turns(&logarithms, 1.2_f64.ln()).len()
+    }
+
+    /// The longest tail of at least three swings whose amplitude is exponential in time; `None` for fewer swings.
+    pub(super) fn tail(&self) -> Option<Tail> {
+        let count = self.len();
+        if count < FEWEST_SWINGS {
+            return None;
+        }
+        let logarithms: Vec<f64> = self.amplitudes.iter().map(|a| a.ln()).collect();
+        let trend = |start: usize| line(&self.times[start..], &logarithms[start..]);
+        let mut start = count - USUAL_SWINGS.min(count);
+        let (_, mut growth_rate, scatter) = trend(start)?;
+        let limit = SCATTER.max(1.5 * scatter);
+        while start > 0
+            && let Some((_, longer, rms)) = trend(start - 1)
+            && rms <= limit
+        {
+            (start, growth_rate) = (start - 1, longer);
+        }
+        Some(Tail { start, growth_rate, period: self.period(start)? })
+    }
+
+    /// The period from the times of the turning points from number `start` on, `t_k = a +- b + k P/2`: rising and falling may take
+    /// different times.
+    fn period(&self, start: usize) -> Option<Estimate> {
+        let turns = &self.turns[start..];
+        let first = turns.first()?.time;
+        let columns = DMatrix::from_fn(turns.len(), 3, |k, j| match j {
+            0 => 1.0,
+            1 => 0.5 * k as f64,
+            _ => 1.0 - 2.0 * (k % 2) as f64,
+        });
+        let data = DVector::from_iterator(turns.len(), turns.iter().map(|turn| turn.time - first));
+        Some(Solution::new(columns, &data)?.estimate(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn alternating(count: i32, height: impl Fn(f64) -> f64) -> Swings {
+        let turn = |k: i32| {
+            let time = 2.0 + f64::from(k) * 5.0;
+            let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+            Extremum { time, height: sign * height(time), is_maximum: k % 2 == 0 }
+        };
+        Swings::new((0..count).map(turn).collect())
+    }
+
+    #[test]
+    fn exponential_growth() {
+        for rate in [-0.3, -0.01, 0.02, 0.2] {
+            let tail = alternating(8, |t| (rate * t).exp()).tail().unwrap();
+            assert_eq!(tail.start, 0);
+            assert!((tail.growth_rate.value - rate).abs() < 1e-12 && tail.growth_rate.error < 1e-12, "{tail:?}");
+            assert!((tail.period.value - 10.0).abs() < 1e-12 && tail.period.error < 1e-12);
+        }
+        assert!(alternating(3, |_| 1.0).tail().is_none() && alternating(0, |_| 1.0).tail().is_none());
+        assert!(alternating(4, |_| 1.0).tail().is_some());
+    }
+
+    #[test]
+    fn saturation_leaves_a_tail() {
+        let tail = alternating(40, |t| 1.0 / (1.0 + (-0.1 * (t - 60.0)).exp())).tail().unwrap();
+        // From about 1 - e^-4 on.
+        assert!((15..25).contains(&tail.start), "{tail:?}");
+        assert!((10.0 * tail.growth_rate.value).abs() < 2e-3, "{tail:?}");
+    }
+
+    #[test]
+    fn amplitudes_that_waver() {
+        assert_eq!(alternating(40, |t| 2.0 + (0.05 * t).sin()).wavering(), 3);
+        assert_eq!(alternating(40, |t| 2.0 + 0.1 * (0.05 * t).sin()).wavering(), 0);
+        assert_eq!(alternating(40, |t| t * (-0.05 * t).exp()).wavering(), 1);
+    }
+
+    #[test]
+    fn unequal_rise_and_fall() {
+        let turn = |k: i32| Extremum {
+            time: 5.0 * f64::from(k) + if k % 2 == 0 { 0.0 } else { 2.0 },
+            height: if k % 2 == 0 { 1.5 } else { -0.5 },
+            is_maximum: k % 2 == 0,
+        };
+        let swings = Swings::new((0..6).map(turn).collect());
+        let tail = swings.tail().unwrap();
+        assert!((tail.period.value - 10.0).abs() < 1e-12 && tail.growth_rate.value.abs() < 1e-12);
+        assert!(swings.amplitudes.iter().all(|a| *a == 1.0) && swings.midlines.iter().all(|m| *m == 0.5));
+    }
+}
