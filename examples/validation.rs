@@ -10,6 +10,7 @@ use motile::active_interface::Motion;
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
 use motile::stokes_grid::Drive;
 use motile_validation::growth::Mode;
+use motile_validation::lateral::{self, Method};
 use motile_validation::swimmers::{LongRun, long_run, reference_swimmer, steady, transient};
 use motile_validation::{Case, StudyError, Table, channel, fixed_shapes, growth, order, relaxation, resolution};
 
@@ -29,6 +30,8 @@ enum Study {
     ChannelShapes,
     ChannelSwimmers,
     ChannelLength,
+    Lateral,
+    Regimes,
 }
 
 /// Compares motile with exact and independently computed values.
@@ -46,7 +49,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 
 fn main() -> anyhow::Result<()> {
     let flags = Flags::parse();
-    let studies: [(Study, fn(bool) -> Tables); 12] = [
+    let studies: [(Study, fn(bool) -> Tables); 14] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -59,6 +62,8 @@ fn main() -> anyhow::Result<()> {
         (Study::ChannelShapes, channel_shapes),
         (Study::ChannelSwimmers, channel_swimmers),
         (Study::ChannelLength, channel_length),
+        (Study::Lateral, sideways),
+        (Study::Regimes, regimes),
     ];
     for (study, run) in studies {
         if flags.study == Study::All || flags.study == study {
@@ -406,6 +411,93 @@ fn channel_length(quick: bool) -> Tables {
             row.push(format!("{:.4}", a * (-length / 10.0).exp() + b));
             table.push(row);
         }
+    }
+    Ok(vec![table])
+}
+
+/// The methods and spacings of the lateral studies.
+fn methods(quick: bool) -> Vec<(Method, f64)> {
+    let mut all = vec![(Method::BoundaryIntegral, 0.05), (Method::ImmersedBoundary, 0.1)];
+    if !quick {
+        all.push((Method::ImmersedBoundary, 0.05));
+    }
+    all
+}
+
+fn sideways(quick: bool) -> Tables {
+    let mut modes = Table::new(
+        "Lateral offset in a channel (width 5, period 12, A = 10): growth rate and angular frequency",
+        &["activity", "method", "h", "offset", "growth rate", "reference", "frequency", "reference"],
+    );
+    for (activity, time) in [(-2.0, 300.0), (-4.0, 140.0)] {
+        let (growth, frequency) = lateral::reference(activity)?;
+        for (method, h) in methods(quick) {
+            // On a grid an offset below the spacing is held by the grid; one of some spacings is no longer linear.
+            let offset = if method == Method::BoundaryIntegral { 0.01 } else { 0.2 };
+            let swimmer =
+                Swimmer { activity, spacing: h, lengths: [12.0, 5.0], offset: [0.0, offset], ..Swimmer::default() };
+            let mode = lateral::mode(&swimmer, method, 60.0, time)?;
+            modes.push([
+                activity.to_string(),
+                method.name().to_owned(),
+                if method == Method::BoundaryIntegral { String::new() } else { h.to_string() },
+                offset.to_string(),
+                format!("{:.5}", mode.growth_rate.value),
+                format!("{growth:.5}"),
+                mode.frequency.map_or_else(|| "none".to_owned(), |w| format!("{:.5}", w.value)),
+                format!("{frequency:.5}"),
+            ]);
+        }
+    }
+    let mut cycle = Table::new(
+        "Limit cycle: width 5, period 12, activity -5, A = 10 (reference: amplitude 1.257, period 49.9, about 1 %)",
+        &["method", "h", "amplitude", "error in %", "period", "error in %"],
+    );
+    for (method, h) in methods(quick) {
+        let swimmer =
+            Swimmer { activity: -5.0, spacing: h, lengths: [12.0, 5.0], offset: [0.0, 1.0], ..Swimmer::default() };
+        let (amplitude, period) = lateral::limit_cycle(&swimmer, method, 300.0)?;
+        cycle.push([
+            method.name().to_owned(),
+            if method == Method::BoundaryIntegral { String::new() } else { h.to_string() },
+            format!("{amplitude:.4}"),
+            per_cent(amplitude / 1.257 - 1.0),
+            format!("{period:.2}"),
+            per_cent(period / 49.9 - 1.0),
+        ]);
+    }
+    Ok(vec![modes, cycle])
+}
+
+fn regimes(_quick: bool) -> Tables {
+    let mut table = Table::new(
+        "Regimes with A = 13.5, from growth rates by boundary integrals, beside what the thesis reports",
+        &["width", "length", "activity", "growth rate", "frequency", "the thesis"],
+    );
+    for (width, length, activity, said) in [
+        (5.0, 12.0, -3.0, "returns to the centre line"),
+        (5.0, 12.0, -4.0, "oscillates"),
+        (3.0, 12.0, -3.0, "stays on the centre line"),
+        (3.0, 12.0, -4.0, "stays on the centre line"),
+        (3.0, 18.0, -4.0, "stays on the centre line"),
+        (3.0, 24.0, -4.0, "oscillates"),
+    ] {
+        let swimmer = Swimmer {
+            activity,
+            excluded_volume: 13.5,
+            lengths: [length, width],
+            offset: [0.0, 0.01],
+            ..Swimmer::default()
+        };
+        let mode = lateral::mode(&swimmer, Method::BoundaryIntegral, 60.0, 200.0)?;
+        table.push([
+            width.to_string(),
+            length.to_string(),
+            activity.to_string(),
+            format!("{:.5}", mode.growth_rate.value),
+            mode.frequency.map_or_else(|| "none".to_owned(), |w| format!("{:.4}", w.value)),
+            said.to_owned(),
+        ]);
     }
     Ok(vec![table])
 }
