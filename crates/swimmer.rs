@@ -67,8 +67,7 @@ pub struct Swimmer {
     pub excluded_volume: f64,
     /// Viscosity of the surroundings, and of the droplet unless it has its own (stress times time).
     pub viscosity: f64,
-    /// Viscosity of the droplet (stress times time); `None` for that of the surroundings. Another one needs boundary integrals: on a
-    /// grid it is refused at the first evaluation.
+    /// Viscosity of the droplet (stress times time); `None` for that of the surroundings.
     pub viscosity_inside: Option<f64>,
     /// Diffusion constant of the particles (length squared per time).
     pub diffusion: f64,

@@ -219,8 +219,7 @@ impl ActiveDroplet {
         self
     }
 
-    /// The same droplet filled with a fluid of another viscosity (stress times time) than its surroundings. Boundary integrals take
-    /// any; [`ib_core::ImmersedBoundary`] refuses what is not that of the surroundings, at the first evaluation.
+    /// The same droplet filled with a fluid of another viscosity (stress times time) than its surroundings.
     ///
     /// # Errors
     /// A viscosity that is not positive and finite.
