@@ -53,9 +53,12 @@ pub enum InitialState {
     },
 }
 
-/// An active droplet in a periodic box, in the thesis' units (lengths in R0, Appendix A).
+/// An active droplet in a periodic box, a rigid channel or unbounded fluid, in the thesis' units (lengths in R0, Appendix A): a scene
+/// from a few numbers.
 ///
-/// The default is the accurate method; [`Swimmer::thesis`] is the thesis' own.
+/// The default is the accurate method; [`Swimmer::thesis`] is the thesis' own. [`Swimmer::build`] and
+/// [`Swimmer::build_in_channel`] use a grid, [`Swimmer::build_without_grid`], [`Swimmer::build_without_grid_in_channel`] and
+/// [`Swimmer::build_unbounded`] boundary integrals. Fields that a method has no use for are ignored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Swimmer {
     /// Activity zeta delta-mu (force times length), negative if contractile.
@@ -74,7 +77,7 @@ pub struct Swimmer {
     pub bare_tension: f64,
     /// Radius R0 (length).
     pub radius: f64,
-    /// Box lengths (length).
+    /// Box lengths; in a channel its period and its width (length).
     pub lengths: [f64; 2],
     /// Grid spacing h (length).
     pub spacing: f64,
@@ -86,21 +89,21 @@ pub struct Swimmer {
     pub concentration_cells: usize,
     /// Kernel.
     pub kernel: AnyKernel,
-    /// Whether the mobility correction is on.
+    /// Whether the mobility correction is on; without effect for [`Motion::WithFluid`], whose markers are not equally spaced.
     pub corrected: bool,
     /// How the markers move.
     pub motion: Motion,
     /// Flux of the particles.
     pub flux: Flux,
-    /// Whether the area is put back after each step.
+    /// Whether the area is put back to the initial one after each step.
     pub area_constraint: bool,
-    /// Direction of swimming at the start (radians).
+    /// Direction of swimming at the start (radians from the x axis).
     pub angle: f64,
     /// Position of the centre (length); the box is centred on the origin.
     pub offset: [f64; 2],
     /// Particles at the start.
     pub initial: InitialState,
-    /// Time step.
+    /// Time step, to be given to the run: `scene.run(until).step_size(swimmer.step)`; scenes do not know it.
     pub step: StepSize,
 }
 
@@ -150,7 +153,8 @@ pub type IntegralPlane = BoundaryIntegral<FreeSpace>;
 
 impl Swimmer {
     /// The thesis' method: Peskin's 4-point function, no mobility correction, markers that move with the fluid and are
-    /// inserted and removed, an area constraint, h = 0.05, markers h/2 apart, steps of 1e-3.
+    /// inserted and removed, an area constraint, h = 0.05, markers h/2 apart, steps of 1e-3. What the thesis does not state is a
+    /// reading of it: a first-order upwind flux; diffusion is implicit as in the default.
     #[must_use]
     pub fn thesis() -> Self {
         Self {

@@ -15,22 +15,24 @@ use crate::{
 /// Least number of markers of a droplet.
 pub const MINIMUM_MARKERS: usize = 8;
 
-/// Above this cell Peclet number the edge of the concentration is not resolved (interface.md section 3).
+/// Above this cell Peclet number `ds max|V_t - W| / D` (no dimension) the edge of the concentration is not resolved, however fine
+/// the grid.
 pub const PECLET_LIMIT: f64 = 0.5;
 
 /// How the markers of an interface move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
-    /// With the fluid's normal velocity (its mean removed, so that the area stays) and a tangential velocity of their
-    /// own that keeps them equally spaced; the default.
+    /// With the fluid's normal velocity (its mean removed, so that the area stays) and a tangential velocity W of their
+    /// own that keeps them equally spaced; the default (docs/method.md, section 4). The mobility correction needs it.
     Equidistributed {
         /// Rate at which unequal spacing relaxes (1/time).
         relaxation: f64,
-        /// Whether wiggles shorter than the kernel are filtered after each step; without it they grow in long runs.
+        /// Whether wiggles shorter than the kernel are filtered after each step; without it they grow in long runs. Only on a
+        /// grid.
         filter: bool,
     },
-    /// With the fluid's full velocity (thesis (2.8)), markers being inserted where they thin out and removed where they
-    /// crowd.
+    /// With the fluid's full velocity (thesis (2.8)), markers being inserted where they thin out (1.5 times the spacing at the start)
+    /// and removed where they crowd (half of it), without a loss of particles.
     WithFluid,
 }
 
@@ -106,8 +108,9 @@ impl ActiveDroplet {
     /// (length squared per time).
     ///
     /// # Errors
-    /// Fewer than [`MINIMUM_MARKERS`] markers, lists of different length, positions that are not finite, coincide,
-    /// or cross, negative or non-finite numbers, a negative diffusion constant.
+    /// Fewer than [`MINIMUM_MARKERS`] markers, lists of different length, positions that are not finite, coincide, are
+    /// spaced by more than a factor of four unevenly, or whose curve crosses itself or has no area; negative or non-finite
+    /// numbers, a negative diffusion constant.
     pub fn new(
         markers: &[Vec2],
         numbers: Vec<f64>,
@@ -208,8 +211,8 @@ impl ActiveDroplet {
         self
     }
 
-    /// The same droplet with or without the stabiliser of interface.md section 4 (on by default), which makes the fast
-    /// relaxation of crowded particles implicit.
+    /// The same droplet with or without the stabiliser (on by default), which makes the fast relaxation of crowded particles implicit:
+    /// a diffusivity `h c max(-d gamma/dc, 0) / (4 eta)` is added implicitly and taken off explicitly.
     #[must_use]
     pub fn with_stabiliser(mut self, on: bool) -> Self {
         self.stabilised = on;
@@ -279,7 +282,11 @@ impl ActiveDroplet {
         self.viscosity_inside
     }
 
-    /// What [`crate::observe`] needs, from the last evaluation of the system that the droplet is body number `index` of.
+    /// What [`crate::observe`] needs, from the last evaluation of the system that the droplet is body number `index` of. Call
+    /// [`System::evaluate`] first: forces and velocities are those of the present state only then.
+    ///
+    /// # Panics
+    /// An index beyond the bodies of the system.
     #[must_use]
     pub fn interface_state<'a, H: Hydrodynamics>(&'a self, system: &'a System<H>, index: usize) -> InterfaceState<'a> {
         let all = system.markers();
@@ -294,7 +301,7 @@ impl ActiveDroplet {
         }
     }
 
-    /// How often particle numbers had to be kept from becoming negative.
+    /// How often since the start particle numbers had to be kept from becoming negative, and what that took.
     #[must_use]
     pub fn repair(&self) -> Repair {
         self.repair

@@ -16,8 +16,9 @@ pub trait ExcludedVolume: Debug + Send + Sync {
     /// B(c) = dPi/dc (tension times length) at the concentration `c` (particles per length).
     fn slope(&self, c: f64) -> f64;
 
-    /// The concentration at which B(c) = `pull`, or `None` where B stays below it: at the activity `-pull` the tension
-    /// has its maximum there, and particles gather up to that concentration and no further.
+    /// The concentration (particles per length) at which B(c) = `pull` (tension times length), or `None` where B stays below it. At the
+    /// activity `-pull` the tension has its maximum there: particles gather to about that concentration, somewhat beyond it
+    /// where the flow presses them.
     fn plateau(&self, pull: f64) -> Option<f64>;
 }
 

@@ -5,7 +5,7 @@ use ib_core::Vec2;
 use crate::geometry::{Geometry, outward};
 use crate::{CirculantTridiagonal, InterfaceError};
 
-/// Relaxes wiggles of markers shorter than the kernel (interface.md section 3). The kernel's transform vanishes at the
+/// Relaxes wiggles of markers shorter than the kernel (docs/method.md, section 4). The kernel's transform vanishes at the
 /// wave number 2 pi / h, so that tension does not see them while the converging surface flow amplifies them.
 ///
 /// `e = (1 - S)^2 X`, `S = (1 - l^2 d_ss)^-1`, l = h/2; each marker moves by `-r (e . n) n`, `r = a / (1 + a)`,

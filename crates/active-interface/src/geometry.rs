@@ -68,7 +68,7 @@ pub(crate) fn signed_area(markers: &[Vec2]) -> f64 {
     0.5 * twice
 }
 
-/// Velocities of markers that follow the interface normally and stay equally spaced (interface.md section 3):
+/// Velocities of markers that follow the interface normally and stay equally spaced (docs/method.md, section 4):
 ///
 /// * normal velocity `V_n = U . n` less its mean over the arc weights, which keeps the polygon's area;
 /// * tangential velocity W with `W_{k+1} - W_k = mean(q) - q_k + rho (mean(l) - l_k)`, where

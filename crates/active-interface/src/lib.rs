@@ -17,6 +17,8 @@
 //!   [`repair_positivity`], [`cell_peclet`].
 //! * **Tension**: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
 //! * **Measurements**: [`observe`] for all [`Observables`] at once, and a function for each.
+//! * **Channels**: [`TrajectoryRecorder`] for a run, [`Trajectory::regime`] for what the droplet does across the channel,
+//!   [`gap_flow`], [`net_flux`] and [`pressure_drop`] for the flow along it.
 //! * **Theory**: [`LinearTheory`] and [`SquirmerFlow`]; [`Units`] to convert to SI.
 //!
 //! # Conventions

@@ -128,8 +128,8 @@ impl<E: ExcludedVolume> ContractileTension<E> {
         &self.excluded_volume
     }
 
-    /// The concentration at which the tension is largest (particles per length), up to which particles gather; `None`
-    /// where the tension grows without bound.
+    /// The concentration at which the tension is largest (particles per length): below it particles draw each other together, above
+    /// it they drive each other apart. `None` where the tension grows without bound.
     #[must_use]
     pub fn plateau(&self) -> Option<f64> {
         self.excluded_volume.plateau(-self.activity)

@@ -38,10 +38,10 @@ pub trait Body: Any + std::fmt::Debug + Send {
     /// A state in which the forces are not defined.
     fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError>;
 
-    /// Length of the state.
+    /// Number of entries of the state, in units that only the body knows.
     fn state_len(&self) -> usize;
 
-    /// Copies the state out.
+    /// Copies the state to `state`, which has [`Body::state_len`] entries.
     fn write_state(&self, state: &mut [f64]);
 
     /// Takes a state over.
@@ -50,7 +50,8 @@ pub trait Body: Any + std::fmt::Debug + Send {
     /// A state that is not finite or not possible.
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError>;
 
-    /// The explicit part of the state's rate of change, from the velocities of the fluid at the markers.
+    /// Writes the explicit part of the state's rate of change (unit of the state per time) to `rate`, from the velocities of the
+    /// fluid at the markers (length per time).
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]);
 
     /// Called before the first evaluation of a step.
@@ -77,6 +78,6 @@ pub trait Body: Any + std::fmt::Debug + Send {
         Ok(())
     }
 
-    /// The largest stable time steps at the present state.
+    /// The largest stable time steps of the explicit midpoint rule at the present state, one for each reason there is.
     fn step_limits(&self, medium: &Medium) -> Vec<StepLimit>;
 }

@@ -9,7 +9,8 @@ use rustfft::{Fft, FftPlanner};
 use crate::mobility::{MobilityDeficit, normal_taper};
 use crate::{FlowError, Vec2};
 
-/// The mobility correction of an interface (interface.md section 1):
+/// The mobility correction of an interface, which turns the first-order error of its velocity into a second-order one
+/// (docs/method.md, section 3):
 ///
 /// `V_t += (h/eta) S[G_t] F_t`, `V_n += (h/eta) S[G_n T] F_n`,
 ///
@@ -24,7 +25,7 @@ use crate::{FlowError, Vec2};
 /// `V -= (h/eta) 2 Re(e^{i phi/2} S[H] e^{i phi/2} F_t) (tau + tau' - (tau . tau') tau)`,
 ///
 /// tau' the tangent mirrored in that axis. Multiplying by e^{i phi/2} on both sides gives each inclination its own
-/// wave number, so that H fades by itself where the interface turns away from the axis. It turns the first-order error of the interface's velocity into a second-order one.
+/// wave number, so that H fades by itself where the interface turns away from the axis.
 #[derive(Debug)]
 pub(crate) struct MobilityCorrection {
     deficit: MobilityDeficit,

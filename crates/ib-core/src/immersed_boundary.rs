@@ -18,6 +18,10 @@ const WALL_TOLERANCE: f64 = 0.25;
 /// Velocities of markers by spreading their forces to a grid, solving the Stokes equations there and interpolating
 /// (thesis section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).
 ///
+/// Only [`MarkerKind::Interface`] is corrected; the order of the markers' velocities is then two, else one.
+/// [`Hydrodynamics::sample`] interpolates bilinearly between grid points: second order further than the kernel's reach from
+/// interfaces, first order within it.
+///
 /// **Other viscosities inside interfaces.** The grid solves for one viscosity, that of the surroundings; where a group of markers
 /// has another one inside, the boundary integral equation
 ///
@@ -108,20 +112,21 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.correction.is_some()
     }
 
-    /// The velocity on the grid (length per time) of the last evaluation; where viscosities differ, that of a fluid of one
+    /// The velocity on the grid (length per time) of the last evaluation or sampling; where viscosities differ, that of a fluid of one
     /// viscosity under the same forces.
     #[must_use]
     pub fn velocity_field(&self) -> &StaggeredField {
         &self.velocity
     }
 
-    /// The force density on the grid (force per volume) of the last evaluation.
+    /// The force density on the grid (force per volume) of the last evaluation or sampling.
     #[must_use]
     pub fn force_field(&self) -> &StaggeredField {
         &self.density
     }
 
-    /// The pressure at the cell centres for the last evaluation (force per length; periodic part, mean zero).
+    /// The pressure at the cell centres for the last evaluation or sampling (force per length; periodic part, mean zero). Makes a
+    /// field.
     ///
     /// # Errors
     /// Those of the solver.

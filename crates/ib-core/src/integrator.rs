@@ -4,7 +4,8 @@ use crate::{Hydrodynamics, SceneError, System};
 
 /// Advances the state of all bodies by one step.
 pub trait Integrator: std::fmt::Debug + Send {
-    /// Advances `system` by `dt` (time). The clock, the calls before and after a step and the return to the last good
+    /// Advances the states of `system` by `dt` (time): reads them with [`System::write_state`], computes rates with
+    /// [`System::present_rate`] and [`System::rate`], and leaves the new ones with [`System::read_state`]. The clock, the calls before and after a step and the return to the last good
     /// state after an error are the scene's.
     ///
     /// # Errors
@@ -12,12 +13,12 @@ pub trait Integrator: std::fmt::Debug + Send {
     fn step<H: Hydrodynamics>(&mut self, system: &mut System<H>, dt: f64) -> Result<(), SceneError>;
 
     /// Length of the interval of stability on the negative real axis: a mode that decays at the rate r is stable for
-    /// `dt < interval / r`.
+    /// `dt < interval / r`. No dimension; 2 for the midpoint rule, for which bodies estimate their limits.
     fn stability_interval(&self) -> f64;
 }
 
 /// The midpoint rule (thesis (2.37)), second order, two evaluations a step, with the bodies' implicit parts by backward
-/// Euler in the first half step and by the trapezoidal rule over the whole step (interface.md section 4):
+/// Euler in the first half step and by the trapezoidal rule over the whole step:
 ///
 /// `y_m = y + dt/2 (f(y) + L y_m)`, `y' = y + dt f(y_m) + dt/2 (L(y) y + L(y') y')`.
 #[derive(Debug, Clone, Default)]

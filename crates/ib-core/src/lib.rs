@@ -37,7 +37,8 @@
 //! ```
 //!
 //! Accuracy: velocities on an interface have errors of first order in h without the mobility correction and of second
-//! order with it; far from interfaces the method is of second order throughout.
+//! order with it; far from interfaces the method is of second order throughout. Formulas and derivations: docs/method.md in
+//! the repository.
 
 mod band_limit;
 mod body;

@@ -88,7 +88,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         &mut self.system
     }
 
-    /// Time since the start.
+    /// Time since the start (time).
     #[must_use]
     pub fn time(&self) -> f64 {
         self.system.time()
@@ -119,7 +119,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         Ok(())
     }
 
-    /// Advances the scene by one step of `dt` (time). After an error the scene is in the state before the step.
+    /// Advances the scene by one step of `dt` (time). After an error the scene is in the state before the step. Stability limits are
+    /// not looked at here but in [`Scene::check_step`], and during a [`Run`].
     ///
     /// # Errors
     /// A time step that is not positive; those of the bodies and of the flow.

@@ -45,7 +45,7 @@ impl<H: Hydrodynamics> System<H> {
         self.bodies.len() - 1
     }
 
-    /// Time since the start.
+    /// Time since the start (time).
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time
@@ -222,7 +222,7 @@ impl<H: Hydrodynamics> System<H> {
         lengths.extend(self.bodies.iter().map(|body| body.state_len()));
     }
 
-    /// The explicit rate of change of `state`.
+    /// The explicit rate of change (unit of the state per time) of `state`, which the bodies take over.
     ///
     /// # Errors
     /// Those of the bodies and of the flow.
@@ -233,7 +233,7 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// The explicit rate of change at the present state, whose flow is computed only if it is not known yet.
+    /// The explicit rate of change (unit of the state per time) at the present state, whose flow is computed only if it is not known yet.
     ///
     /// # Errors
     /// Those of the bodies and of the flow.

@@ -22,7 +22,7 @@ struct Stencil {
 /// Both use the same weights, computed once by [`Transfer::locate`], so that `sum_k F_k . U_k` equals
 /// `sum f . u h^2` to round-off. Positions are wrapped into a periodic box; at a wall the weights beyond it are folded
 /// back, odd for the x component and even for the y component, so that the interpolated velocity vanishes on the
-/// wall (interface.md section 5).
+/// wall (docs/method.md, section 2).
 #[derive(Debug, Clone)]
 pub struct Transfer<K> {
     kernel: K,
@@ -44,7 +44,8 @@ impl<K: Kernel> Transfer<K> {
         &self.kernel
     }
 
-    /// Computes the weights of markers at `positions` (length, finite; not wrapped).
+    /// Computes the weights of markers at `positions` (length, not wrapped). They must be finite: what is not lands somewhere in
+    /// the box ([`crate::ImmersedBoundary`] refuses it).
     pub fn locate(&mut self, positions: &[Vec2]) {
         let (h, [x0, y0]) = (self.grid.spacing(), self.grid.origin());
         let (nx, ny) = (self.grid.nx() as f64, self.grid.ny() as f64);
@@ -70,7 +71,8 @@ impl<K: Kernel> Transfer<K> {
         stencil
     }
 
-    /// Adds the force density of the located markers to `density` (force per volume).
+    /// Adds the force density of the located markers to `density` (force per volume), thesis (2.33). `forces` (force) has an
+    /// entry for each of them.
     pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) {
         let scale = 1.0 / (self.grid.spacing() * self.grid.spacing());
         let (normal, tangential) = (self.kernel.support(Role::Normal), self.kernel.support(Role::Tangential));
@@ -83,7 +85,7 @@ impl<K: Kernel> Transfer<K> {
         }
     }
 
-    /// The velocities at the located markers.
+    /// The velocities at the located markers (length per time), thesis (2.34). `velocities` has an entry for each of them.
     pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) {
         let (normal, tangential) = (self.kernel.support(Role::Normal), self.kernel.support(Role::Tangential));
         let (u, v) = (velocity.x(), velocity.y());

@@ -2,7 +2,7 @@
 
 use super::{CompositeBSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Role, Roma3};
 
-/// A kernel chosen at run time.
+/// A kernel chosen at run time; parsed from its name (`peskin4`, `roma3`, `gaussian6`, `bspline3` to `bspline6`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AnyKernel {
     /// [`Peskin4`].
