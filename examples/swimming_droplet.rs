@@ -16,15 +16,15 @@ use anyhow::{Context, Result};
 use clap::Parser;
 use motile::Swimmer;
 use motile::active_interface::{Frame, concentration_profile};
-use motile::ib_core::{Every, Hydrodynamics, StepSize, Vec2};
+use motile::ib_core::{Every, Hydrodynamics, Vec2};
 use support::{
     BoxFlags, Dial, DropletFlags, Film, Look, MethodFlags, OutputFlags, Recorder, RunCost, Snapshot, Steadiness,
-    VtkOutput, concentration_plot, domain_raster, droplet_summary, time_series,
+    VtkOutput, check_run, concentration_plot, domain_raster, droplet_summary, time_series,
 };
 
 /// Rows of the trajectory, frames of the animation and files for ParaView in a run.
 const ROWS: f64 = 1000.0;
-const FRAMES: f64 = 80.0;
+const FRAMES: f64 = 60.0;
 const FILES: f64 = 20.0;
 /// Most cells in a direction of the fields in pictures and files.
 const MOST_CELLS: usize = 512;
@@ -53,9 +53,7 @@ fn swim(flags: &Flags) -> Result<()> {
     let swimmer =
         Swimmer { lengths: [side, side], offset: flags.region.offset, ..flags.droplet.swimmer(&flags.method) };
     let (mut scene, droplet) = swimmer.build()?;
-    if let StepSize::Fixed(dt) = swimmer.step {
-        scene.check_step(dt)?;
-    }
+    check_run(&mut scene, flags.method.time, swimmer.step)?;
     let start = scene.body(droplet);
     let start_frame = Frame::new(Vec2::zeros(), swimmer.angle)?;
     let start_profile = concentration_profile(start.markers(), start.particle_numbers(), &start_frame)?;
@@ -69,7 +67,7 @@ fn swim(flags: &Flags) -> Result<()> {
         caption: caption(&swimmer),
         concentration: swimmer.mean_concentration,
         walls: None,
-        streamline_spacing: 0.045 * side,
+        streamline_spacing: 0.24,
     };
     let mut dial = Dial::new(end, flags.output.quiet, droplet);
     let mut recorder = Recorder::create(&directory.join("trajectory.csv"), scene.system_mut(), droplet)?;

@@ -24,7 +24,7 @@ pub fn time_series(trajectory: &Trajectory) -> Result<Figure> {
                 .horizontal(1.0, "circle"),
         )
         .panel(
-            plot("Stresslet along the motion", "S_{xx} (γ_{0}R_{0})")
+            plot("Stresslet along the motion", "S_{xx}")
                 .series(line("", "stresslet_xx")?)
                 .horizontal(0.0, "pushers above, pullers below"),
         )

@@ -41,7 +41,7 @@ impl Look {
         let concentrations: Vec<f64> =
             snapshots.flat_map(|seen| seen.concentration.iter().map(|c| c / self.concentration)).collect();
         Scales {
-            pressure: ColourScale::new(ColourMap::Rainbow, Limits::Symmetric, &pressures),
+            pressure: ColourScale::new(ColourMap::Rainbow, Limits::Most, &pressures),
             concentration: ColourScale::new(ColourMap::Magma, Limits::FromZero, &concentrations),
         }
     }
@@ -49,16 +49,12 @@ impl Look {
     fn picture(&self, seen: &Snapshot, scales: &Scales, track: &[Vec2]) -> Result<Picture> {
         let concentration: Vec<f64> = seen.concentration.iter().map(|c| c / self.concentration).collect();
         let flow = VectorSamples::new(seen.raster, seen.velocity())?;
-        let picture = Picture::new(
-            ScalarSamples::new(seen.raster, seen.pressure())?,
-            scales.pressure,
-            "pressure p (γ_{0}/R_{0})",
-        )
-        .title(format!("t = {:.1}   {}", seen.time, self.caption))
-        .streamlines(flow, self.streamline_spacing, seen.centroid)
-        .interface_scale(scales.concentration, "concentration c/c_{0}")
-        .track(track)
-        .interface(&seen.markers, &concentration)?;
+        let picture = Picture::new(ScalarSamples::new(seen.raster, seen.pressure())?, scales.pressure, "pressure p")
+            .title(format!("t = {:.1}   {}", seen.time, self.caption))
+            .streamlines(flow, self.streamline_spacing, seen.centroid)
+            .interface_scale(scales.concentration, "concentration c/c_{0}")
+            .track(track)
+            .interface(&seen.markers, &concentration)?;
         Ok(match self.walls {
             Some([below, above]) => picture.walls(below, above),
             None => picture,

@@ -141,10 +141,10 @@ impl MethodFlags {
             "--{flag} {length} at --spacing {h} makes {cells:.0} cells, more than {MOST_CELLS}: give a larger spacing"
         );
         let whole = cells.round();
+        let fitting = (whole * h * 1e9).round() / 1e9;
         ensure!(
             (cells - whole).abs() <= 1e-9 * whole,
-            "--{flag} {length} is {cells:.3} cells of --spacing {h}: give a spacing that divides it, such as {}",
-            length / whole
+            "--{flag} {length} is {cells:.3} cells of --spacing {h}: give --{flag} {fitting} or a spacing that divides it"
         );
         Ok(whole as usize)
     }

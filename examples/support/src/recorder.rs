@@ -2,10 +2,10 @@
 
 use std::{mem::discriminant, path::Path};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use motile::{
     active_interface::{ActiveDroplet, Convention, DropletWarning, Observables, centroid_velocity, observe},
-    ib_core::{Handle, Hydrodynamics, Observer, System},
+    ib_core::{Handle, Hydrodynamics, Observer, Scene, StepSize, System},
 };
 
 use crate::{Progress, Trajectory};
@@ -20,6 +20,31 @@ pub fn measure<H: Hydrodynamics>(system: &mut System<H>, droplet: Handle<ActiveD
     system.evaluate()?;
     let body: &ActiveDroplet = system.find().context("a scene without a droplet cannot be measured")?;
     Ok(observe(&body.interface_state(system, droplet.index()), Convention::FarField)?)
+}
+
+/// Most steps of a run: more would take weeks.
+const MOST_STEPS: f64 = 1e9;
+
+/// Refuses a run that could not start with its time step, or could not end in a lifetime, before anything is written.
+///
+/// # Errors
+/// A time step that is not stable, or one so short that the run would take more than 1e9 steps.
+pub fn check_run<H: Hydrodynamics>(scene: &mut Scene<H>, end: f64, step: StepSize) -> Result<()> {
+    let dt = match step {
+        StepSize::Fixed(dt) => {
+            scene.check_step(dt)?;
+            dt
+        }
+        StepSize::OfLimit(fraction) => {
+            scene.system().step_limit().map_or(f64::INFINITY, |(limit, _)| fraction * limit.dt)
+        }
+    };
+    ensure!(
+        end / dt <= MOST_STEPS,
+        "time {end} would take {:.0e} steps of {dt:.1e}: give a higher viscosity, a larger spacing or a shorter time",
+        end / dt
+    );
+    Ok(())
 }
 
 /// Measures a droplet whenever it is called, and writes all observables to a CSV file.
