@@ -11,7 +11,7 @@
 //! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG |
 //! | results | [`Summary`] (`summary.json` and a table), [`Trajectory`] (CSV) |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
-//! | runs with a droplet | the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`]; [`droplet_summary`], [`time_series`] |
+//! | runs with a droplet | [`WatchedRun`] with the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`] |
 //!
 //! Pictures need no fonts of the system and no C libraries: lines, areas and letters are drawn by [`Canvas`] and
 //! [`Svg`], two implementations of [`Surface`].
@@ -56,6 +56,7 @@ mod ticks;
 mod trajectory;
 mod vtk;
 mod vtk_output;
+mod watched_run;
 
 pub use animation::Animation;
 pub use axes::AxisScale;
@@ -81,6 +82,7 @@ pub use svg::Svg;
 pub use trajectory::Trajectory;
 pub use vtk::{VtkFile, VtkSeries};
 pub use vtk_output::VtkOutput;
+pub use watched_run::{WatchedRun, caption};
 
 /// A point or vector in the plane.
 pub type Vec2 = nalgebra::Vector2<f64>;

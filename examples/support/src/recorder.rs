@@ -57,7 +57,8 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// A recorder of a droplet that writes to `path`; the columns are the time and those of [`Observables::entries`].
+    /// A recorder of a droplet that writes to `path`; the columns are the time, those of [`Observables::entries`], and
+    /// between walls the `gap` to them (length) and the mean `pressure_gradient` along them (force per volume).
     ///
     /// # Errors
     /// A file that cannot be written, a state that cannot be measured.
@@ -67,14 +68,18 @@ impl Recorder {
         droplet: Handle<ActiveDroplet>,
     ) -> Result<Self> {
         let columns = measure(system, droplet)?.entries().into_iter().map(|(name, _)| name);
-        let names: Vec<&str> = std::iter::once("time").chain(columns).collect();
+        let between_walls: &[&str] = if system.wall_gap().is_some() { &["gap", "pressure_gradient"] } else { &[] };
+        let names: Vec<&str> = std::iter::once("time").chain(columns).chain(between_walls.iter().copied()).collect();
         Ok(Self { droplet, trajectory: Trajectory::create(path, &names)?, first: None, last: None })
     }
 
     fn record<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<()> {
         let seen = measure(system, self.droplet)?;
         let values = seen.entries().into_iter().map(|(_, value)| value.unwrap_or(f64::NAN));
-        let row: Vec<f64> = std::iter::once(system.time()).chain(values).collect();
+        let mut row: Vec<f64> = std::iter::once(system.time()).chain(values).collect();
+        if let Some(gap) = system.wall_gap() {
+            row.extend([gap, system.report().mean_pressure_gradient[0]]);
+        }
         self.trajectory.push(&row)?;
         self.first.get_or_insert_with(|| seen.clone());
         self.last = Some(seen);

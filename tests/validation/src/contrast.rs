@@ -242,11 +242,8 @@ fn interpolate(values: &[Vec2], t: f64) -> Vec2 {
     for (k, value) in values.iter().enumerate() {
         let half = 0.5 * (t - TAU * k as f64 / count as f64);
         // The kernel of Dirichlet for an even number of values.
-        let weight = if half.sin().abs() < 1e-12 {
-            1.0
-        } else {
-            (count as f64 * half).sin() / (half.tan() * count as f64)
-        };
+        let weight =
+            if half.sin().abs() < 1e-12 { 1.0 } else { (count as f64 * half).sin() / (half.tan() * count as f64) };
         sum += weight * value;
     }
     sum
