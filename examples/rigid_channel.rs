@@ -9,6 +9,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile::Swimmer;
+use motile::active_interface::{Evidence, RegimeCriteria, net_flux};
 use support::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption};
 
 /// An active droplet swims in a channel with rigid walls.
@@ -44,10 +45,21 @@ fn swim(flags: &Flags) -> Result<()> {
 
     // The results, also of a run that broke off.
     let mut summary = run.summary()?;
-    let system = scene.system();
-    let gradient = system.report().mean_pressure_gradient[0];
-    summary.put("pressure_gradient", gradient, "mean along the channel, in the end");
-    summary.put("minimum_gap", system.minimum_wall_gap(), "to the walls, over the run (R0)");
+    let report = run.recorder().records().regime(&RegimeCriteria::default())?;
+    let Evidence { amplitude, period, growth_rate, .. } = report.evidence;
+    summary.put("regime", report.regime.to_string(), "across the channel");
+    summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
+    summary.put("period", period.map(|period| period.value), "of the oscillation");
+    summary.put("growth_rate", growth_rate.map(|rate| rate.value), "of its amplitude");
+    if let Some(last) = run.recorder().last() {
+        summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
+        // Far from the interface, where the flow is smooth.
+        let flux = net_flux(scene.system_mut(), last.observables.centroid.x + 0.5 * length)?;
+        summary.put("net_flux", flux, "along the channel (R0^2 per time)");
+        summary.put("retrograde_flow", last.flow.map(|flow| flow.retrograde()), "past the droplet, seen from it");
+        summary.put("gap", last.gap, "to the walls, in the end (R0)");
+    }
+    summary.put("minimum_gap", scene.system().minimum_wall_gap(), "to the walls, over the run (R0)");
     summary.write(&run.directory().join("summary.json"))?;
     print!("{}", summary.table());
     run.write_pictures(&mut scene)?;

@@ -72,7 +72,7 @@ pub use picture::{Format, Picture};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::Progress;
 pub use raster::{Raster, ScalarSamples, VectorSamples};
-pub use recorder::{Dial, Recorder, check_run, measure};
+pub use recorder::{Dial, Recorder, check_run};
 pub use snapshot::{Snapshot, at_markers, domain_raster};
 pub use steady::Steadiness;
 pub use streamlines::streamlines;

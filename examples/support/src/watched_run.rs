@@ -129,9 +129,15 @@ impl WatchedRun {
     /// A run that has not been.
     pub fn summary(&self) -> Result<Summary> {
         let (first, last) = self.recorder.first().zip(self.recorder.last()).context("nothing was measured")?;
-        let speeds = self.recorder.trajectory().curve("time", "speed")?;
+        let speeds = self.recorder.table().curve("time", "speed")?;
         let steadiness = Steadiness::of(&speeds, self.swimmer.diffusion / self.swimmer.radius.powi(2));
-        Ok(droplet_summary(first, last, &steadiness, &self.cost, self.swimmer.mean_concentration))
+        Ok(droplet_summary(
+            &first.observables,
+            &last.observables,
+            &steadiness,
+            &self.cost,
+            self.swimmer.mean_concentration,
+        ))
     }
 
     /// Draws the final state (`final.png`), the run (`swim.gif`) and the plots, unless pictures are not wanted.
@@ -140,10 +146,10 @@ impl WatchedRun {
     /// Files that cannot be written.
     pub fn write_pictures<H: Hydrodynamics>(&self, scene: &mut Scene<H>) -> Result<()> {
         let (Some((film, _)), Some(last)) = (&self.pictures, self.recorder.last()) else { return Ok(()) };
-        let (directory, trajectory) = (&self.directory, self.recorder.trajectory());
+        let (directory, trajectory) = (&self.directory, self.recorder.table());
         time_series(trajectory)?.write(directory, "time_series")?;
         let body = scene.body(self.droplet);
-        let frame = Frame::of_motion(last.centroid, last.velocity)?;
+        let frame = Frame::of_motion(last.observables.centroid, last.observables.velocity)?;
         let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
         concentration_plot(&self.start, &profile, self.cost.time, self.swimmer.mean_concentration)?
             .write(directory, "concentration_profile")?;
