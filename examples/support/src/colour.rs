@@ -93,6 +93,9 @@ pub enum Limits {
     /// Symmetric about zero, so that the middle of a diverging map means zero. The end is the magnitude that all but
     /// two values in a thousand stay below: a few cells next to an interface would otherwise set the scale of all others.
     Symmetric,
+    /// The range of all but the smallest and the largest one in two hundred: shows the differences among most values where
+    /// a few stand out on either side.
+    Most,
     /// Given ends, for series of pictures to be compared.
     Fixed(f64, f64),
 }
@@ -115,6 +118,13 @@ impl ColourScale {
             Limits::Fixed(low, high) => (low, high),
             Limits::Data => (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)),
             Limits::FromZero => (0.0, finite().fold(0.0, f64::max)),
+            Limits::Most => {
+                let mut sorted: Vec<f64> = finite().collect();
+                sorted.sort_unstable_by(f64::total_cmp);
+                let rank = sorted.len() / 200;
+                let end = |k: usize| sorted.get(k).copied().unwrap_or(0.0);
+                (end(rank), end(sorted.len().saturating_sub(1 + rank)))
+            }
             Limits::Symmetric => {
                 let mut sizes: Vec<f64> = finite().map(f64::abs).collect();
                 let end = if sizes.is_empty() {
@@ -175,9 +185,16 @@ mod tests {
     }
 
     #[test]
+    fn most_leaves_out_what_stands_out() {
+        let mut values: Vec<f64> = (0..200).map(f64::from).collect();
+        (values[3], values[90]) = (-1e6, 1e6);
+        assert_eq!(ColourScale::new(ColourMap::Rainbow, Limits::Most, &values).ends(), [1.0, 198.0]);
+    }
+
+    #[test]
     fn empty_constant_and_nan_data_give_a_usable_scale() {
         for values in [vec![], vec![3.0; 4], vec![f64::NAN, f64::INFINITY], vec![0.0]] {
-            for limits in [Limits::Data, Limits::FromZero, Limits::Symmetric] {
+            for limits in [Limits::Data, Limits::FromZero, Limits::Symmetric, Limits::Most] {
                 let [low, high] = ColourScale::new(ColourMap::Viridis, limits, &values).ends();
                 assert!(low.is_finite() && high.is_finite() && low < high, "{values:?} {limits:?}: {low} {high}");
             }

@@ -56,10 +56,19 @@ pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
     match body(&flags) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", one_line(&format!("{error:#}")));
+            eprintln!("error: {}", one_line(&chain(&error)));
             ExitCode::FAILURE
         }
     }
+}
+
+/// An error and its causes, without those that it tells already.
+fn chain(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |told, cause| match told.as_str() {
+        "" => cause,
+        _ if told.contains(&cause) => told,
+        _ => format!("{told}: {cause}"),
+    })
 }
 
 /// What is wrong with a command line, in one sentence.
@@ -180,6 +189,12 @@ mod tests {
         for (line, expected) in cases {
             assert_eq!(parse(line).unwrap_err(), expected, "{line}");
         }
+    }
+
+    #[test]
+    fn causes_are_told_once() {
+        let error = anyhow::anyhow!("no such file").context("at time 3: no such file").context("reading");
+        assert_eq!(chain(&error), "reading: at time 3: no such file");
     }
 
     #[test]

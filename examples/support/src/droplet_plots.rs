@@ -5,7 +5,7 @@ use motile::active_interface::ConcentrationProfile;
 
 use crate::{AxisScale, Figure, Plot, Series, Trajectory};
 
-/// Speed, shape and the flow's character over time.
+/// Speed, shape and the character of the flow over time; between walls also the height and the gap.
 ///
 /// # Errors
 /// A trajectory without these columns.
@@ -15,20 +15,26 @@ pub fn time_series(trajectory: &Trajectory) -> Result<Figure> {
     };
     let line =
         |label: &str, column: &str| Ok::<_, anyhow::Error>(Series::line(label, trajectory.curve("time", column)?));
-    Ok(Figure::new(2)
+    let figure = Figure::new(2)
         .panel(plot("Speed", "|v| (R_{0} per time)").series(line("", "speed")?))
         .panel(
             plot("Shape", "aspect ratio a/b")
                 .series(line("area moments", "aspect_ratio_moments")?)
                 .series(line("fitted ellipse", "aspect_ratio_ellipse")?.dashed())
-                .horizontal(1.0, "circle"),
+                .horizontal(1.0, ""),
         )
         .panel(
-            plot("Stresslet along the motion", "S_{xx} (γ_{0}R_{0})")
+            plot("Stresslet along the motion", "S_{xx}")
                 .series(line("", "stresslet_xx")?)
                 .horizontal(0.0, "pushers above, pullers below"),
         )
-        .panel(plot("Squirmer parameter", "β = B_{2}/|B_{1}|").series(line("", "beta")?).horizontal(0.0, "neutral")))
+        .panel(plot("Squirmer parameter", "β = B_{2}/|B_{1}|").series(line("", "beta")?).horizontal(0.0, "neutral"));
+    if trajectory.column("gap").is_err() {
+        return Ok(figure);
+    }
+    Ok(figure
+        .panel(plot("Height of the centroid", "y (R_{0})").series(line("", "y")?).horizontal(0.0, ""))
+        .panel(plot("Gap to the walls", "gap (R_{0})").series(line("", "gap")?).horizontal(0.0, "")))
 }
 
 /// The concentration along the interface, from the front and counter-clockwise, at the start and at `time`.

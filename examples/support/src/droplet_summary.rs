@@ -5,7 +5,7 @@ use motile::active_interface::Observables;
 use crate::{Steadiness, Summary};
 
 /// What a run took.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct RunCost {
     /// Time reached.
     pub time: f64,

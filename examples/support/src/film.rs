@@ -41,7 +41,7 @@ impl Look {
         let concentrations: Vec<f64> =
             snapshots.flat_map(|seen| seen.concentration.iter().map(|c| c / self.concentration)).collect();
         Scales {
-            pressure: ColourScale::new(ColourMap::Rainbow, Limits::Symmetric, &pressures),
+            pressure: ColourScale::new(ColourMap::Rainbow, Limits::Most, &pressures),
             concentration: ColourScale::new(ColourMap::Magma, Limits::FromZero, &concentrations),
         }
     }
@@ -49,27 +49,24 @@ impl Look {
     fn picture(&self, seen: &Snapshot, scales: &Scales, track: &[Vec2]) -> Result<Picture> {
         let concentration: Vec<f64> = seen.concentration.iter().map(|c| c / self.concentration).collect();
         let flow = VectorSamples::new(seen.raster, seen.velocity())?;
-        let picture = Picture::new(
-            ScalarSamples::new(seen.raster, seen.pressure())?,
-            scales.pressure,
-            "pressure p (γ_{0}/R_{0})",
-        )
-        .title(format!("t = {:.1}   {}", seen.time, self.caption))
-        .streamlines(flow, self.streamline_spacing, seen.centroid)
-        .interface_scale(scales.concentration, "concentration c/c_{0}")
-        .track(track)
-        .interface(&seen.markers, &concentration)?;
+        let picture = Picture::new(ScalarSamples::new(seen.raster, seen.pressure())?, scales.pressure, "pressure p")
+            .title(format!("t = {:.1}   {}", seen.time, self.caption))
+            .streamlines(flow, self.streamline_spacing, seen.centroid)
+            .interface_scale(scales.concentration, "concentration c/c_{0}")
+            .track(track)
+            .interface(&seen.markers, &concentration)?;
         Ok(match self.walls {
             Some([below, above]) => picture.walls(below, above),
             None => picture,
         })
     }
 
-    /// Draws one time with the droplet in the middle of its periods.
+    /// Draws one time with the droplet in the middle of its periods, between walls with the path of its centroid so far.
     ///
     /// # Errors
     /// A file that cannot be written.
     pub fn write_picture(&self, seen: &Snapshot, track: &[Vec2], path: &Path) -> Result<()> {
+        let track = if self.walls.is_some() { last_period(track, &seen.raster) } else { &[] };
         let picture = self.picture(seen, &self.scales(std::iter::once(seen)), track)?;
         let [low, size] = [seen.raster.origin(), seen.raster.size()].map(Vec2::from);
         let middle = low + 0.5 * size;
@@ -99,20 +96,36 @@ impl Film {
         Ok(Self { look, raster, frames: Vec::new() })
     }
 
-    /// Writes the animation, each frame with the path of the centroid up to it if `with_track`.
+    /// How it is drawn.
+    #[must_use]
+    pub fn look(&self) -> &Look {
+        &self.look
+    }
+
+    /// Writes the animation, between walls each frame with the path so far; `track` has times and positions of the
+    /// centroid.
     ///
     /// # Errors
     /// No frames, a file that cannot be written.
-    pub fn write(&self, with_track: bool, path: &Path) -> Result<()> {
+    pub fn write(&self, track: &[(f64, Vec2)], path: &Path) -> Result<()> {
         let scales = self.look.scales(self.frames.iter());
-        let track: Vec<Vec2> = self.frames.iter().map(|seen| seen.centroid).collect();
+        let positions: Vec<Vec2> = track.iter().map(|(_, position)| *position).collect();
         let mut animation = Animation::new(path, RATE);
-        for (k, seen) in self.frames.iter().enumerate() {
-            let track = if with_track { &track[..=k] } else { &[] };
+        for seen in &self.frames {
+            let so_far = &positions[..track.partition_point(|(time, _)| *time <= seen.time)];
+            let track = if self.look.walls.is_some() { last_period(so_far, &self.raster) } else { &[] };
             animation.push(&self.look.picture(seen, &scales, track)?.draw(&Format::frame())?)?;
         }
         animation.finish()
     }
+}
+
+/// The end of a path that is no longer than three quarters of the period in x: more of it would be drawn over itself.
+pub(crate) fn last_period<'a>(path: &'a [Vec2], raster: &Raster) -> &'a [Vec2] {
+    let Some(&end) = path.last() else { return path };
+    let reach = 0.75 * raster.size()[0];
+    let start = path.iter().rposition(|p| (p.x - end.x).abs() > reach).map_or(0, |k| k + 1);
+    &path[start..]
 }
 
 impl<H: Hydrodynamics> Observer<H> for Film {

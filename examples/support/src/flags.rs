@@ -1,6 +1,7 @@
 //! Command line flags that scenes share, in groups to be put together with `#[command(flatten)]`.
 //!
-//! Units are those of the thesis: lengths in R0, tensions in gamma0, times and viscosities as its Appendix A has them.
+//! Units are those of the thesis' simulations: lengths in R0, tensions such that gamma0 = 10, times such that D = 0.1; its
+//! Appendix A converts them.
 
 use std::path::{Path, PathBuf};
 
@@ -48,10 +49,19 @@ pub enum Drive {
     ZeroGradient,
 }
 
+impl From<Drive> for motile::stokes_grid::Drive {
+    fn from(drive: Drive) -> Self {
+        match drive {
+            Drive::ZeroFlux => Self::ZeroFlux,
+            Drive::ZeroGradient => Self::ZeroGradient,
+        }
+    }
+}
+
 /// The droplet.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct DropletFlags {
-    /// Activity zeta delta-mu (gamma0/c0), negative: contractile
+    /// Activity zeta delta-mu, negative: contractile
     #[arg(long, default_value_t = -2.0, value_parser = activity, allow_hyphen_values = true)]
     pub activity: f64,
     /// Strength A of the excluded volume tension
@@ -141,10 +151,10 @@ impl MethodFlags {
             "--{flag} {length} at --spacing {h} makes {cells:.0} cells, more than {MOST_CELLS}: give a larger spacing"
         );
         let whole = cells.round();
+        let fitting = (whole * h * 1e9).round() / 1e9;
         ensure!(
             (cells - whole).abs() <= 1e-9 * whole,
-            "--{flag} {length} is {cells:.3} cells of --spacing {h}: give a spacing that divides it, such as {}",
-            length / whole
+            "--{flag} {length} is {cells:.3} cells of --spacing {h}: give --{flag} {fitting} or a spacing that divides it"
         );
         Ok(whole as usize)
     }

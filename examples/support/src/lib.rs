@@ -11,7 +11,7 @@
 //! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG |
 //! | results | [`Summary`] (`summary.json` and a table), [`Trajectory`] (CSV) |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
-//! | runs with a droplet | the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`]; [`droplet_summary`], [`time_series`] |
+//! | runs with a droplet | [`WatchedRun`] with the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`] |
 //!
 //! Pictures need no fonts of the system and no C libraries: lines, areas and letters are drawn by [`Canvas`] and
 //! [`Svg`], two implementations of [`Surface`].
@@ -56,6 +56,7 @@ mod ticks;
 mod trajectory;
 mod vtk;
 mod vtk_output;
+mod watched_run;
 
 pub use animation::Animation;
 pub use axes::AxisScale;
@@ -71,7 +72,7 @@ pub use picture::{Format, Picture};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::Progress;
 pub use raster::{Raster, ScalarSamples, VectorSamples};
-pub use recorder::{Dial, Recorder, measure};
+pub use recorder::{Dial, Recorder, check_run};
 pub use snapshot::{Snapshot, at_markers, domain_raster};
 pub use steady::Steadiness;
 pub use streamlines::streamlines;
@@ -81,6 +82,7 @@ pub use svg::Svg;
 pub use trajectory::Trajectory;
 pub use vtk::{VtkFile, VtkSeries};
 pub use vtk_output::VtkOutput;
+pub use watched_run::{WatchedRun, caption};
 
 /// A point or vector in the plane.
 pub type Vec2 = nalgebra::Vector2<f64>;

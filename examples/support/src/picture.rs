@@ -24,10 +24,10 @@ impl Format {
         Self { width: 1200, levels: 256, streamline_spacing: 1.0, type_sizes: 58.0 }
     }
 
-    /// 480 pixels wide, with contour bands and fewer streamlines, for animations.
+    /// 440 pixels wide, with contour bands and fewer streamlines, for animations.
     #[must_use]
     pub fn frame() -> Self {
-        Self { width: 480, levels: 20, streamline_spacing: 1.6, type_sizes: 40.0 }
+        Self { width: 440, levels: 20, streamline_spacing: 2.0, type_sizes: 37.0 }
     }
 
     /// The same with another width (pixels).
@@ -65,7 +65,7 @@ pub(crate) struct ColouredCurve {
 ///     .interface_scale(over_interface, "concentration c/c_{0}")
 ///     .interface(&circle, &concentration)?;
 /// let canvas = picture.draw(&Format::frame())?;
-/// assert_eq!(canvas.size()[0], 480);
+/// assert_eq!(canvas.size()[0], 440);
 /// # Ok(())
 /// # }
 /// ```

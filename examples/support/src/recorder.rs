@@ -2,37 +2,55 @@
 
 use std::{mem::discriminant, path::Path};
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, anyhow, ensure};
 use motile::{
-    active_interface::{ActiveDroplet, Convention, DropletWarning, Observables, centroid_velocity, observe},
-    ib_core::{Handle, Hydrodynamics, Observer, System},
+    active_interface::{ActiveDroplet, DropletWarning, Record, TrajectoryRecorder, centroid_velocity},
+    ib_core::{Handle, Hydrodynamics, Observer, Scene, StepSize, System},
 };
 
 use crate::{Progress, Trajectory};
 
 type Outcome = Result<(), Box<dyn std::error::Error + Send + Sync>>;
 
-/// All observables of a droplet at the present state of its system.
+/// Most steps of a run: more would take weeks.
+const MOST_STEPS: f64 = 1e9;
+
+/// Refuses a run that could not start with its time step, or could not end in a lifetime, before anything is written.
 ///
 /// # Errors
-/// A flow that cannot be computed, a state that cannot be measured.
-pub fn measure<H: Hydrodynamics>(system: &mut System<H>, droplet: Handle<ActiveDroplet>) -> Result<Observables> {
-    system.evaluate()?;
-    let body: &ActiveDroplet = system.find().context("a scene without a droplet cannot be measured")?;
-    Ok(observe(&body.interface_state(system, droplet.index()), Convention::FarField)?)
+/// A time step that is not stable, or one so short that the run would take more than 1e9 steps.
+pub fn check_run<H: Hydrodynamics>(scene: &mut Scene<H>, end: f64, step: StepSize) -> Result<()> {
+    let dt = match step {
+        StepSize::Fixed(dt) => {
+            scene.check_step(dt)?;
+            dt
+        }
+        StepSize::OfLimit(fraction) => {
+            scene.system().step_limit().map_or(f64::INFINITY, |(limit, _)| fraction * limit.dt)
+        }
+    };
+    ensure!(
+        end / dt <= MOST_STEPS,
+        "time {end} would take {:.0e} steps of {dt:.1e}: give a higher viscosity, a larger spacing or a shorter time",
+        end / dt
+    );
+    Ok(())
 }
 
-/// Measures a droplet whenever it is called, and writes all observables to a CSV file.
+/// Columns that only channels have.
+const BETWEEN_WALLS: [&str; 4] = ["gap", "pressure_gradient", "net_flux", "retrograde_flow"];
+
+/// A [`TrajectoryRecorder`] that also writes what it sees to a CSV file.
 #[derive(Debug)]
 pub struct Recorder {
-    droplet: Handle<ActiveDroplet>,
-    trajectory: Trajectory,
-    first: Option<Observables>,
-    last: Option<Observables>,
+    records: TrajectoryRecorder,
+    table: Trajectory,
+    columns: Vec<usize>,
 }
 
 impl Recorder {
-    /// A recorder of a droplet that writes to `path`; the columns are the time and those of [`Observables::entries`].
+    /// A recorder of a droplet that writes to `path`; the columns are those of [`Record::entries`], without those about
+    /// walls where there are none.
     ///
     /// # Errors
     /// A file that cannot be written, a state that cannot be measured.
@@ -41,37 +59,47 @@ impl Recorder {
         system: &mut System<H>,
         droplet: Handle<ActiveDroplet>,
     ) -> Result<Self> {
-        let columns = measure(system, droplet)?.entries().into_iter().map(|(name, _)| name);
-        let names: Vec<&str> = std::iter::once("time").chain(columns).collect();
-        Ok(Self { droplet, trajectory: Trajectory::create(path, &names)?, first: None, last: None })
+        let walls = system.hydrodynamics().medium().domain.walls.is_some();
+        let records = TrajectoryRecorder::new(droplet);
+        let records = if walls { records.with_gap_flow() } else { records };
+        let mut probe = records.clone();
+        probe.observe(system).map_err(|error| anyhow!(error))?;
+        let entries = probe.records()[0].entries();
+        let wanted = |k: &usize| walls || !BETWEEN_WALLS.contains(&entries[*k].0);
+        let columns: Vec<usize> = (0..entries.len()).filter(wanted).collect();
+        let names: Vec<&str> = columns.iter().map(|&k| entries[k].0).collect();
+        Ok(Self { records, table: Trajectory::create(path, &names)?, columns })
     }
 
     fn record<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<()> {
-        let seen = measure(system, self.droplet)?;
-        let values = seen.entries().into_iter().map(|(_, value)| value.unwrap_or(f64::NAN));
-        let row: Vec<f64> = std::iter::once(system.time()).chain(values).collect();
-        self.trajectory.push(&row)?;
-        self.first.get_or_insert_with(|| seen.clone());
-        self.last = Some(seen);
-        Ok(())
+        self.records.observe(system).map_err(|error| anyhow!(error))?;
+        let entries = self.last().map(Record::entries).unwrap_or_default();
+        let row: Vec<f64> = self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect();
+        self.table.push(&row)
+    }
+
+    /// Everything measured, record by record.
+    #[must_use]
+    pub fn records(&self) -> &TrajectoryRecorder {
+        &self.records
     }
 
     /// Everything measured, by column.
     #[must_use]
-    pub fn trajectory(&self) -> &Trajectory {
-        &self.trajectory
+    pub fn table(&self) -> &Trajectory {
+        &self.table
     }
 
     /// What was measured first.
     #[must_use]
-    pub fn first(&self) -> Option<&Observables> {
-        self.first.as_ref()
+    pub fn first(&self) -> Option<&Record> {
+        self.records.records().first()
     }
 
     /// What was measured last.
     #[must_use]
-    pub fn last(&self) -> Option<&Observables> {
-        self.last.as_ref()
+    pub fn last(&self) -> Option<&Record> {
+        self.records.records().last()
     }
 
     /// Makes sure that everything is in the file. After a run that broke off its last state is measured too, if it can
@@ -80,13 +108,12 @@ impl Recorder {
     /// # Errors
     /// A file that cannot be written.
     pub fn finish<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<()> {
-        let time = self.trajectory.column("time")?.last().copied();
-        if time != Some(system.time())
+        if self.last().map(|record| record.time) != Some(system.time())
             && let Err(error) = self.record(system)
         {
             eprintln!("note: the last state could not be measured: {error:#}");
         }
-        self.trajectory.flush()
+        self.table.flush()
     }
 }
 

@@ -10,7 +10,7 @@ use anyhow::{Result, ensure};
 use crate::{Raster, Vec2, VectorSamples};
 
 /// Ends of a line: how near, in units of the spacing, it may come to others and to an earlier part of itself.
-const NEAREST_OTHER: f64 = 0.55;
+const NEAREST_OTHER: f64 = 0.35;
 const NEAREST_SELF: f64 = 0.3;
 /// Steps per spacing.
 const STEPS: f64 = 8.0;

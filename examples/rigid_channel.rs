@@ -1,0 +1,68 @@
+//! An active droplet swims in a channel with rigid no-slip walls (thesis, chapter 3).
+//!
+//! `cargo run --release --example rigid_channel` simulates it, prints what was measured, and writes to
+//! `out/rigid_channel/` what the example `swimming_droplet` writes, with the channel and the path of the droplet in the
+//! pictures. `--help` lists the flags.
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use clap::Parser;
+use motile::Swimmer;
+use motile::active_interface::{Evidence, RegimeCriteria, net_flux};
+use support::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption};
+
+/// An active droplet swims in a channel with rigid walls.
+#[derive(Debug, Parser)]
+struct Flags {
+    #[command(flatten)]
+    droplet: DropletFlags,
+    #[command(flatten)]
+    channel: ChannelFlags,
+    #[command(flatten)]
+    method: MethodFlags,
+    #[command(flatten)]
+    output: OutputFlags,
+}
+
+fn main() -> ExitCode {
+    support::run(swim)
+}
+
+fn swim(flags: &Flags) -> Result<()> {
+    // The droplet, in the middle of its channel unless an offset is given, and the channel.
+    let ChannelFlags { width, length, lateral_offset, drive } = flags.channel;
+    flags.channel.cells(&flags.method)?;
+    let swimmer =
+        Swimmer { lengths: [length, width], offset: [0.0, lateral_offset], ..flags.droplet.swimmer(&flags.method) };
+    let (mut scene, droplet) = swimmer.build_in_channel(drive.into())?;
+
+    // The run, with all that watches it.
+    let title = format!("{},  w = {width},  l = {length}", caption(&swimmer));
+    let end = flags.method.time;
+    let mut run = WatchedRun::new(&mut scene, droplet, &swimmer, end, &flags.output, "rigid_channel", title)?;
+    let outcome = run.go(&mut scene)?;
+
+    // The results, also of a run that broke off.
+    let mut summary = run.summary()?;
+    let report = run.recorder().records().regime(&RegimeCriteria::default())?;
+    let Evidence { amplitude, period, growth_rate, .. } = report.evidence;
+    summary.put("regime", report.regime.to_string(), "across the channel");
+    summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
+    summary.put("period", period.map(|period| period.value), "of the oscillation");
+    summary.put("growth_rate", growth_rate.map(|rate| rate.value), "of its amplitude");
+    if let Some(last) = run.recorder().last() {
+        summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
+        // Far from the interface, where the flow is smooth.
+        let flux = net_flux(scene.system_mut(), last.observables.centroid.x + 0.5 * length)?;
+        summary.put("net_flux", flux, "along the channel (R0^2 per time)");
+        summary.put("retrograde_flow", last.flow.map(|flow| flow.retrograde()), "past the droplet, seen from it");
+        summary.put("gap", last.gap, "to the walls, in the end (R0)");
+    }
+    summary.put("minimum_gap", scene.system().minimum_wall_gap(), "to the walls, over the run (R0)");
+    summary.write(&run.directory().join("summary.json"))?;
+    print!("{}", summary.table());
+    run.write_pictures(&mut scene)?;
+    println!("results in {}", run.directory().display());
+    Ok(outcome?)
+}

@@ -1,0 +1,170 @@
+//! A run of a scene with a droplet, from the first check to the last file.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+use motile::{
+    Swimmer,
+    active_interface::{ActiveDroplet, ConcentrationProfile, Frame, concentration_profile},
+    ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, Vec2},
+};
+
+use crate::{
+    Dial, Film, Look, OutputFlags, Raster, Recorder, RunCost, Snapshot, Steadiness, Summary, VtkOutput, check_run,
+    concentration_plot, domain_raster, droplet_summary, time_series,
+};
+
+/// Rows of the trajectory and files for ParaView in a run.
+const ROWS: f64 = 1000.0;
+const FILES: f64 = 20.0;
+/// Time between frames of the animation, of which there are some number in this range.
+const FRAME_INTERVAL: f64 = 1.2;
+const FRAMES: [f64; 2] = [50.0, 150.0];
+/// Most cells in a direction of the fields in pictures and files.
+const MOST_CELLS: usize = 512;
+/// Distance of streamlines (R0).
+const STREAMLINES: f64 = 0.24;
+
+/// A run of a scene with one droplet, and all that watches it.
+#[derive(Debug)]
+pub struct WatchedRun {
+    droplet: Handle<ActiveDroplet>,
+    swimmer: Swimmer,
+    end: f64,
+    directory: PathBuf,
+    raster: Raster,
+    start: ConcentrationProfile,
+    recorder: Recorder,
+    dial: Dial,
+    pictures: Option<(Film, VtkOutput)>,
+    cost: RunCost,
+}
+
+impl WatchedRun {
+    /// A run to time `end` of a scene that was made from `swimmer`. Its results go where `output` says, by default to
+    /// `out/<name>/`; pictures bear the `caption`.
+    ///
+    /// # Errors
+    /// A time step that is not stable, before anything is written; a directory that cannot be made.
+    pub fn new<H: Hydrodynamics>(
+        scene: &mut Scene<H>,
+        droplet: Handle<ActiveDroplet>,
+        swimmer: &Swimmer,
+        end: f64,
+        output: &OutputFlags,
+        name: &str,
+        caption: String,
+    ) -> Result<Self> {
+        check_run(scene, end, swimmer.step)?;
+        let body = scene.body(droplet);
+        let frame = Frame::new(Vec2::new(swimmer.offset[0], swimmer.offset[1]), swimmer.angle)?;
+        let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
+        let domain = scene.system().hydrodynamics().medium().domain;
+        let raster = domain_raster(&domain, swimmer.spacing, MOST_CELLS)?;
+
+        let directory = output.directory(name)?;
+        let recorder = Recorder::create(&directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
+        let pictures = if output.no_pictures {
+            None
+        } else {
+            let concentration = swimmer.mean_concentration;
+            let look = Look { caption, concentration, walls: domain.walls, streamline_spacing: STREAMLINES };
+            Some((Film::new(look, &raster)?, VtkOutput::create(&directory.join("vtk"), raster, droplet)?))
+        };
+        Ok(Self {
+            droplet,
+            swimmer: swimmer.clone(),
+            end,
+            directory,
+            raster,
+            start,
+            recorder,
+            dial: Dial::new(end, output.quiet, droplet),
+            pictures,
+            cost: RunCost::default(),
+        })
+    }
+
+    /// Runs. What the scene has come to is recorded even where it breaks off.
+    ///
+    /// # Errors
+    /// What made the run break off, as the inner result; files that cannot be written.
+    pub fn go<H: Hydrodynamics>(&mut self, scene: &mut Scene<H>) -> Result<Result<(), SceneError>> {
+        let mut run = scene
+            .run(self.end)
+            .step_size(self.swimmer.step)
+            .observe(Every::Time(self.end / ROWS), &mut self.recorder)
+            .observe(Every::Steps(1), &mut self.dial);
+        if let Some((film, vtk)) = &mut self.pictures {
+            let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
+            run = run.observe(Every::Time(self.end / frames), film).observe(Every::Time(self.end / FILES), vtk);
+        }
+        let outcome = run.go();
+        self.cost = RunCost {
+            time: scene.time(),
+            steps: scene.steps(),
+            seconds: self.dial.finish(),
+            stokes_solves: scene.system().hydrodynamics().work().stokes_solves,
+            failure: outcome.as_ref().err().map(ToString::to_string),
+        };
+        self.recorder.finish(scene.system_mut())?;
+        Ok(outcome)
+    }
+
+    /// What was measured.
+    #[must_use]
+    pub fn recorder(&self) -> &Recorder {
+        &self.recorder
+    }
+
+    /// Where the results are.
+    #[must_use]
+    pub fn directory(&self) -> &Path {
+        &self.directory
+    }
+
+    /// The results that all scenes with a droplet have.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn summary(&self) -> Result<Summary> {
+        let (first, last) = self.recorder.first().zip(self.recorder.last()).context("nothing was measured")?;
+        let speeds = self.recorder.table().curve("time", "speed")?;
+        let steadiness = Steadiness::of(&speeds, self.swimmer.diffusion / self.swimmer.radius.powi(2));
+        Ok(droplet_summary(
+            &first.observables,
+            &last.observables,
+            &steadiness,
+            &self.cost,
+            self.swimmer.mean_concentration,
+        ))
+    }
+
+    /// Draws the final state (`final.png`), the run (`swim.gif`) and the plots, unless pictures are not wanted.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn write_pictures<H: Hydrodynamics>(&self, scene: &mut Scene<H>) -> Result<()> {
+        let (Some((film, _)), Some(last)) = (&self.pictures, self.recorder.last()) else { return Ok(()) };
+        let (directory, trajectory) = (&self.directory, self.recorder.table());
+        time_series(trajectory)?.write(directory, "time_series")?;
+        let body = scene.body(self.droplet);
+        let frame = Frame::of_motion(last.observables.centroid, last.observables.velocity)?;
+        let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
+        concentration_plot(&self.start, &profile, self.cost.time, self.swimmer.mean_concentration)?
+            .write(directory, "concentration_profile")?;
+        let times = trajectory.column("time")?;
+        let path: Vec<Vec2> = trajectory.curve("x", "y")?.into_iter().map(|(x, y)| Vec2::new(x, y)).collect();
+        let seen = Snapshot::take(scene.system_mut(), self.raster)?;
+        film.look().write_picture(&seen, &path, &directory.join("final.png"))?;
+        let track: Vec<(f64, Vec2)> = times.into_iter().zip(path).collect();
+        film.write(&track, &directory.join("swim.gif"))
+    }
+}
+
+/// The parameters of a swimmer as they stand above a picture.
+#[must_use]
+pub fn caption(swimmer: &Swimmer) -> String {
+    let Swimmer { activity, excluded_volume, viscosity, .. } = swimmer;
+    format!("ζΔμ = {activity},  A = {excluded_volume},  η = {viscosity}").replace('-', "−")
+}
