@@ -10,7 +10,7 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
 use realfft::RealFftPlanner;
 
-/// Droplets in a row along x with four markers a node and a tension that makes them swim.
+/// Droplets in rows of four with four markers a node and a tension that makes them swim.
 fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Markers {
     let count = 4 * nodes;
     let mut markers = Markers::new();
@@ -21,7 +21,8 @@ fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Mark
         let angle = |k: usize| TAU * k as f64 / count as f64;
         for (k, position) in markers.positions[range.clone()].iter_mut().enumerate() {
             let (sin, cos) = angle(k).sin_cos();
-            *position = Vec2::new(1.05 * cos + 2.6 * droplet as f64, sin / 1.05);
+            let (column, row) = (droplet % 4, droplet / 4);
+            *position = Vec2::new(1.05 * cos + 2.6 * column as f64, sin / 1.05 + 2.6 * row as f64);
         }
         let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
         let (positions, forces) = (&markers.positions[range.clone()], &mut markers.forces[range]);
@@ -104,7 +105,10 @@ fn benches(c: &mut Criterion) {
             evaluation(c, "channel 12 x 3", Channel::new(12.0, 3.0).expect("a valid scene"), nodes, ratio, 1);
         }
     }
-    evaluation(c, "box 26", PeriodicBox::new(26.0, 26.0).expect("a valid scene"), 64, 100.0, 10);
+    for ratio in [1.0, 100.0] {
+        evaluation(c, "free space", FreeSpace, 64, ratio, 10);
+        evaluation(c, "box 10.4", PeriodicBox::new(10.4, 10.4).expect("a valid scene"), 64, ratio, 10);
+    }
 }
 
 fn config() -> Criterion {
