@@ -7,10 +7,10 @@ use boundary_integral::{
     BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, PeriodicCalculus, Settings, TensionPlacement,
 };
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
+use ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 use realfft::RealFftPlanner;
 
-/// Droplets in a row along x with four markers a node and a tension that makes them swim.
+/// Droplets in rows of four with four markers a node and a tension that makes them swim.
 fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Markers {
     let count = 4 * nodes;
     let mut markers = Markers::new();
@@ -21,7 +21,8 @@ fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Mark
         let angle = |k: usize| TAU * k as f64 / count as f64;
         for (k, position) in markers.positions[range.clone()].iter_mut().enumerate() {
             let (sin, cos) = angle(k).sin_cos();
-            *position = Vec2::new(1.05 * cos + 2.6 * droplet as f64, sin / 1.05);
+            let (column, row) = (droplet % 4, droplet / 4);
+            *position = Vec2::new(1.05 * cos + 2.6 * column as f64, sin / 1.05 + 2.6 * row as f64);
         }
         let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
         let (positions, forces) = (&markers.positions[range.clone()], &mut markers.forces[range]);
@@ -37,7 +38,7 @@ fn evaluation<D: FluidDomain>(c: &mut Criterion, name: &str, domain: D, nodes: u
     let mut markers = markers(nodes, inside, droplets);
     let mut group = c.benchmark_group(format!("{name} droplets {droplets} ratio {ratio}"));
     let mut phase = 0.0f64;
-    let mut iterations = (0, 0);
+    let mut iterations = (0u32, 0u32);
     group.bench_function(BenchmarkId::from_parameter(nodes), |b| {
         b.iter(|| {
             // The forces change from step to step by some parts in a thousand, as they do in a run.
@@ -46,11 +47,26 @@ fn evaluation<D: FluidDomain>(c: &mut Criterion, name: &str, domain: D, nodes: u
             markers.forces.iter_mut().for_each(|force| force.x *= factor);
             let report = solver.velocities(black_box(&mut markers)).expect("a valid scene");
             markers.forces.iter_mut().for_each(|force| force.x /= factor);
-            iterations = (iterations.0 + report.iterations, iterations.1 + 1);
+            iterations = (iterations.0 + report.iterations as u32, iterations.1 + 1);
             report
         });
     });
-    println!("iterations: {:.1}", iterations.0 as f64 / iterations.1 as f64);
+    if iterations.1 > 0 {
+        println!("iterations: {:.1}", f64::from(iterations.0) / f64::from(iterations.1));
+    }
+}
+
+/// Time of a thousand samples on a square that holds the droplet.
+fn samples<D: FluidDomain>(c: &mut Criterion, name: &str, domain: D) {
+    let mut solver = BoundaryIntegral::new(domain, 1.0, Settings::default()).expect("a valid scene");
+    let mut markers = markers(64, Some(100.0), 1);
+    solver.velocities(&mut markers).expect("a valid scene");
+    let points: Vec<Vec2> =
+        (0..1000).map(|k| Vec2::new(0.08 * f64::from(k % 32) - 1.25, 0.08 * f64::from(k / 32) - 1.25)).collect();
+    let mut out = vec![FlowSample::default(); points.len()];
+    c.bench_function(&format!("{name}: a thousand samples"), |b| {
+        b.iter(|| solver.sample(&markers, black_box(&points), &mut out).expect("a valid scene"));
+    });
 }
 
 /// Forward and inverse real transform of a square grid, rows and columns, with the transposes.
@@ -104,7 +120,13 @@ fn benches(c: &mut Criterion) {
             evaluation(c, "channel 12 x 3", Channel::new(12.0, 3.0).expect("a valid scene"), nodes, ratio, 1);
         }
     }
-    evaluation(c, "box 26", PeriodicBox::new(26.0, 26.0).expect("a valid scene"), 64, 100.0, 10);
+    samples(c, "free space", FreeSpace);
+    samples(c, "box 6", PeriodicBox::new(6.0, 6.0).expect("a valid scene"));
+    samples(c, "channel 12 x 3", Channel::new(12.0, 3.0).expect("a valid scene"));
+    for ratio in [1.0, 100.0] {
+        evaluation(c, "free space", FreeSpace, 64, ratio, 10);
+        evaluation(c, "box 10.4", PeriodicBox::new(10.4, 10.4).expect("a valid scene"), 64, ratio, 10);
+    }
 }
 
 fn config() -> Criterion {

@@ -1,4 +1,4 @@
-//! A doubly periodic box: free-space pairs and moments where interfaces are close, rows of images where they are not.
+//! A doubly periodic box.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,15 +6,15 @@ use ib_core::FlowError;
 use num_complex::Complex64;
 
 use crate::{
-    expansion::{Binomials, Expansion, Moments},
+    far::{Division, Far, Smooth, too_close},
     field::{FieldKernel, Flow},
     images::Images,
     interface::{Interface, Transforms},
-    lattice::{Lattice, MOST_TERMS},
     lattice_kernel::LatticePair,
     layers::Pair,
     pair_kernel::FreePair,
     planes::Vectors,
+    series::{ImageKernel, SeriesFinder},
     stress::Dipoles,
     surroundings::{NodeVelocities, Surroundings},
 };
@@ -24,66 +24,22 @@ use crate::{
 pub(crate) struct BoxFlow {
     periods: [f64; 2],
     tolerance: f64,
-    lattice: Lattice,
-    binomials: Binomials,
-    expansion: Expansion,
-    moments: Vec<Moments>,
-    /// Power at which the expansion stops.
-    degree: usize,
-    products: Vec<Complex64>,
-    fluxes: Vec<f64>,
     /// 4 pi/area times the sum of X v.n, for sampling.
     mean: Complex64,
 }
 
 impl BoxFlow {
     pub(crate) fn new(periods: [f64; 2], tolerance: f64) -> Self {
-        Self {
-            periods,
-            tolerance,
-            lattice: Lattice::new(periods),
-            binomials: Binomials::new(MOST_TERMS),
-            expansion: Expansion::default(),
-            moments: Vec::new(),
-            degree: 0,
-            products: Vec::new(),
-            fluxes: Vec::new(),
-            mean: Complex64::default(),
-        }
+        Self { periods, tolerance, mean: Complex64::default() }
     }
 
-    fn offset(&self, target: &Interface, source: &Interface) -> Complex64 {
-        self.images().wrap(source.centre - target.centre)
+    fn area(&self) -> f64 {
+        self.periods[0] * self.periods[1]
     }
 
-    /// The power at which the expansion between two interfaces can stop, if it can be used at all.
-    fn degree(&self, target: &Interface, source: &Interface) -> Option<usize> {
-        let reach = self.offset(target, source).norm() + target.radius + source.radius;
-        self.lattice.degree(reach, self.tolerance)
-    }
-
-    /// Adds the smooth flow of the moments of all interfaces at all nodes.
-    fn add_smooth(&mut self, interfaces: &[Interface], out: &mut [Vectors]) {
-        for (a, (target, out)) in interfaces.iter().zip(out).enumerate() {
-            let mut any = false;
-            self.expansion.moments().clear(self.degree);
-            for (b, source) in interfaces.iter().enumerate() {
-                if self.degree(target, source).is_none() {
-                    continue;
-                }
-                any = true;
-                let shift = self.offset(target, source) / self.lattice.unit;
-                let total = self.expansion.moments();
-                if a == b {
-                    total.add(&self.moments[b]);
-                } else {
-                    total.add_shifted(&self.moments[b], shift);
-                }
-            }
-            if any {
-                self.expansion.add_flow(&self.lattice, &self.binomials, &target.position, out);
-            }
-        }
+    /// Whether rows of images run along y.
+    fn transposed(&self) -> bool {
+        self.periods[1] < self.periods[0]
     }
 
     /// 4 pi/area times the sum of X v.n over all nodes, with contrast and weight in the dipoles.
@@ -94,7 +50,7 @@ impl BoxFlow {
                 sum += z * (dipoles.xx[i] + dipoles.yy[i]);
             }
         }
-        sum * (4.0 * PI / self.lattice.area)
+        sum * (4.0 * PI / self.area())
     }
 }
 
@@ -104,38 +60,44 @@ impl Surroundings for BoxFlow {
     }
 
     fn wave(&self) -> Option<(f64, bool)> {
-        Some((TAU / self.lattice.unit, self.periods[1] < self.periods[0]))
+        None
     }
 
-    fn pair(&self, target: &Interface, source: &Interface) -> Pair {
-        let offset = self.offset(target, source);
-        let vector = [offset.re, offset.im];
-        if self.degree(target, source).is_some() {
-            Pair::Free(FreePair { offset: vector })
-        } else {
-            let across = if self.periods[1] < self.periods[0] { offset.re } else { offset.im };
-            let reach = across.abs() + target.radius + source.radius;
-            Pair::Lattice(LatticePair::new(self.periods, vector, reach, self.tolerance))
+    fn divide(&self, target: &Interface, source: &Interface, own: bool, out: &mut Division) {
+        let distance = self.images().wrap(target.centre - source.centre);
+        out.clear(distance);
+        out.smooth = Smooth::Images;
+        let reach = target.radius + source.radius;
+        for i in -2..=2 {
+            for j in -2..=2 {
+                let e = distance + Complex64::new(f64::from(i) * self.periods[0], f64::from(j) * self.periods[1]);
+                let itself = own && (i, j) == (0, 0);
+                if itself || too_close(reach, e) {
+                    out.direct.push(e);
+                    // A pair of interfaces serves both directions, so of two opposite images of its own one is enough.
+                    if !own || i > 0 || (i == 0 && j >= 0) {
+                        out.pairs.push((Pair::Free(FreePair { offset: [-e.re, -e.im] }), itself));
+                    }
+                } else {
+                    out.nearest = out.nearest.min(e.norm());
+                }
+            }
         }
     }
 
-    fn prepare(&mut self, interfaces: &mut [Interface], _transforms: &mut Transforms) -> Result<(), FlowError> {
-        let pairs = interfaces.iter().enumerate().flat_map(|(i, a)| interfaces[i..].iter().map(move |b| (a, b)));
-        self.degree = pairs.filter_map(|(a, b)| self.degree(a, b)).max().unwrap_or(0);
-        self.moments.resize_with(interfaces.len(), Moments::default);
+    fn far(&self, tolerance: f64) -> Far {
+        let transposed = self.transposed();
+        let period = self.periods[0].min(self.periods[1]);
+        let kernel = ImageKernel::Lattice(LatticePair::new(self.periods, tolerance.min(1e-12) * 1e-3), self.area());
+        let finder = SeriesFinder::new(kernel, self.images(), Some((TAU / period, transposed)));
+        Far::new(Some(finder), self.area(), Some(period), tolerance)
+    }
+
+    fn prepare(&mut self, _interfaces: &mut [Interface], _transforms: &mut Transforms) -> Result<(), FlowError> {
         Ok(())
     }
 
-    fn add_forces(&mut self, interfaces: &[Interface], out: &mut [Vectors]) {
-        if self.degree == 0 {
-            return;
-        }
-        for (interface, moments) in interfaces.iter().zip(&mut self.moments) {
-            moments.clear(self.degree);
-            self.expansion.forces(&self.lattice, &interface.position, &interface.force, moments);
-        }
-        self.add_smooth(interfaces, out);
-    }
+    fn add_forces(&mut self, _interfaces: &[Interface], _out: &mut [Vectors]) {}
 
     fn add_dipoles(
         &mut self,
@@ -145,19 +107,6 @@ impl Surroundings for BoxFlow {
         _transforms: &mut Transforms,
         out: &mut [Vectors],
     ) {
-        if self.degree > 0 {
-            for ((interface, dipoles), moments) in interfaces.iter().zip(dipoles).zip(&mut self.moments) {
-                moments.clear(self.degree);
-                self.products.clear();
-                self.fluxes.clear();
-                for i in 0..interface.nodes() {
-                    self.products.push(Complex64::new(dipoles.xx[i] - dipoles.yy[i], dipoles.s[i]));
-                    self.fluxes.push(dipoles.xx[i] + dipoles.yy[i]);
-                }
-                self.expansion.dipoles(&self.lattice, &interface.position, &self.products, &self.fluxes, moments);
-            }
-            self.add_smooth(interfaces, out);
-        }
         let mean = self.mean_flow(interfaces.iter().zip(dipoles));
         for out in out {
             out.x.iter_mut().for_each(|u| *u -= mean.re);
@@ -183,7 +132,7 @@ impl Surroundings for BoxFlow {
                 sum += z * ((vx[i] * t.im - vy[i] * t.re) * contrast * interface.weight());
             }
         }
-        self.mean = sum * (4.0 * PI / self.lattice.area);
+        self.mean = sum * (4.0 * PI / self.area());
     }
 
     fn add_field(&self, _index: usize, flow: &mut Flow) {

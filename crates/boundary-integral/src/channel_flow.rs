@@ -8,6 +8,7 @@ use stokes_grid::Drive;
 
 use crate::{
     domain::Channel,
+    far::{Division, Far, Smooth, too_close},
     field::{FieldKernel, Flow},
     images::Images,
     interface::{Interface, REFINEMENT, Transforms},
@@ -15,6 +16,7 @@ use crate::{
     near::reach,
     pair_kernel::{Row, RowPair},
     planes::Vectors,
+    series::{ImageKernel, SeriesFinder},
     stress::Dipoles,
     surroundings::{NodeVelocities, Surroundings},
     transform::{copy_band, largest_wave},
@@ -135,9 +137,22 @@ impl Surroundings for ChannelFlow {
         Some((TAU / self.period, false))
     }
 
-    fn pair(&self, target: &Interface, source: &Interface) -> Pair {
-        let offset = self.images().wrap(source.centre - target.centre);
-        Pair::Row(RowPair { row: Row::new(TAU / self.period, [offset.re, offset.im], false) })
+    fn divide(&self, target: &Interface, source: &Interface, own: bool, out: &mut Division) {
+        let distance = self.images().wrap(target.centre - source.centre);
+        out.clear(distance);
+        if own || too_close(target.radius + source.radius, distance) {
+            let row = Row::new(TAU / self.period, [-distance.re, -distance.im], false);
+            out.pairs.push((Pair::Row(RowPair { row }), own));
+        } else {
+            out.smooth = Smooth::Images;
+            out.nearest = distance.norm();
+        }
+    }
+
+    fn far(&self, tolerance: f64) -> Far {
+        let row = Row::new(TAU / self.period, [0.0; 2], false);
+        let finder = SeriesFinder::new(ImageKernel::Row(RowPair { row }), self.images(), self.wave());
+        Far::new(Some(finder), f64::INFINITY, None, tolerance)
     }
 
     fn prepare(&mut self, interfaces: &mut [Interface], transforms: &mut Transforms) -> Result<(), FlowError> {

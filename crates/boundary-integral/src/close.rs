@@ -112,12 +112,12 @@ impl CloseWeights {
             third[j] = inverse * second[j];
         }
         let preimage = preimage?;
-        self.swap(transforms, preimage);
+        self.swap(&interface.shape, transforms, preimage);
         Some(preimage.inside)
     }
 
     /// Turns plain weights into those for a pole at the preimage.
-    fn swap(&mut self, transforms: &mut Transforms, preimage: Preimage) {
+    fn swap(&mut self, shape: &[Complex64], transforms: &mut Transforms, preimage: Preimage) {
         let n = self.terms as f64;
         let unit = preimage.unit;
         // Ratio of the two units that is below one, by its value at u = 1.
@@ -139,17 +139,29 @@ impl CloseWeights {
                 (ratio * self.units[j], turned * self.turns[j])
             };
             let gap = 1.0 - p;
+            if gap.norm() * n < 0.3 {
+                // The closest node: distance and gap from the same difference of parameters, so that their quotient keeps
+                // its digits however small they are.
+                let turn = Complex64::new(0.0, if preimage.inside { 1.0 } else { -1.0 });
+                let parameter = p.ln() / turn;
+                let gap = -growth(turn * parameter);
+                let d = difference(shape, self.units[j], parameter);
+                self.distance[j] = d;
+                self.log[j] = (d / gap).norm().ln() - self.series[j].re;
+                let [first, second, third] = direct_factors(p, self.terms);
+                let ratio = gap / d;
+                self.powers[0][j] = ratio * first;
+                self.powers[1][j] = ratio * ratio * second;
+                self.powers[2][j] = ratio * ratio * ratio * third;
+                continue;
+            }
             self.log[j] -= 0.5 * gap.norm_sqr().ln() + self.series[j].re;
-            let factors = if gap.norm() * n < 0.3 {
-                direct_factors(p, gap, self.terms)
-            } else {
-                let (a, b) = (0.5 * (n + 2.0) * (n + 3.0), (n + 1.0) * (n + 3.0));
-                [
-                    1.0 - tail,
-                    1.0 - tail * (n + 2.0 - p * (n + 1.0)),
-                    1.0 - tail * (a - p * b + p * p * (0.5 * (n + 1.0) * (n + 2.0))),
-                ]
-            };
+            let (a, b) = (0.5 * (n + 2.0) * (n + 3.0), (n + 1.0) * (n + 3.0));
+            let factors = [
+                1.0 - tail,
+                1.0 - tail * (n + 2.0 - p * (n + 1.0)),
+                1.0 - tail * (a - p * b + p * p * (0.5 * (n + 1.0) * (n + 2.0))),
+            ];
             for (power, factor) in self.powers.iter_mut().zip(factors) {
                 power[j] *= factor;
             }
@@ -157,9 +169,9 @@ impl CloseWeights {
     }
 }
 
-/// `(1 - p)^k sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p = 1 the closed
-/// form loses its digits.
-fn direct_factors(p: Complex64, gap: Complex64, terms: usize) -> [Complex64; 3] {
+/// `sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p = 1 the closed form loses
+/// its digits.
+fn direct_factors(p: Complex64, terms: usize) -> [Complex64; 3] {
     let mut sums = [Complex64::default(); 3];
     for n in (0..=terms).rev() {
         let n = n as f64;
@@ -167,7 +179,26 @@ fn direct_factors(p: Complex64, gap: Complex64, terms: usize) -> [Complex64; 3] 
             *sum = *sum * p + weight;
         }
     }
-    [sums[0] * gap, sums[1] * gap * gap, sums[2] * gap * gap * gap]
+    sums
+}
+
+/// exp(x) - 1.
+fn growth(x: Complex64) -> Complex64 {
+    let half = 0.5 * x;
+    2.0 * half.exp() * half.sinh()
+}
+
+/// Position at a node less that at a parameter `offset` further on.
+fn difference(shape: &[Complex64], unit: Complex64, offset: Complex64) -> Complex64 {
+    let len = shape.len();
+    let mut sum = Complex64::default();
+    let mut power = Complex64::new(1.0, 0.0);
+    for m in 1..=largest_wave(len) {
+        power *= unit;
+        let phase = Complex64::new(0.0, m as f64) * offset;
+        sum -= shape[m] * power * growth(phase) + shape[len - m] * power.conj() * growth(-phase);
+    }
+    sum
 }
 
 /// The complex parameter that a curve takes a point to, from a first guess of it.

@@ -3,6 +3,7 @@
 use ib_core::FlowError;
 
 use crate::{
+    far::Far,
     gmres::{Gmres, Outcome},
     interface::{Interface, Transforms},
     layers::Layers,
@@ -16,6 +17,7 @@ const FOUR_PI: f64 = 4.0 * std::f64::consts::PI;
 pub(crate) struct Parts<'a> {
     pub(crate) interfaces: &'a [Interface],
     pub(crate) layers: &'a mut Layers,
+    pub(crate) far: &'a mut Far,
     pub(crate) near: &'a Near,
     pub(crate) surroundings: &'a mut dyn Surroundings,
     pub(crate) transforms: &'a mut Transforms,
@@ -106,7 +108,7 @@ fn product(
     velocities: &[f64],
     out: &mut [f64],
 ) {
-    let Parts { interfaces, layers, near, surroundings, transforms } = parts;
+    let Parts { interfaces, layers, far, near, surroundings, transforms } = parts;
     let nodes = interfaces[0].nodes();
     let all = NodeVelocities { values: velocities, contrasts };
     for (index, (interface, dipoles)) in interfaces.iter().zip(&mut layers.dipoles).enumerate() {
@@ -116,6 +118,7 @@ fn product(
     layers.clear();
     layers.add_dipoles(interfaces);
     let Layers { dipoles, out: sums, .. } = &mut **layers;
+    far.add_dipoles(interfaces, dipoles, sums);
     surroundings.add_dipoles(interfaces, dipoles, all, transforms, sums);
     near.add_dipoles(velocities, contrasts, nodes, sums);
     for (index, interface) in interfaces.iter().enumerate() {
@@ -145,7 +148,10 @@ mod tests {
     use stokes_grid::Drive;
 
     use super::*;
-    use crate::{Channel, FreeSpace, PeriodicBox, domain::sealed::Region, surroundings::surroundings};
+    use crate::{
+        Channel, FreeSpace, PeriodicBox, domain::sealed::Region, far::Division, solver::divide,
+        surroundings::surroundings,
+    };
 
     const NODES: usize = 96;
 
@@ -166,7 +172,9 @@ mod tests {
         }
         surroundings.prepare(&mut interfaces, &mut transforms).unwrap();
         let (mut layers, mut near) = (Layers::new(NODES), Near::new(NODES, tolerance));
-        layers.load(&interfaces, surroundings.wave(), |target, source| surroundings.pair(target, source));
+        layers.load(&interfaces, surroundings.wave());
+        let mut far = surroundings.far(tolerance);
+        divide(surroundings.as_ref(), &interfaces, &mut layers, &mut far, &mut Division::new());
         near.find(&mut interfaces, &mut transforms, &surroundings.images());
         near.add_forces(&interfaces, &mut transforms, true, &mut layers.out);
         layers.prepare_stress();
@@ -176,6 +184,7 @@ mod tests {
         let mut parts = Parts {
             interfaces: &interfaces,
             layers: &mut layers,
+            far: &mut far,
             near: &near,
             surroundings: surroundings.as_mut(),
             transforms: &mut transforms,

@@ -1,19 +1,16 @@
-//! Sums of the smooth part of the periodic Green's function by moments.
+//! Sums of Green's functions that have a [`Series`], by moments.
 //!
-//! With distances as `d = z - z'`, target and source taken from the centre of the target's interface, the powers of d in
-//! [`Lattice`] separate by the binomial theorem: the sources enter by a few moments, and the flow is a polynomial.
-//! The cost grows with the number of nodes, not with its square.
+//! With distances as `D + z - z'`, target and source each taken from the centre of its interface, the powers of z - z'
+//! separate by the binomial theorem: the sources enter by a few moments, and the flow is a polynomial. The cost grows with
+//! the number of nodes, not with its square.
 
 use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
-use crate::{
-    lattice::{Lattice, MOST_TERMS},
-    planes::Vectors,
-};
+use crate::{planes::Vectors, series::Series};
 
-/// Moments of sources about a point, k = 0 .. degree, in units of the shorter period.
+/// Moments of sources about a point, k = 0 .. degree, with lengths in a unit of their own.
 #[derive(Debug, Default, Clone)]
 pub(crate) struct Moments {
     /// Sum of F z^k.
@@ -33,100 +30,15 @@ impl Moments {
             family.resize(degree + 1, Complex64::default());
         }
     }
-
-    /// Adds the moments of `other` about the same point.
-    pub(crate) fn add(&mut self, other: &Self) {
-        let own = [&mut self.plain, &mut self.conjugate, &mut self.mixed, &mut self.flux];
-        let others = [&other.plain, &other.conjugate, &other.mixed, &other.flux];
-        for (own, other) in own.into_iter().zip(others) {
-            own.iter_mut().zip(other).for_each(|(own, other)| *own += other);
-        }
-    }
-
-    /// Adds the moments of `other`, whose origin lies at `shift` (in units of the shorter period) from this one's:
-    /// `sum over q of binomial(k, q) shift^(k - q) M_q`. With M_q scaled by shift^-q this is Pascal's triangle.
-    pub(crate) fn add_shifted(&mut self, other: &Self, shift: Complex64) {
-        const LEAST_SHIFT: f64 = 1e-2;
-        if shift.norm() < LEAST_SHIFT {
-            // The powers of a small shift would overflow: go there by way of a point farther away.
-            let detour = Complex64::new(0.1, 0.0);
-            let mut between = Self::default();
-            between.clear(self.plain.len() - 1);
-            between.add_shifted(other, shift - detour);
-            self.add_shifted(&between, detour);
-            return;
-        }
-        // The families side by side, so that the triangle runs in vector registers.
-        let len = self.plain.len();
-        let mut lanes = [[0.0; 8]; MOST_TERMS + 1];
-        let inverse = shift.inv();
-        let mut power = Complex64::new(1.0, 0.0);
-        for (q, lane) in lanes[..len].iter_mut().enumerate() {
-            let values = [other.plain[q], other.conjugate[q], other.mixed[q], other.flux[q]].map(|value| value * power);
-            *lane = [
-                values[0].re,
-                values[0].im,
-                values[1].re,
-                values[1].im,
-                values[2].re,
-                values[2].im,
-                values[3].re,
-                values[3].im,
-            ];
-            power *= inverse;
-        }
-        for first in 1..len {
-            let mut last = lanes[first - 1];
-            for lane in &mut lanes[first..len] {
-                let old = *lane;
-                for (value, last) in lane.iter_mut().zip(last) {
-                    *value += last;
-                }
-                last = old;
-            }
-        }
-        let mut power = Complex64::new(1.0, 0.0);
-        for (k, lane) in lanes[..len].iter().enumerate() {
-            let value = |family: usize| Complex64::new(lane[2 * family], lane[2 * family + 1]) * power;
-            let plain = value(0);
-            self.plain[k] += plain;
-            self.conjugate[k] += value(1);
-            self.mixed[k] += value(2) + shift.conj() * plain;
-            self.flux[k] += value(3);
-            power *= shift;
-        }
-    }
 }
 
-/// Binomial coefficients up to a degree.
-#[derive(Debug, Default)]
-pub(crate) struct Binomials {
-    rows: Vec<Vec<f64>>,
-}
-
-impl Binomials {
-    pub(crate) fn new(degree: usize) -> Self {
-        let mut rows = vec![vec![1.0]];
-        for n in 1..=degree {
-            let last: &Vec<f64> = &rows[n - 1];
-            let inner = (1..n).map(|k| last[k - 1] + last[k]);
-            rows.push(std::iter::once(1.0).chain(inner).chain(std::iter::once(1.0)).collect());
-        }
-        Self { rows }
-    }
-
-    fn get(&self, n: usize, k: usize) -> f64 {
-        self.rows[n][k]
-    }
-}
-
-/// The flow near a point as `P(z) + conj Q(z) + z conj R(z)` and terms of second order.
+/// The flow near a point as `P(z) + conj Q(z) + z conj R(z)`, R = -P', and terms of second order.
 #[derive(Debug, Default)]
 pub(crate) struct Expansion {
-    moments: Moments,
-    p: Vec<Complex64>,
-    q: Vec<Complex64>,
-    r: Vec<Complex64>,
+    p: Vectors,
+    q: Vectors,
+    r: Vectors,
+    low: Low,
     power: Vectors,
     columns: [Vec<f64>; 5],
     accumulators: [Vectors; 3],
@@ -134,17 +46,11 @@ pub(crate) struct Expansion {
 
 impl Expansion {
     /// Moments of forces at `positions` about their origin.
-    pub(crate) fn forces(
-        &mut self,
-        lattice: &Lattice,
-        positions: &[Complex64],
-        forces: &[Complex64],
-        out: &mut Moments,
-    ) {
+    pub(crate) fn forces(&mut self, unit: f64, positions: &[Complex64], forces: &[Complex64], out: &mut Moments) {
         let [fx, fy, gx, gy, _] = &mut self.columns;
         resize([&mut *fx, fy, gx, gy], positions.len());
         for (i, (z, f)) in positions.iter().zip(forces).enumerate() {
-            let g = f * z.conj() / lattice.unit;
+            let g = f * z.conj() / unit;
             (fx[i], fy[i], gx[i], gy[i]) = (f.re, f.im, g.re, g.im);
         }
         start(&mut self.power, positions.len());
@@ -159,7 +65,7 @@ impl Expansion {
             let (yr, yi) = dot(gy, &self.power);
             out.mixed[k] = Complex64::new(xr - yi, xi + yr);
             out.flux[k] = Complex64::default();
-            advance(&mut self.power, positions, lattice.unit);
+            advance(&mut self.power, positions, unit);
         }
     }
 
@@ -167,7 +73,7 @@ impl Expansion {
     /// a derivative along n, and the reverse.
     pub(crate) fn dipoles(
         &mut self,
-        lattice: &Lattice,
+        unit: f64,
         positions: &[Complex64],
         products: &[Complex64],
         fluxes: &[f64],
@@ -178,12 +84,12 @@ impl Expansion {
         b.clear();
         b.extend_from_slice(fluxes);
         for (i, (z, a)) in positions.iter().zip(products).enumerate() {
-            let c = a * z.conj() / lattice.unit;
+            let c = a * z.conj() / unit;
             (ax[i], ay[i], cx[i], cy[i]) = (a.re, a.im, c.re, c.im);
         }
         start(&mut self.power, positions.len());
         let degree = out.plain.len();
-        let inverse = 1.0 / lattice.unit;
+        let inverse = 1.0 / unit;
         let mut last = [Complex64::default(); 3];
         for k in 0..degree {
             let [ax, ay, cx, cy, b] = &self.columns;
@@ -201,77 +107,116 @@ impl Expansion {
             out.mixed[k] = last[2] * factor + b * (2.0 * inverse);
             out.flux[k] = b;
             last = [a, b, c];
-            advance(&mut self.power, positions, lattice.unit);
+            advance(&mut self.power, positions, unit);
         }
     }
 
-    /// The moments that [`Expansion::add_flow`] takes, about the origin of its targets.
-    pub(crate) fn moments(&mut self) -> &mut Moments {
-        &mut self.moments
+    /// Clears the flow for targets about a new origin.
+    pub(crate) fn begin(&mut self, degree: usize) {
+        for part in [&mut self.p, &mut self.q] {
+            part.clear(degree + 2);
+        }
+        self.low = Low::default();
     }
 
-    /// Adds the flow of the moments at `positions`.
-    pub(crate) fn add_flow(
-        &mut self,
-        lattice: &Lattice,
-        binomials: &Binomials,
-        positions: &[Complex64],
-        out: &mut Vectors,
-    ) {
-        self.expand(lattice, binomials);
-        let m = &self.moments;
-        let [a0, a1] = [m.plain[0], m.plain[1]];
-        let [b0, b1, b2] = [m.conjugate[0], m.conjugate[1], m.conjugate[2]];
-        let [c0, c1] = [m.mixed[0], m.mixed[1]];
-        let second = PI * lattice.unit * lattice.unit / (2.0 * lattice.area);
-        let flux = 2.0 * PI * lattice.unit / lattice.area;
-        let constant = a0 * lattice.constant + second * c1 - 0.5 * second * b2 + flux * m.flux[1];
+    /// Adds the flow of the moments of a source, whose origin lies where delta = 0 in `series`.
+    pub(crate) fn add(&mut self, series: &Series, moments: &Moments, unit: f64) {
+        let degree = series.degree().min(moments.plain.len() - 1);
+        let [sr, si] = &series.s;
+        let [tr, ti] = &series.t;
+        let mut inverse = 1.0;
+        for q in 0..=degree {
+            if q > 0 {
+                inverse /= -(q as f64);
+            }
+            let a = moments.plain[q] * inverse;
+            let b = moments.conjugate[q] * (0.5 * inverse);
+            let c = (moments.mixed[q] * 0.5 - moments.flux[q] * (2.0 / unit)) * inverse;
+            let half = a * 0.5;
+            let count = degree + 1 - q;
+            let (sr, si, dr, di) =
+                (&sr[q..q + count], &si[q..q + count], &sr[q + 1..=q + count], &si[q + 1..=q + count]);
+            let (tr, ti) = (&tr[q..q + count], &ti[q..q + count]);
+            let (pr, pi) = (&mut self.p.x[..count], &mut self.p.y[..count]);
+            let (qr, qi) = (&mut self.q.x[..count], &mut self.q.y[..count]);
+            for k in 0..count {
+                pr[k] += sr[k] * half.re - si[k] * half.im;
+                pi[k] += sr[k] * half.im + si[k] * half.re;
+                qr[k] += sr[k] * b.re - si[k] * b.im + tr[k] * a.re - ti[k] * a.im + dr[k] * c.re - di[k] * c.im;
+                qi[k] += sr[k] * b.im + si[k] * b.re + tr[k] * a.im + ti[k] * a.re + dr[k] * c.im + di[k] * c.re;
+            }
+        }
+        self.low.add(moments);
+    }
+
+    /// Adds the flow at `positions`; `area` is infinite without a uniform background force.
+    pub(crate) fn add_flow(&mut self, positions: &[Complex64], unit: f64, area: f64, out: &mut Vectors) {
+        // Divide by k!: the coefficients of P, Q and R = -P'.
+        let mut inverse = 1.0;
+        let len = self.p.x.len();
+        self.r.clear(len);
+        for k in 0..len {
+            if k > 0 {
+                self.r.x[k - 1] = -self.p.x[k] * inverse;
+                self.r.y[k - 1] = -self.p.y[k] * inverse;
+                inverse /= k as f64;
+            }
+            for part in [&mut self.p, &mut self.q] {
+                part.x[k] *= inverse;
+                part.y[k] *= inverse;
+            }
+        }
         let n = positions.len();
-        start(&mut self.power, n);
+        self.power.clear(n);
         for (i, z) in positions.iter().enumerate() {
-            (self.power.x[i], self.power.y[i]) = (z.re / lattice.unit, z.im / lattice.unit);
+            (self.power.x[i], self.power.y[i]) = (z.re / unit, z.im / unit);
         }
         for (sums, coefficients) in self.accumulators.iter_mut().zip([&self.p, &self.q, &self.r]) {
             horner(coefficients, &self.power, sums);
         }
+        let Low { a0, a1, b0, b1, b2, c0, c1, e0, e1 } = self.low;
+        let second = PI * unit * unit / (2.0 * area);
+        let flux = 2.0 * PI * unit / area;
+        let constant = second * c1 - 0.5 * second * b2 + flux * e1;
         let [p, q, r] = &self.accumulators;
         for i in 0..n {
             let z = Complex64::new(self.power.x[i], self.power.y[i]);
             let r = Complex64::new(r.x[i], -r.y[i]);
             let quadratic = second * (a0 * z.norm_sqr() - z * c0 - z.conj() * a1)
                 - second * z * (0.5 * z * b0 - b1)
-                - flux * z * m.flux[0];
+                - flux * z * e0;
             let w = constant + quadratic + z * r;
             out.x[i] += w.re + p.x[i] + q.x[i];
             out.y[i] += w.im + p.y[i] - q.y[i];
         }
     }
+}
 
-    /// Coefficients of P, Q and R from the moments.
-    fn expand(&mut self, lattice: &Lattice, binomials: &Binomials) {
-        let m = &self.moments;
-        let degree = m.plain.len() - 1;
-        for family in [&mut self.p, &mut self.q, &mut self.r] {
-            family.clear();
-            family.resize(degree + 1, Complex64::default());
-        }
-        self.q[0] += lattice.t[0] * m.plain[0];
-        for n in (2..=degree).step_by(2) {
-            let (s, t) = (lattice.s[n / 2], lattice.t[n / 2]);
-            for k in 0..=n {
-                let factor = binomials.get(n, k) * if (n - k).is_multiple_of(2) { 1.0 } else { -1.0 };
-                self.p[k] += m.plain[n - k] * (0.5 * s * factor);
-                self.q[k] += m.conjugate[n - k] * (0.5 * s * factor) + m.plain[n - k] * (t * factor);
-            }
-            let slope = 0.5 * n as f64 * s;
-            let pressure = 4.0 * slope / lattice.unit;
-            for k in 0..n {
-                let j = n - 1 - k;
-                let factor = binomials.get(n - 1, k) * if j.is_multiple_of(2) { 1.0 } else { -1.0 };
-                self.q[k] += (m.mixed[j] * slope - m.flux[j] * pressure) * factor;
-                self.r[k] -= m.plain[j] * (slope * factor);
-            }
-        }
+/// The low moments of all sources, for the terms of second order.
+#[derive(Debug, Clone, Copy, Default)]
+struct Low {
+    a0: Complex64,
+    a1: Complex64,
+    b0: Complex64,
+    b1: Complex64,
+    b2: Complex64,
+    c0: Complex64,
+    c1: Complex64,
+    e0: Complex64,
+    e1: Complex64,
+}
+
+impl Low {
+    fn add(&mut self, m: &Moments) {
+        self.a0 += m.plain[0];
+        self.a1 += m.plain[1];
+        self.b0 += m.conjugate[0];
+        self.b1 += m.conjugate[1];
+        self.b2 += m.conjugate[2];
+        self.c0 += m.mixed[0];
+        self.c1 += m.mixed[1];
+        self.e0 += m.flux[0];
+        self.e1 += m.flux[1];
     }
 }
 
@@ -286,7 +231,7 @@ fn start(power: &mut Vectors, len: usize) {
     power.x.fill(1.0);
 }
 
-/// Multiplies the powers by z in units of the shorter period.
+/// Multiplies the powers by z in the unit.
 fn advance(power: &mut Vectors, positions: &[Complex64], unit: f64) {
     let inverse = 1.0 / unit;
     for ((x, y), z) in power.x.iter_mut().zip(&mut power.y).zip(positions) {
@@ -318,49 +263,16 @@ fn dot(column: &[f64], power: &Vectors) -> (f64, f64) {
 }
 
 /// Values of a polynomial at all points by Horner's scheme.
-fn horner(coefficients: &[Complex64], points: &Vectors, out: &mut Vectors) {
+fn horner(coefficients: &Vectors, points: &Vectors, out: &mut Vectors) {
     let n = points.x.len();
     out.clear(n);
     let (x, y) = (&points.x[..n], &points.y[..n]);
     let (re, im) = (&mut out.x[..n], &mut out.y[..n]);
-    for c in coefficients.iter().rev() {
+    for (cr, ci) in coefficients.x.iter().zip(&coefficients.y).rev() {
         for i in 0..n {
             let (a, b) = (re[i], im[i]);
-            re[i] = a * x[i] - b * y[i] + c.re;
-            im[i] = a * y[i] + b * x[i] + c.im;
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shifted_moments_are_those_about_the_other_point() {
-        let lattice = Lattice::new([6.0, 7.0]);
-        let degree = 24;
-        let mut expansion = Expansion::default();
-        let positions: Vec<Complex64> = (0..20).map(|k| Complex64::from_polar(0.8, 0.3 * f64::from(k))).collect();
-        let forces: Vec<Complex64> = (0..20).map(|k| Complex64::from_polar(1.0, 0.7 * f64::from(k * k))).collect();
-        // Far, close, nearly and exactly on the old point.
-        for shift in [[0.3, -0.2], [0.02, 0.0], [1e-3, 2e-3], [0.0, 0.0]] {
-            let shift = Complex64::new(shift[0], shift[1]);
-            let moved: Vec<Complex64> = positions.iter().map(|z| z + shift * lattice.unit).collect();
-            let (mut own, mut expected, mut found) = (Moments::default(), Moments::default(), Moments::default());
-            for moments in [&mut own, &mut expected, &mut found] {
-                moments.clear(degree);
-            }
-            expansion.forces(&lattice, &positions, &forces, &mut own);
-            expansion.forces(&lattice, &moved, &forces, &mut expected);
-            found.add_shifted(&own, shift);
-            let scale = 0.14 + shift.norm();
-            for k in 0..=degree {
-                let bound = 1e-12 * 20.0 * scale.max(0.25).powi(k as i32);
-                assert!((found.plain[k] - expected.plain[k]).norm() < bound, "{shift} {k}");
-                assert!((found.conjugate[k] - expected.conjugate[k]).norm() < bound, "{shift} {k}");
-                assert!((found.mixed[k] - expected.mixed[k]).norm() < bound, "{shift} {k}");
-            }
+            re[i] = a * x[i] - b * y[i] + cr;
+            im[i] = a * y[i] + b * x[i] + ci;
         }
     }
 }

@@ -7,7 +7,8 @@ use crate::{
 };
 
 /// A doubly periodic box with zero mean velocity: the row of images through the source in closed form, which carries the
-/// singularity, and `rows` rows on each side, which fall off like exp(-k |y|). Valid for |dy| below the period across.
+/// singularity, and `rows` rows on each side, which fall off like exp(-k |y|). Points are at most half a period away
+/// across the rows.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LatticePair {
     row: Row,
@@ -32,15 +33,14 @@ struct Sums {
 }
 
 impl LatticePair {
-    /// Rows along the shorter period of a box, as many as bring the rest below `tolerance` at distances across the rows
-    /// of up to `reach`.
-    pub(crate) fn new(periods: [f64; 2], offset: [f64; 2], reach: f64, tolerance: f64) -> Self {
+    /// Rows along the shorter period of a box, as many as bring the rest below `tolerance`.
+    pub(crate) fn new(periods: [f64; 2], tolerance: f64) -> Self {
         let transposed = periods[1] < periods[0];
         let [along, across] = if transposed { [periods[1], periods[0]] } else { periods };
         let k = std::f64::consts::TAU / along;
-        let needed = ((-tolerance.ln() / k + 0.5 * along + reach) / across).ceil() as usize;
-        let rows = needed.max(2) - 1;
-        Self { row: Row::new(k, offset, transposed), across, rows, decay: (-k * across).exp(), transposed }
+        // Points are at most half a period away across the rows.
+        let rows = ((-tolerance.ln() / k + 0.5 * along) / across - 0.5).ceil().max(1.0) as usize;
+        Self { row: Row::new(k, [0.0; 2], transposed), across, rows, decay: (-k * across).exp(), transposed }
     }
 
     #[inline(always)]

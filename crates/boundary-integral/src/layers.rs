@@ -2,22 +2,30 @@
 
 use crate::{
     interface::Interface,
-    lattice_kernel::LatticePair,
     pair_kernel::{FreePair, RowPair},
     pair_sums::{Both, PairSums},
     planes::{Planes, Vectors},
-    stress::{Dipoles, DirectStress, StoredStress},
+    stress::{Dipoles, DirectStress, StoredStress, StressSource},
 };
 
-/// Up to so many nodes in all, the stress between pairs is stored instead of computed for each product.
-const MOST_STORED_NODES: usize = 1280;
+/// Up to so many pairs of interfaces, the stress between their nodes is stored instead of computed for each product.
+const MOST_STORED_PAIRS: usize = 200;
 
-/// The Green's function between two interfaces, without the parts that go by moments or modes.
+/// A Green's function that goes by sums over nodes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Pair {
     Free(FreePair),
     Row(RowPair),
-    Lattice(LatticePair),
+}
+
+/// Two interfaces and a Green's function between them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Direct {
+    pub(crate) target: usize,
+    pub(crate) source: usize,
+    /// An interface with itself, not with an image of its own.
+    pub(crate) own: bool,
+    pub(crate) pair: Pair,
 }
 
 /// Evaluates an expression with the kernel of a [`Pair`].
@@ -26,7 +34,6 @@ macro_rules! with_kernel {
         match $pair {
             Pair::Free($kernel) => $body,
             Pair::Row($kernel) => $body,
-            Pair::Lattice($kernel) => $body,
         }
     };
 }
@@ -42,7 +49,9 @@ pub(crate) struct Layers {
     pub(crate) dipoles: Vec<Dipoles>,
     /// 4 pi times velocity times viscosity at the nodes.
     pub(crate) out: Vec<Vectors>,
-    pairs: Vec<Pair>,
+    pub(crate) directs: Vec<Direct>,
+    /// For an interface with its own image.
+    image: Vectors,
     stresses: Vec<StoredStress>,
     stored: bool,
 }
@@ -57,19 +66,15 @@ impl Layers {
             forces: Vec::new(),
             dipoles: Vec::new(),
             out: Vec::new(),
-            pairs: Vec::new(),
+            directs: Vec::new(),
+            image: Vectors::default(),
             stresses: Vec::new(),
             stored: false,
         }
     }
 
     /// Takes over the present shapes and forces; `wave` as in [`Planes::fill`].
-    pub(crate) fn load(
-        &mut self,
-        interfaces: &[Interface],
-        wave: Option<(f64, bool)>,
-        pair: impl Fn(&Interface, &Interface) -> Pair,
-    ) {
+    pub(crate) fn load(&mut self, interfaces: &[Interface], wave: Option<(f64, bool)>) {
         let count = interfaces.len();
         self.planes.resize_with(count, Planes::default);
         self.dipoles.resize_with(count, Dipoles::default);
@@ -82,12 +87,6 @@ impl Layers {
             self.tangents[index].fill(&interface.tangent);
             self.forces[index].fill(&interface.force);
         }
-        self.pairs.clear();
-        for (index, target) in interfaces.iter().enumerate() {
-            for source in &interfaces[index..] {
-                self.pairs.push(pair(target, source));
-            }
-        }
         self.clear();
     }
 
@@ -98,70 +97,80 @@ impl Layers {
 
     /// Adds the single layers of all pairs.
     pub(crate) fn add_forces(&mut self) {
-        let mut pairs = self.pairs.iter();
-        for target in 0..self.out.len() {
-            for source in target..self.out.len() {
-                let Some(pair) = pairs.next() else { return };
-                if source == target {
-                    let (planes, tangents) = (&self.planes[target], &self.tangents[target]);
-                    let (forces, out) = (&self.forces[target], &mut self.out[target]);
-                    with_kernel!(pair, kernel => self.sums.single_layer_own(kernel, planes, tangents, forces, out));
-                } else {
-                    let (head, tail) = self.out.split_at_mut(source);
-                    let planes = Both { target: &self.planes[target], source: &self.planes[source] };
-                    let forces = Both { target: &self.forces[target], source: &self.forces[source] };
-                    let (near, far) = (&mut head[target], &mut tail[0]);
-                    with_kernel!(pair, kernel => self.sums.single_layer(kernel, &planes, &forces, near, far));
-                }
+        let Self { directs, sums, planes, tangents, forces, out, image, nodes, .. } = self;
+        for &Direct { target, source, own, pair } in &*directs {
+            if own {
+                let (planes, tangents, forces) = (&planes[target], &tangents[target], &forces[target]);
+                let out = &mut out[target];
+                with_kernel!(&pair, kernel => sums.single_layer_own(kernel, planes, tangents, forces, out));
+                continue;
             }
+            let planes = Both { target: &planes[target], source: &planes[source] };
+            let forces = Both { target: &forces[target], source: &forces[source] };
+            image.clear(*nodes);
+            with_two(out, image, target, source, |near, far| {
+                with_kernel!(&pair, kernel => sums.single_layer(kernel, &planes, &forces, near, far));
+            });
         }
     }
 
     /// Stores the stress between all pairs, unless there are too many.
     pub(crate) fn prepare_stress(&mut self) {
-        let count = self.planes.len();
-        self.stored = count * self.nodes <= MOST_STORED_NODES;
+        let Self { directs, planes, nodes, stresses, .. } = self;
+        self.stored = directs.len() <= MOST_STORED_PAIRS;
         if !self.stored {
             return;
         }
-        self.stresses.resize_with(self.pairs.len().max(self.stresses.len()), StoredStress::default);
-        let mut index = 0;
-        for target in 0..count {
-            for source in target..count {
-                let planes = Both { target: &self.planes[target], source: &self.planes[source] };
-                let stress = &mut self.stresses[index];
-                with_kernel!(&self.pairs[index], kernel => stress.fill(kernel, &planes, self.nodes, source == target));
-                index += 1;
-            }
+        stresses.resize_with(directs.len().max(stresses.len()), StoredStress::default);
+        for (&Direct { target, source, own, pair }, stress) in directs.iter().zip(stresses) {
+            let planes = Both { target: &planes[target], source: &planes[source] };
+            with_kernel!(&pair, kernel => stress.fill(kernel, &planes, *nodes, own));
         }
     }
 
     /// Adds the double layers of all pairs for the present dipoles, with the diagonal.
     pub(crate) fn add_dipoles(&mut self, interfaces: &[Interface]) {
-        let mut index = 0;
-        for target in 0..self.out.len() {
-            for source in target..self.out.len() {
-                let (head, tail) = self.out.split_at_mut(source);
-                let both = Both { target: &self.dipoles[target], source: &self.dipoles[source] };
-                if source == target {
-                    add_diagonal(&interfaces[target], both.target, &mut tail[0]);
-                }
-                let mut run = |stress: &dyn crate::stress::StressSource| {
-                    if source == target {
-                        self.sums.double_layer_own(stress, both.target, &mut tail[0]);
-                    } else {
-                        self.sums.double_layer(stress, &both, &mut head[target], &mut tail[0]);
-                    }
-                };
-                if self.stored {
-                    run(&self.stresses[index]);
+        let Self { directs, sums, planes, dipoles, out, image, nodes, stresses, stored, .. } = self;
+        for (index, &Direct { target, source, own, pair }) in directs.iter().enumerate() {
+            let both = Both { target: &dipoles[target], source: &dipoles[source] };
+            image.clear(*nodes);
+            let mut run = |stress: &dyn StressSource| {
+                if own {
+                    sums.double_layer_own(stress, both.target, &mut out[target]);
                 } else {
-                    let planes = Both { target: &self.planes[target], source: &self.planes[source] };
-                    with_kernel!(self.pairs[index], kernel => run(&DirectStress { kernel, planes }));
+                    with_two(out, image, target, source, |near, far| sums.double_layer(stress, &both, near, far));
                 }
-                index += 1;
+            };
+            if *stored {
+                run(&stresses[index]);
+            } else {
+                let planes = Both { target: &planes[target], source: &planes[source] };
+                with_kernel!(pair, kernel => run(&DirectStress { kernel, planes }));
+            }
+            if own {
+                add_diagonal(&interfaces[target], both.target, &mut out[target]);
             }
         }
+    }
+}
+
+/// Calls a function with the arrays of two interfaces, which may be the same one.
+fn with_two(
+    out: &mut [Vectors],
+    image: &mut Vectors,
+    target: usize,
+    source: usize,
+    run: impl FnOnce(&mut Vectors, &mut Vectors),
+) {
+    if target == source {
+        run(&mut out[target], image);
+        for (out, image) in [(&mut out[target].x, &image.x), (&mut out[target].y, &image.y)] {
+            out.iter_mut().zip(image).for_each(|(out, image)| *out += image);
+        }
+    } else {
+        let (head, tail) = out.split_at_mut(target.max(source));
+        let (low, high) = (&mut head[target.min(source)], &mut tail[0]);
+        if target < source { run(low, high) } else { run(high, low) }
     }
 }
 

@@ -39,15 +39,15 @@
 //! * Curves are truncated Fourier series on equally spaced values of their parameter ([`PeriodicCalculus`], [`BandLimit`]).
 //! * The logarithm of the single layer is integrated by the weights of Kress (Linear Integral Equations, 2014, section
 //!   12.3), the rest by the trapezoidal rule.
-//! * A periodic box adds to free space a polynomial whose coefficients are lattice sums, evaluated by moments; interfaces
-//!   too far apart for it see rows of images in closed form. A channel is a row of images with walls as a Fourier series
-//!   along the channel, analytic across it.
+//! * Interfaces that are close are summed node by node in free space, or with a row of images in closed form in a channel.
+//!   What is left is smooth, the images of a box and interfaces farther away: its Taylor series, found from values on a circle,
+//!   is summed by moments. Walls are a Fourier series along the channel, analytic across it.
 //! * A viscosity contrast needs the double layer and GMRES; its iterations depend neither on the nodes nor, beyond a
 //!   ratio of about ten, on the ratio.
 //! * Points and nodes close to an interface use the preimage of the point under the complex parametrisation.
 //!
-//! The cost of an evaluation grows with the square of the number of nodes of all interfaces; it suits up to some ten
-//! droplets.
+//! The cost of an evaluation grows with the square of the number of nodes of an interface and of its close neighbours, and
+//! for pairs farther apart by some microseconds each; it suits some tens of droplets.
 
 mod box_flow;
 mod calculus;
@@ -57,11 +57,11 @@ mod contrast;
 mod domain;
 mod error;
 mod expansion;
+mod far;
 mod field;
 mod gmres;
 mod images;
 mod interface;
-mod lattice;
 mod lattice_kernel;
 mod layers;
 mod logarithm;
@@ -70,6 +70,7 @@ mod pair_kernel;
 mod pair_sums;
 mod planes;
 mod sampler;
+mod series;
 mod settings;
 mod solver;
 mod stress;

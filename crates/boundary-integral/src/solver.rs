@@ -7,9 +7,10 @@ use crate::{
     BoundaryIntegralError, FluidDomain, Settings,
     contrast::{Contrast, Parts},
     error::positive,
+    far::{Division, Far},
     gmres::Outcome,
     interface::{Interface, Transforms},
-    layers::Layers,
+    layers::{Direct, Layers},
     near::Near,
     sampler::{Sampler, Scene},
     surroundings::{NodeVelocities, Surroundings, surroundings},
@@ -45,6 +46,8 @@ pub struct BoundaryIntegral<D> {
     transforms: Transforms,
     interfaces: Vec<Interface>,
     layers: Layers,
+    far: Far,
+    division: Division,
     near: Near,
     contrast: Contrast,
     sampler: Sampler,
@@ -66,11 +69,14 @@ impl<D: FluidDomain> BoundaryIntegral<D> {
         positive("the viscosity", viscosity)?;
         settings.check()?;
         let Settings { nodes, tolerance, .. } = settings;
+        let surroundings = surroundings(domain.kind(), tolerance);
         Ok(Self {
             domain,
             viscosity,
             settings,
-            surroundings: surroundings(domain.kind(), tolerance),
+            far: surroundings.far(tolerance),
+            division: Division::new(),
+            surroundings,
             transforms: Transforms::new(nodes),
             interfaces: Vec::new(),
             layers: Layers::new(nodes),
@@ -123,11 +129,13 @@ impl<D: FluidDomain> BoundaryIntegral<D> {
 
     /// The single layer at the nodes divided by 4 pi, with the imposed flow, into `self.single_layer`.
     fn add_single_layer(&mut self, contrast: bool) -> Result<(), FlowError> {
-        let Self { surroundings, interfaces, layers, near, transforms, .. } = self;
+        let Self { surroundings, interfaces, layers, far, division, near, transforms, .. } = self;
         surroundings.prepare(interfaces, transforms)?;
-        layers.load(interfaces, surroundings.wave(), |target, source| surroundings.pair(target, source));
+        layers.load(interfaces, surroundings.wave());
+        divide(surroundings.as_ref(), interfaces, layers, far, division);
         near.find(interfaces, transforms, &surroundings.images());
         layers.add_forces();
+        far.add_forces(interfaces, &mut layers.out);
         surroundings.add_forces(interfaces, &mut layers.out);
         if !near.is_empty() {
             near.add_forces(interfaces, transforms, contrast, &mut layers.out);
@@ -207,6 +215,7 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
             let parts = Parts {
                 interfaces: &self.interfaces,
                 layers: &mut self.layers,
+                far: &mut self.far,
                 near: &self.near,
                 surroundings: self.surroundings.as_mut(),
                 transforms: &mut self.transforms,
@@ -252,6 +261,25 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
 
     fn work(&self) -> FlowWork {
         self.work
+    }
+}
+
+/// Divides the Green's function between all interfaces into sums over nodes and series.
+pub(crate) fn divide(
+    surroundings: &dyn Surroundings,
+    interfaces: &[Interface],
+    layers: &mut Layers,
+    far: &mut Far,
+    division: &mut Division,
+) {
+    layers.directs.clear();
+    far.clear(interfaces);
+    for target in 0..interfaces.len() {
+        for source in target..interfaces.len() {
+            surroundings.divide(&interfaces[target], &interfaces[source], target == source, division);
+            layers.directs.extend(division.pairs.iter().map(|&(pair, own)| Direct { target, source, own, pair }));
+            far.link(interfaces, [target, source], division);
+        }
     }
 }
 

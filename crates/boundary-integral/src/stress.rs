@@ -125,7 +125,6 @@ fn accumulate(
 mod tests {
     use super::*;
     use crate::{
-        lattice_kernel::LatticePair,
         pair_kernel::{FreePair, Row, RowPair},
         pair_sums::PairSums,
     };
@@ -179,6 +178,5 @@ mod tests {
     fn stored_and_direct_stress_agree() {
         compare(FreePair { offset: [2.5, 0.3] });
         compare(RowPair { row: Row::new(1.1, [2.5, 0.3], false) });
-        compare(LatticePair::new([5.711_986_642_890_533, 7.0], [2.5, 0.3], 3.0, 1e-12));
     }
 }

@@ -7,6 +7,7 @@ use crate::{
     box_flow::BoxFlow,
     channel_flow::ChannelFlow,
     domain::sealed::Kind,
+    far::{Division, Far, Smooth, too_close},
     field::{FieldKernel, Flow},
     images::Images,
     interface::{Interface, Transforms},
@@ -40,8 +41,11 @@ pub(crate) trait Surroundings: std::fmt::Debug + Send {
     /// Wave number and direction of rows of images, as in [`crate::planes::Planes::fill`].
     fn wave(&self) -> Option<(f64, bool)>;
 
-    /// The Green's function between two interfaces.
-    fn pair(&self, target: &Interface, source: &Interface) -> Pair;
+    /// What of the Green's function between two interfaces goes by sums over nodes and what by a series.
+    fn divide(&self, target: &Interface, source: &Interface, own: bool, out: &mut Division);
+
+    /// The series between interfaces.
+    fn far(&self, tolerance: f64) -> Far;
 
     /// Takes over the present shapes.
     ///
@@ -49,10 +53,10 @@ pub(crate) trait Surroundings: std::fmt::Debug + Send {
     /// A node beyond a wall; the number of the interface is its index here.
     fn prepare(&mut self, interfaces: &mut [Interface], transforms: &mut Transforms) -> Result<(), FlowError>;
 
-    /// Adds what the pair sums lack of the single layer.
+    /// Adds what sums over nodes and series lack of the single layer.
     fn add_forces(&mut self, interfaces: &[Interface], out: &mut [Vectors]);
 
-    /// Adds what the pair sums lack of the double layer.
+    /// Adds what sums over nodes and series lack of the double layer.
     fn add_dipoles(
         &mut self,
         interfaces: &[Interface],
@@ -110,9 +114,19 @@ impl Surroundings for Unbounded {
         None
     }
 
-    fn pair(&self, target: &Interface, source: &Interface) -> Pair {
-        let offset = source.centre - target.centre;
-        Pair::Free(FreePair { offset: [offset.re, offset.im] })
+    fn divide(&self, target: &Interface, source: &Interface, own: bool, out: &mut Division) {
+        let distance = target.centre - source.centre;
+        out.clear(distance);
+        if own || too_close(target.radius + source.radius, distance) {
+            out.pairs.push((Pair::Free(FreePair { offset: [-distance.re, -distance.im] }), own));
+        } else {
+            out.smooth = Smooth::Free;
+            out.nearest = distance.norm();
+        }
+    }
+
+    fn far(&self, tolerance: f64) -> Far {
+        Far::new(None, f64::INFINITY, None, tolerance)
     }
 
     fn prepare(&mut self, _interfaces: &mut [Interface], _transforms: &mut Transforms) -> Result<(), FlowError> {

@@ -25,7 +25,8 @@ fn ellipse() -> impl Strategy<Value = Ellipse> {
 }
 
 fn settings() -> Settings {
-    Settings { tolerance: 1e-12, ..Settings::default() }
+    // Ellipses of aspect ratio two need some nodes for what is to be exact.
+    Settings { nodes: COUNT, tolerance: 1e-12, ..Settings::default() }
 }
 
 proptest! {
@@ -64,7 +65,7 @@ proptest! {
     #[test]
     fn flows_of_two_droplets_are_reciprocal(first in ellipse(), mut second in ellipse(), wave in 0.0..TAU) {
         // Lorentz: the work of one set of forces on the flow of another is that of the other on the flow of the first.
-        second.centre[0] += 4.0;
+        second.centre[0] += 6.0;
         let mut solver = BoundaryIntegral::new(FreeSpace, 1.0, settings()).unwrap();
         let mut one = markers(&[first, second], COUNT);
         let mut two = one.clone();

@@ -1,0 +1,317 @@
+//! Taylor series of a Green's function where it has no singularity.
+
+use std::f64::consts::{PI, TAU};
+
+use num_complex::Complex64;
+
+use crate::{
+    images::Images,
+    lattice_kernel::LatticePair,
+    logarithm::ln,
+    pair_kernel::{PairKernel, RowPair, Stokeslet},
+    planes::Planes,
+    transform::Transform,
+};
+
+/// Largest ratio of the distance of points to that of a singularity for which a series is used.
+pub(crate) const LARGEST_RATIO: f64 = 0.6;
+/// Largest degree of a series: its smallest terms are 1e-14 then.
+pub(crate) const MOST_DEGREES: usize = 62;
+
+/// Series of a Green's function around a distance D, for target minus source D + delta and a force F, in complex form:
+///
+/// ```text
+/// w = F [ (pi/2V)|delta|^2 + Re S(delta) ] + conj F [ -(pi/4V) delta^2 - 1/2 delta conj S'(delta) + conj T(delta) ]
+/// ```
+///
+/// Every solution of the Stokes equations for a force elsewhere has this form, with a uniform background force 1/V where
+/// the domain is periodic in both directions. Entry n of each array is n! times the coefficient of (delta/unit)^n, real
+/// and imaginary parts apart.
+#[derive(Debug, Clone)]
+pub(crate) struct Series {
+    pub(crate) s: [Vec<f64>; 2],
+    pub(crate) t: [Vec<f64>; 2],
+}
+
+impl Series {
+    /// Nothing, with room for any degree.
+    pub(crate) fn new() -> Self {
+        let room = || [Vec::with_capacity(MOST_DEGREES + 2), Vec::with_capacity(MOST_DEGREES + 2)];
+        Self { s: room(), t: room() }
+    }
+
+    /// The highest power; one coefficient more is kept for the derivative.
+    pub(crate) fn degree(&self) -> usize {
+        self.s[0].len().saturating_sub(2)
+    }
+
+    fn clear(&mut self) {
+        self.s.iter_mut().chain(&mut self.t).for_each(Vec::clear);
+    }
+
+    fn push(&mut self, s: Complex64, t: Complex64) {
+        for (array, value) in self.s.iter_mut().zip([s.re, s.im]).chain(self.t.iter_mut().zip([t.re, t.im])) {
+            array.push(value);
+        }
+    }
+
+    /// Free space, D not zero: `S = 1/2 - ln(D + delta)`, `T = conj(D)/(2 (D + delta))`.
+    pub(crate) fn free(&mut self, distance: Complex64, extent: Extent) {
+        let Extent { unit, degree, .. } = extent;
+        self.clear();
+        let ratio = -Complex64::new(unit, 0.0) / distance;
+        let factor = 0.5 * distance.conj() / distance;
+        self.push(Complex64::new(0.5 - distance.norm().ln(), 0.0), factor);
+        let mut power = Complex64::new(1.0, 0.0);
+        for n in 1..=degree + 1 {
+            let lower = power * ratio;
+            power = lower * n as f64;
+            self.push(lower, power * factor);
+        }
+    }
+
+    /// Another series in terms of another unit and to a lower degree.
+    pub(crate) fn rescale(&mut self, other: &Self, ratio: f64, degree: usize) {
+        for (own, other) in self.s.iter_mut().zip(&other.s).chain(self.t.iter_mut().zip(&other.t)) {
+            own.clear();
+            let mut power = 1.0;
+            for value in other.iter().take(degree + 2) {
+                own.push(value * power);
+                power *= ratio;
+            }
+        }
+    }
+
+    /// The series for the reverse direction, source and target exchanged.
+    pub(crate) fn reverse(&mut self, other: &Self) {
+        for (own, other) in self.s.iter_mut().zip(&other.s).chain(self.t.iter_mut().zip(&other.t)) {
+            own.clear();
+            own.extend(other.iter().enumerate().map(|(n, value)| if n.is_multiple_of(2) { *value } else { -value }));
+        }
+    }
+}
+
+/// A Green's function with images that has a series once the closest ones are left out.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum ImageKernel {
+    /// A row, as in a channel.
+    Row(RowPair),
+    /// All of a box of the given area.
+    Lattice(LatticePair, f64),
+}
+
+/// Where a series has to hold and how it is scaled.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Extent {
+    /// Largest |delta| (length).
+    pub(crate) reach: f64,
+    /// Length that delta is divided by.
+    pub(crate) unit: f64,
+    /// The highest power.
+    pub(crate) degree: usize,
+}
+
+/// Finds series from the values on a circle.
+#[derive(Debug)]
+pub(crate) struct SeriesFinder {
+    circles: [Circle; 2],
+    kernel: ImageKernel,
+    images: Images,
+    wave: Option<(f64, bool)>,
+}
+
+#[derive(Debug)]
+struct Circle {
+    transform: Transform,
+    points: Vec<Complex64>,
+    targets: Planes,
+    sources: Planes,
+    even: Vec<Complex64>,
+    odd: Vec<Complex64>,
+}
+
+impl SeriesFinder {
+    /// For a kernel between centres that coincide; `wave` as in [`Planes::fill`].
+    pub(crate) fn new(kernel: ImageKernel, images: Images, wave: Option<(f64, bool)>) -> Self {
+        Self { circles: [Circle::new(64), Circle::new(128)], kernel, images, wave }
+    }
+
+    /// The series around `distance` (target minus source), the free-space parts of the images at the distances `direct`
+    /// left out.
+    pub(crate) fn find(&mut self, distance: Complex64, direct: &[Complex64], extent: Extent, out: &mut Series) {
+        // A coefficient is spoilt by the one that is its mirror image in the length of the transform.
+        let circle = &mut self.circles[usize::from(2 * extent.degree + 2 > 64)];
+        circle.place(distance, extent.reach, &self.images, self.wave);
+        let area = match &self.kernel {
+            ImageKernel::Row(row) => {
+                circle.values(row);
+                f64::INFINITY
+            }
+            ImageKernel::Lattice(lattice, area) => {
+                circle.values(lattice);
+                *area
+            }
+        };
+        circle.subtract(direct, extent.reach);
+        circle.series(area, extent, out);
+    }
+}
+
+impl Circle {
+    fn new(len: usize) -> Self {
+        let zeros = vec![Complex64::default(); len];
+        Self {
+            transform: Transform::new(len),
+            points: zeros.clone(),
+            targets: Planes::default(),
+            sources: Planes::default(),
+            even: zeros.clone(),
+            odd: zeros,
+        }
+    }
+
+    fn point(&self, j: usize, radius: f64) -> Complex64 {
+        Complex64::from_polar(radius, TAU * j as f64 / self.points.len() as f64)
+    }
+
+    /// Puts the targets on a circle around a point and the sources at the origin.
+    fn place(&mut self, centre: Complex64, radius: f64, images: &Images, wave: Option<(f64, bool)>) {
+        let (k, transposed) = wave.map_or((None, false), |(k, transposed)| (Some(k), transposed));
+        self.points.fill(Complex64::default());
+        self.sources.fill(&self.points, k, transposed);
+        for j in 0..self.points.len() {
+            self.points[j] = images.wrap(centre + self.point(j, radius));
+        }
+        self.targets.fill(&self.points, k, transposed);
+    }
+
+    /// The parts of the flow that go with F and with conj F.
+    fn values<K: PairKernel>(&mut self, kernel: &K) {
+        let len = self.points.len();
+        let (target, source) = (self.targets.window(0, len), self.sources.window(0, len));
+        for i in 0..len {
+            let Stokeslet { q, xx, xy, yy } = kernel.stokeslet(&target, &source, i);
+            self.even[i] = Complex64::new(0.5 * (xx + yy - ln(q)), 0.0);
+            self.odd[i] = Complex64::new(0.5 * (xx - yy), xy);
+        }
+    }
+
+    /// Takes off free space around the distances given.
+    fn subtract(&mut self, direct: &[Complex64], radius: f64) {
+        for i in 0..self.points.len() {
+            let point = self.point(i, radius);
+            for distance in direct {
+                let d = distance + point;
+                self.even[i] -= 0.5 - 0.5 * ln(d.norm_sqr());
+                self.odd[i] -= 0.5 * d / d.conj();
+            }
+        }
+    }
+
+    fn series(&mut self, area: f64, extent: Extent, out: &mut Series) {
+        let Extent { reach, unit, degree } = extent;
+        self.transform.forward(&mut self.even);
+        self.transform.forward(&mut self.odd);
+        let len = self.points.len();
+        out.clear();
+        let mut scale = 1.0;
+        for n in 0..=degree + 1 {
+            let s = if n == 0 { self.even[0] - 0.5 * PI / area * reach * reach } else { self.even[n] * 2.0 };
+            // The term delta conj S' of conj F has waves of the other sign, two below those of S.
+            let slope = if n + 2 < len / 2 { self.even[n + 2] * (n + 2) as f64 } else { Complex64::default() };
+            let t = self.odd[(len - n) % len].conj() + slope;
+            if n > 0 {
+                scale *= n as f64 * unit / reach;
+            }
+            out.push(s * scale, t * scale);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lattice(periods: [f64; 2]) -> SeriesFinder {
+        let transposed = periods[1] < periods[0];
+        let k = TAU / periods[0].min(periods[1]);
+        let kernel = ImageKernel::Lattice(LatticePair::new(periods, 1e-18), periods[0] * periods[1]);
+        SeriesFinder::new(kernel, Images { periods: periods.map(Some) }, Some((k, transposed)))
+    }
+
+    fn around_the_source(periods: [f64; 2], unit: f64) -> Series {
+        let mut series = Series::new();
+        let extent = Extent { reach: 0.5 * periods[0].min(periods[1]), unit, degree: 40 };
+        lattice(periods).find(Complex64::default(), &[Complex64::default()], extent, &mut series);
+        series
+    }
+
+    #[test]
+    fn coefficients_of_the_square_lattice() {
+        // Values for a square box of side 6 (design notes of the method, section B5), there without 1/2 in the constant.
+        let Series { s: [s, imaginary], t: [t, _] } = around_the_source([6.0, 6.0], 1.0);
+        let factorial = |n: usize| (1..=n).map(|n| n as f64).product::<f64>();
+        assert!((s[0] + 0.018_773_456_683_454_6).abs() < 1e-14);
+        for (n, value) in [(4, 6.078_726_856_006_77e-4), (8, 3.167_221_73e-7), (12, 1.507_901_88e-10)] {
+            assert!((s[n] / factorial(n) / value - 1.0).abs() < 1e-8, "{n}");
+        }
+        for (n, value) in [(2, 0.034_828_539_366_201_4), (6, 4.839_158_345_16e-5), (10, 3.209_009_65e-8)] {
+            assert!((t[n] / factorial(n) / value - 1.0).abs() < 1e-8, "{n}");
+        }
+        for n in [1, 2, 3, 5, 6, 7] {
+            assert!(s[n].abs() < 1e-12 && imaginary[n].abs() < 1e-12, "{n}");
+        }
+    }
+
+    #[test]
+    fn coefficients_are_lattice_sums() {
+        // n s_n is the sum over the lattice of w^-n, 2 t_m that of conj(w) w^-(m + 1).
+        for periods in [[6.0f64, 6.0], [8.0, 5.0], [4.0, 10.0]] {
+            let unit = periods[0].min(periods[1]);
+            let Series { s: [s, _], t: [t, _] } = around_the_source(periods, unit);
+            let sum = |n: i32, conjugate: bool| {
+                let mut sum = 0.0;
+                for i in -30..=30 {
+                    for j in -30..=30 {
+                        if (i, j) != (0, 0) {
+                            let w = Complex64::new(f64::from(i) * periods[0], f64::from(j) * periods[1]) / unit;
+                            sum += (w.powi(-n) * if conjugate { w.conj() } else { Complex64::new(1.0, 0.0) }).re;
+                        }
+                    }
+                }
+                sum
+            };
+            let mut factorial = 1.0;
+            for n in 1..24 {
+                factorial *= f64::from(n);
+                if n >= 8 && n % 2 == 0 {
+                    let index = n as usize;
+                    let bound = 10.0 * 30f64.powi(2 - n) + 1e-14 * 2f64.powi(n);
+                    assert!((s[index] / factorial * f64::from(n) - sum(n, false)).abs() < bound * f64::from(n), "{n}");
+                    assert!((2.0 * t[index] / factorial - sum(n + 1, true)).abs() < bound, "{periods:?} {n}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn free_space_leaves_nothing_of_a_large_lattice() {
+        // Around a distance D, with the closest image left out, a large box has its background alone.
+        let mut finder = lattice([400.0, 500.0]);
+        let distance = Complex64::new(3.0, -1.0);
+        let extent = Extent { reach: 1.0, unit: 1.0, degree: 20 };
+        let (mut with, mut without, mut free) = (Series::new(), Series::new(), Series::new());
+        finder.find(distance, &[], extent, &mut with);
+        finder.find(distance, &[distance], extent, &mut without);
+        free.free(distance, extent);
+        for n in 0..20 {
+            for (a, (b, c)) in (with.s.iter().zip(without.s.iter().zip(&free.s)))
+                .chain(with.t.iter().zip(without.t.iter().zip(&free.t)))
+            {
+                let scale = (1..=n).map(|n| n as f64).product::<f64>();
+                assert!((a[n] - b[n] - c[n]).abs() < 1e-13 * scale, "{n}: {} {} {}", a[n], b[n], c[n]);
+                assert!(n < 3 || b[n].abs() < 1e-6 * scale);
+            }
+        }
+    }
+}
