@@ -71,7 +71,7 @@ impl Droplet {
     }
 
     /// Equally spaced markers, about `spacing` apart.
-    pub fn push_even(&self, spacing: f64, markers: &mut Markers) -> Result<(), StudyError> {
+    fn push_even(&self, spacing: f64, markers: &mut Markers) -> Result<(), StudyError> {
         let [a, b] = self.axes;
         let curve = if a == b { Curve::circle(a)? } else { Curve::ellipse(a, b)? };
         let curve = curve.translated(Vec2::new(self.centre[0], self.centre[1]));
@@ -160,6 +160,12 @@ impl Exact {
             })
             .collect();
         Ok(Self { droplets: droplets.to_vec(), region, velocities, centroids })
+    }
+
+    /// Velocities of a droplet at equal steps of the parameter.
+    #[must_use]
+    pub fn velocities(&self, droplet: usize) -> &[Vec2] {
+        &self.velocities[droplet]
     }
 
     /// Velocity of the centroid of a droplet.
