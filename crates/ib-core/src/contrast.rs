@@ -18,7 +18,7 @@ use double_layer::DoubleLayer;
 use droplet::Droplet;
 use gmres::{Gmres, Outcome, dot};
 pub(crate) use images::Images;
-use rigid::{RIGID, RigidModes};
+use rigid::RigidModes;
 pub(crate) use rigid_walls::RigidWalls;
 
 /// Residual of the iterations relative to the right-hand side.
@@ -175,19 +175,18 @@ impl Contrast {
             weighted().for_each(|motion| left.extend_from_slice(motion));
         }
         for (index, column) in left.chunks_exact_mut(len).enumerate() {
-            // About half the contrast is what the other eigenvalues lie above that of the rigid motions.
-            let lift = |index: usize| 0.5 * droplets[index / RIGID].contrast;
-            let scale = lift(index);
-            for (right, motion) in right.iter_mut().zip(weighted().nth(index).unwrap_or_default()) {
-                *right = scale * motion;
-            }
+            right.copy_from_slice(weighted().nth(index).unwrap_or_default());
             let product = |q: &[f64], out: &mut [f64]| {
                 layer.transposed_product(droplets, q, out);
-                for (out, q) in out.iter_mut().zip(q) {
-                    *out -= viscosity * q;
+                // Half the contrast is about what the other eigenvalues lie above that of the rigid motions.
+                for droplet in droplets {
+                    let scale = 2.0 / droplet.contrast;
+                    for i in droplet.entries(nodes) {
+                        out[i] = scale * (out[i] - viscosity * q[i]);
+                    }
                 }
-                for (k, (motion, weighted)) in rigid.motions(nodes).zip(rigid.weighted(nodes)).enumerate() {
-                    let amount = lift(k) * dot(motion, q);
+                for (motion, weighted) in rigid.motions(nodes).zip(rigid.weighted(nodes)) {
+                    let amount = dot(motion, q);
                     for (out, weighted) in out.iter_mut().zip(weighted) {
                         *out += amount * weighted;
                     }
@@ -210,21 +209,22 @@ impl Contrast {
             *right = own + other;
         }
         project(right);
-        if velocities.is_empty() {
-            velocities.resize(len, 0.0);
+        // Rows in units of the mean viscosity, so that thick and thin droplets count alike.
+        let divide = |values: &mut [f64]| {
             for droplet in droplets {
                 let scale = 1.0 / (viscosity + 0.5 * droplet.contrast);
-                for start in [droplet.first, nodes + droplet.first] {
-                    for i in start..start + droplet.nodes() {
-                        velocities[i] = scale * right[i];
-                    }
-                }
+                droplet.entries(nodes).for_each(|i| values[i] *= scale);
             }
+        };
+        divide(right);
+        if velocities.is_empty() {
+            velocities.extend_from_slice(right);
         }
         project(velocities);
         let product = |v: &[f64], out: &mut [f64]| {
             layer.product(droplets, v, out);
             project(out);
+            divide(out);
         };
         let outcome = gmres.solve(product, right, velocities, TOLERANCE, MOST_ITERATIONS);
         let outcome = check("the velocities of droplets of another viscosity", outcome)?;

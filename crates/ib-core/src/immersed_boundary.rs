@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// Distance from an interface, in grid spacings, within which the flow on the grid is smeared.
-const SMEARED: f64 = 3.0;
+const SMEARED: f64 = 4.0;
 /// How far beyond a wall a marker may lie, in grid spacings.
 const WALL_TOLERANCE: f64 = 0.25;
 
@@ -355,8 +355,10 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             self.prepare_contrast()?;
             let Some(flow) = self.contrast.as_mut() else { return Ok(()) };
             let smeared = SMEARED * self.solver.grid().spacing();
-            let grid =
-                |points: &[Vec2], out: &mut [FlowSample]| sampling::sample(&self.velocity, &pressure, points, out);
+            let velocity = &self.velocity;
+            let grid = |points: &[Vec2], out: &mut [FlowSample]| {
+                sampling::sample_smooth(velocity, &pressure, points, out);
+            };
             return flow.contrast.sample(markers, smeared, points, grid, out);
         }
         sampling::sample(&self.velocity, &pressure, points, out);

@@ -42,6 +42,49 @@ impl Lattice<'_> {
     }
 }
 
+impl Lattice<'_> {
+    /// Value by cubic interpolation at a position in cells.
+    fn cubic(&self, position: [f64; 2]) -> f64 {
+        let (x, y) = (position[0] - self.shift[0], position[1] - self.shift[1]);
+        let (i, j) = (x.floor(), y.floor());
+        let (columns, rows) = (cubic_weights(x - i), cubic_weights(y - j));
+        let (i, j) = (i as i64 - 1, j as i64 - 1);
+        let mut sum = 0.0;
+        for (row, wy) in (j..).zip(rows) {
+            for (column, wx) in (i..).zip(columns) {
+                sum += wx * wy * self.value(column, row);
+            }
+        }
+        sum
+    }
+}
+
+/// Lagrange weights of the points -1, 0, 1, 2 at t between 0 and 1.
+fn cubic_weights(t: f64) -> [f64; 4] {
+    let (a, b, c) = (t + 1.0, t - 1.0, t - 2.0);
+    [-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0]
+}
+
+/// Fills `out` with velocity and pressure at `points` by cubic interpolation, for where errors are amplified; no gradient.
+pub(crate) fn sample_smooth(
+    velocity: &StaggeredField,
+    pressure: &CentreField,
+    points: &[Vec2],
+    out: &mut [FlowSample],
+) {
+    let grid = velocity.grid();
+    let (h, origin) = (grid.spacing(), grid.origin());
+    let lattice = |values, shift, parity| Lattice { values, grid, shift, parity };
+    let u = lattice(velocity.x(), [0.0, 0.5], -1.0);
+    let v = lattice(velocity.y(), [0.5, 0.0], -1.0);
+    let p = lattice(pressure.values(), [0.5, 0.5], 1.0);
+    for (point, out) in points.iter().zip(out) {
+        let position = [(point.x - origin[0]) / h, (point.y - origin[1]) / h];
+        out.velocity = Vec2::new(u.cubic(position), v.cubic(position));
+        out.pressure = p.cubic(position);
+    }
+}
+
 /// Fills `out` with the flow at `points`: velocity and pressure bilinear between grid points, and the gradient of that.
 pub(crate) fn sample(velocity: &StaggeredField, pressure: &CentreField, points: &[Vec2], out: &mut [FlowSample]) {
     let grid = velocity.grid();

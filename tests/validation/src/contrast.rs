@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
 use motile::boundary_integral::{BoundaryIntegral, Channel, FluidDomain, PeriodicBox, Settings};
-use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2};
-use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
+use motile::ib_core::{CubicQuadratic, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2};
+use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 
 use crate::StudyError;
 
@@ -162,6 +162,12 @@ impl Exact {
         Ok(Self { droplets: droplets.to_vec(), region, velocities, centroids })
     }
 
+    /// Velocities of a droplet at equal steps of the parameter.
+    #[must_use]
+    pub fn velocities(&self, droplet: usize) -> &[Vec2] {
+        &self.velocities[droplet]
+    }
+
     /// Velocity of the centroid of a droplet.
     #[must_use]
     pub fn centroid_velocity(&self, droplet: usize) -> Vec2 {
@@ -173,22 +179,7 @@ impl Exact {
     /// # Errors
     /// A spacing that does not divide the region; what the solver can fail with.
     pub fn errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
-        let cells = |length: f64| (length / h).round() as usize;
-        match self.region {
-            Region::Box(side) => {
-                let grid = Grid::periodic(cells(side), cells(side), h)?.with_origin([-0.5 * side; 2])?;
-                self.compare(PeriodicStokes::new(grid, 1.0)?, h)
-            }
-            Region::Channel(length, width) => {
-                let grid = Grid::channel(cells(length), cells(width), h)?;
-                let grid = grid.with_origin([-0.5 * length, -0.5 * width])?;
-                self.compare(ChannelStokes::new(grid, 1.0)?, h)
-            }
-        }
-    }
-
-    fn compare<S: StokesSolver>(&self, solver: S, h: f64) -> Result<Vec<Errors>, StudyError> {
-        let mut flow = ImmersedBoundary::new(solver, CubicQuadratic::default());
+        let mut flow = coupled(self.region, h)?;
         let mut markers = Markers::new();
         for droplet in &self.droplets {
             droplet.push_even(0.5 * h, &mut markers)?;
@@ -213,6 +204,23 @@ impl Exact {
         }
         Ok(all)
     }
+}
+
+/// The immersed boundary method in a region, viscosity one.
+fn coupled(region: Region, h: f64) -> Result<Box<dyn Hydrodynamics>, StudyError> {
+    let cells = |length: f64| (length / h).round() as usize;
+    let kernel = CubicQuadratic::default();
+    Ok(match region {
+        Region::Box(side) => {
+            let grid = Grid::periodic(cells(side), cells(side), h)?.with_origin([-0.5 * side; 2])?;
+            Box::new(ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0)?, kernel))
+        }
+        Region::Channel(length, width) => {
+            let grid = Grid::channel(cells(length), cells(width), h)?;
+            let grid = grid.with_origin([-0.5 * length, -0.5 * width])?;
+            Box::new(ImmersedBoundary::new(ChannelStokes::new(grid, 1.0)?, kernel))
+        }
+    })
 }
 
 fn solve<D: FluidDomain>(domain: D, settings: Settings, markers: &mut Markers) -> Result<(), StudyError> {
@@ -247,4 +255,83 @@ fn interpolate(values: &[Vec2], t: f64) -> Vec2 {
         sum += weight * value;
     }
     sum
+}
+
+/// Errors of the flow away from the markers of a single droplet.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FieldErrors {
+    /// Velocity, relative to the fastest marker.
+    pub velocity: f64,
+    /// Velocity gradient, relative to the fastest marker over the unit of length.
+    pub gradient: f64,
+    /// Pressure, relative to the range of the sampled pressures.
+    pub pressure: f64,
+}
+
+/// Largest errors of sampled flows at points of a droplet's surroundings that are nearer to the interface than 3h, on the
+/// inside and on the outside, and farther away, inside and outside.
+///
+/// # Errors
+/// A spacing that does not divide the region; what the solvers can fail with.
+pub fn field_errors(region: Region, droplet: &Droplet, h: f64) -> Result<[FieldErrors; 4], StudyError> {
+    let mut points = Vec::new();
+    for k in 0..40 {
+        let t = TAU * (f64::from(k) + 0.37) / 40.0;
+        let [a, b] = droplet.axes;
+        let normal = Vec2::new(b * t.cos(), a * t.sin()).normalize();
+        // The golden ratio spreads the distances over both sides.
+        let fraction = (f64::from(k) * 0.618_033_988_75).fract();
+        let distance = if k % 2 == 0 { 3.0 * h * (2.0 * fraction - 1.0) } else { 1.1 * fraction - 0.5 };
+        points.push((droplet.point(t) + distance * normal, distance));
+    }
+    let places: Vec<Vec2> = points.iter().map(|(point, _)| *point).collect();
+    let (mut exact, mut found) = (vec![FlowSample::default(); 40], vec![FlowSample::default(); 40]);
+    let mut markers = Markers::new();
+    droplet.push_exact(256, &mut markers);
+    let settings = Settings { nodes: 256, tolerance: 1e-10, ..Settings::default() };
+    match region {
+        Region::Box(side) => sample(
+            &mut BoundaryIntegral::new(PeriodicBox::new(side, side)?, 1.0, settings)?,
+            &mut markers,
+            &places,
+            &mut exact,
+        )?,
+        Region::Channel(length, width) => sample(
+            &mut BoundaryIntegral::new(Channel::new(length, width)?, 1.0, settings)?,
+            &mut markers,
+            &places,
+            &mut exact,
+        )?,
+    }
+    let largest = markers.velocities.iter().map(Vec2::norm).fold(0.0, f64::max);
+    let mut markers = Markers::new();
+    droplet.push_even(0.5 * h, &mut markers)?;
+    sample(coupled(region, h)?.as_mut(), &mut markers, &places, &mut found)?;
+    // Pressures are known up to a constant.
+    let count = points.len() as f64;
+    let shift = found.iter().zip(&exact).map(|(a, b)| a.pressure - b.pressure).sum::<f64>() / count;
+    let pressures = exact.iter().map(|sample| sample.pressure);
+    let range = pressures.clone().fold(f64::MIN, f64::max) - pressures.fold(f64::MAX, f64::min);
+    let mut errors = [FieldErrors::default(); 4];
+    for (((_, distance), found), exact) in points.iter().zip(&found).zip(&exact) {
+        let class = usize::from(distance.abs() > 3.0 * h) * 2 + usize::from(*distance > 0.0);
+        let error = &mut errors[class];
+        error.velocity = error.velocity.max((found.velocity - exact.velocity).norm() / largest);
+        for (found, exact) in found.gradient.iter().flatten().zip(exact.gradient.iter().flatten()) {
+            error.gradient = error.gradient.max((found - exact).abs() / largest);
+        }
+        error.pressure = error.pressure.max((found.pressure - exact.pressure - shift).abs() / range);
+    }
+    Ok(errors)
+}
+
+fn sample<H: Hydrodynamics + ?Sized>(
+    flow: &mut H,
+    markers: &mut Markers,
+    points: &[Vec2],
+    out: &mut [FlowSample],
+) -> Result<(), StudyError> {
+    flow.velocities(markers)?;
+    flow.sample(markers, points, out)?;
+    Ok(())
 }

@@ -7,10 +7,14 @@ use crate::StudyError;
 pub enum ReferenceFile {
     /// Velocities on fixed shapes, equal viscosities.
     FixedShapes,
+    /// Velocities on fixed shapes, viscosity inside ten times that outside.
+    FixedShapesRatio10,
     /// Relaxation of an ellipse.
     EllipseRelaxation,
     /// Steady swimmers in a box.
     SteadySwimmers,
+    /// A steady swimmer in a box, viscosity inside ten times that outside.
+    SteadySwimmerContrast,
     /// A swimmer's transient in a box.
     Transient,
     /// Point forces in a channel.
@@ -29,6 +33,8 @@ impl ReferenceFile {
     fn text(self) -> &'static str {
         match self {
             Self::FixedShapes => include_str!("../reference/fixed_shape_velocities_equal_viscosity.csv"),
+            Self::FixedShapesRatio10 => include_str!("../reference/fixed_shape_velocities_ratio_10.csv"),
+            Self::SteadySwimmerContrast => include_str!("../reference/steady_swimmer_contrast_box6.csv"),
             Self::EllipseRelaxation => include_str!("../reference/ellipse_relaxation_box6.csv"),
             Self::SteadySwimmers => include_str!("../reference/steady_swimmer_box6.csv"),
             Self::Transient => include_str!("../reference/swimmer_transient_box6_activity_1.csv"),

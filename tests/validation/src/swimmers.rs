@@ -63,13 +63,17 @@ pub fn reference_swimmer(base: &Swimmer, activity: f64, h: f64) -> Swimmer {
     }
 }
 
-/// Runs a swimmer from the polarised start to `time` and compares with the steady state of `steady_swimmer_box6.csv`.
+/// Runs a swimmer from the polarised start to `time` and compares with the steady state of `steady_swimmer_box6.csv`, or of
+/// `steady_swimmer_contrast_box6.csv` where the viscosity inside is another one.
 ///
 /// # Errors
 /// An activity that is not in the table, and what a run can fail with.
 pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SteadyErrors, StudyError> {
-    let reference =
-        Reference::read(ReferenceFile::SteadySwimmers)?.select("zeta_dmu", &format!("{:.1}", swimmer.activity));
+    let file = match swimmer.viscosity_inside {
+        Some(_) => ReferenceFile::SteadySwimmerContrast,
+        None => ReferenceFile::SteadySwimmers,
+    };
+    let reference = Reference::read(file)?.select("zeta_dmu", &format!("{:.1}", swimmer.activity));
     let (mut scene, droplet) = swimmer.build()?;
     scene.run(time).step_size(swimmer.step).go()?;
     let seen = look(&mut scene, droplet)?;

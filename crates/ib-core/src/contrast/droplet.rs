@@ -74,6 +74,12 @@ impl Droplet {
         self.positions.len()
     }
 
+    /// Its entries in vectors over all nodes, x components first.
+    pub(crate) fn entries(&self, all: usize) -> impl Iterator<Item = usize> + use<> {
+        let (first, count) = (self.first, self.nodes());
+        (first..first + count).chain(all + first..all + first + count)
+    }
+
     /// Mean distance of neighbouring nodes (length).
     pub(crate) fn spacing(&self) -> f64 {
         self.weights.iter().sum::<f64>() / self.nodes() as f64
