@@ -280,6 +280,22 @@ pub enum SolidError {
         /// Why.
         what: &'static str,
     },
+    /// Text that is not a mesh file.
+    #[error("line {line} of the mesh file: {what}")]
+    Gmsh {
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// A group of triangles that cannot be written.
+    #[error("group {tag} of triangles: {what}")]
+    BadGroup {
+        /// Its number.
+        tag: i32,
+        /// What is wrong with it.
+        what: &'static str,
+    },
 }
 
 /// `value` if it is positive and finite.

@@ -30,6 +30,7 @@ mod channel_shapes;
 mod deformation;
 mod energy;
 mod error;
+mod gmsh;
 mod lattice;
 mod mesh;
 mod mesher;
@@ -50,6 +51,7 @@ pub use channel_shapes::{BranchingChannel, Constriction, Ratchet, SinusoidalChan
 pub use deformation::{DeformationGradient, Mat2};
 pub use energy::EnergyDensity;
 pub use error::SolidError;
+pub use gmsh::{GmshMesh, PhysicalGroup};
 pub use lattice::{equilateral_block, equilateral_strip, fitted_strip};
 pub use mesh::{BoundaryLoop, Edge, TriangleMesh};
 pub use mesher::Mesher;
