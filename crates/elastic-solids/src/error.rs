@@ -296,6 +296,20 @@ pub enum SolidError {
         /// What is wrong with it.
         what: &'static str,
     },
+    /// A triangle turned inside out.
+    #[error(
+        "triangle {triangle} near ({x}, {y}) is turned inside out (area ratio {jacobian}): use a smaller time step or mesh spacing, or stiffer material"
+    )]
+    Inverted {
+        /// Which triangle.
+        triangle: usize,
+        /// x of its middle (length).
+        x: f64,
+        /// y of its middle (length).
+        y: f64,
+        /// Its deformed over its reference area, negative when turned.
+        jacobian: f64,
+    },
 }
 
 /// `value` if it is positive and finite.
