@@ -138,6 +138,178 @@ pub enum SolidError {
         /// One of the triangles.
         triangle: usize,
     },
+    /// A quantity that must be finite is not.
+    #[error("{name} is {value}: give a finite number")]
+    NotFinite {
+        /// The quantity.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// Something that cannot be done.
+    #[error("{what} is not possible: {remedy}")]
+    Unsupported {
+        /// What was asked for.
+        what: &'static str,
+        /// What to do instead.
+        remedy: &'static str,
+    },
+    /// A line that does not return to its start.
+    #[error(
+        "the outline ends at ({x}, {y}), {gap} from where it must: close it, or let a profile return to its first height"
+    )]
+    OpenOutline {
+        /// x of its end (length).
+        x: f64,
+        /// y of its end (length).
+        y: f64,
+        /// Distance from its start, or from the start of the next period (length).
+        gap: f64,
+    },
+    /// A side or curve of an outline without length.
+    #[error("a side of the outline at ({x}, {y}) has the length {length}: points that follow each other must differ")]
+    NoLength {
+        /// x of its start (length).
+        x: f64,
+        /// y of its start (length).
+        y: f64,
+        /// Its length.
+        length: f64,
+    },
+    /// Corners of a curve that do not increase.
+    #[error("corner at {value}: give increasing numbers above {start} and below {end}")]
+    CornersOutOfOrder {
+        /// The first one out of order.
+        value: f64,
+        /// Start of the curve.
+        start: f64,
+        /// End of the curve.
+        end: f64,
+    },
+    /// A fillet that does not fit.
+    #[error(
+        "a fillet of radius {radius} does not fit on the side of length {side} from ({x}, {y}): give at most {maximum}"
+    )]
+    FilletTooLarge {
+        /// The radius (length).
+        radius: f64,
+        /// x of the side's start (length).
+        x: f64,
+        /// y of the side's start (length).
+        y: f64,
+        /// Length of the side.
+        side: f64,
+        /// Largest radius that fits there (length).
+        maximum: f64,
+    },
+    /// Periodic outlines that do not repeat together.
+    #[error("one outline has the period {first}, another {second}: give them the same")]
+    DifferentPeriods {
+        /// A period (length).
+        first: f64,
+        /// Another (length).
+        second: f64,
+    },
+    /// A region without an end.
+    #[error("the region has {lines} periodic outlines: give an even number, the two surfaces of each wall")]
+    OpenRegion {
+        /// How many there are.
+        lines: usize,
+    },
+    /// Outlines that cross.
+    #[error(
+        "outlines cross or touch near ({x}, {y}): move them apart, or use a smaller spacing where they only come close"
+    )]
+    Crossing {
+        /// x of the place (length).
+        x: f64,
+        /// y of the place (length).
+        y: f64,
+    },
+    /// A line of a channel on the wrong side of the others.
+    #[error(
+        "the line through ({x}, {y}) is not below the upper side of the channel and above the lower one: exchange or move them"
+    )]
+    NotBetween {
+        /// x of a point of it (length).
+        x: f64,
+        /// y of that point (length).
+        y: f64,
+    },
+    /// Lengths that do not fit into the period.
+    #[error("{what} take {length}, more than the period {period}: shorten them or lengthen the period")]
+    DoesNotFit {
+        /// Which lengths.
+        what: &'static str,
+        /// Their sum (length).
+        length: f64,
+        /// The period (length).
+        period: f64,
+    },
+    /// A hole that the mesh cannot resolve.
+    #[error(
+        "the hole at ({x}, {y}) is {width} wide, less than the mesh spacing {spacing}: leave it out or use a smaller spacing"
+    )]
+    HoleTooSmall {
+        /// x of a point of its outline (length).
+        x: f64,
+        /// y of that point (length).
+        y: f64,
+        /// Its width (length).
+        width: f64,
+        /// Mesh spacing (length).
+        spacing: f64,
+    },
+    /// A wall that the mesh cannot resolve.
+    #[error(
+        "the wall at ({x}, {y}) is {thickness} thick, less than the mesh spacing {spacing}: make it thicker, round its tip, or use a smaller spacing"
+    )]
+    WallTooThin {
+        /// x of a point of its outline (length).
+        x: f64,
+        /// y of that point (length).
+        y: f64,
+        /// Its thickness (length).
+        thickness: f64,
+        /// Mesh spacing (length).
+        spacing: f64,
+    },
+    /// A triangulation that failed.
+    #[error("the triangulation failed: {what}; use a smaller mesh spacing")]
+    MeshingFailed {
+        /// Why.
+        what: &'static str,
+    },
+    /// Text that is not a mesh file.
+    #[error("line {line} of the mesh file: {what}")]
+    Gmsh {
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong with it.
+        what: String,
+    },
+    /// A group of triangles that cannot be written.
+    #[error("group {tag} of triangles: {what}")]
+    BadGroup {
+        /// Its number.
+        tag: i32,
+        /// What is wrong with it.
+        what: &'static str,
+    },
+    /// A triangle turned inside out.
+    #[error(
+        "triangle {triangle} near ({x}, {y}) is turned inside out (area ratio {jacobian}): use a smaller time step or mesh spacing, or stiffer material"
+    )]
+    Inverted {
+        /// Which triangle.
+        triangle: usize,
+        /// x of its middle (length).
+        x: f64,
+        /// y of its middle (length).
+        y: f64,
+        /// Its deformed over its reference area, negative when turned.
+        jacobian: f64,
+    },
 }
 
 /// `value` if it is positive and finite.
@@ -165,4 +337,9 @@ pub(crate) fn all_points_finite(name: &'static str, points: &[Vec2]) -> Result<(
         None => Ok(()),
         Some(index) => Err(SolidError::EntryNotFinite { name, index, x: points[index].x, y: points[index].y }),
     }
+}
+
+/// `value` if it is finite.
+pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, SolidError> {
+    if value.is_finite() { Ok(value) } else { Err(SolidError::NotFinite { name, value }) }
 }

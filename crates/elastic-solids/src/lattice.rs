@@ -95,7 +95,7 @@ fn count(name: &'static str, exact: f64, minimum: usize) -> Result<usize, SolidE
     if exact > MOST {
         return Err(SolidError::OutOfRange { name, value: exact, minimum: minimum as f64, maximum: MOST });
     }
-    Ok(at_least(name, exact.round() as usize, minimum)?)
+    at_least(name, exact.round() as usize, minimum)
 }
 
 #[cfg(test)]

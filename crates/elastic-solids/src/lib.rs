@@ -25,25 +25,46 @@
 //! # Ok::<(), SolidError>(())
 //! ```
 
+mod channel;
+mod channel_shapes;
 mod deformation;
 mod energy;
 mod error;
+mod forces;
+mod gmsh;
+mod hyperelastic;
 mod lattice;
 mod mesh;
+mod mesher;
 mod moduli;
 mod mooney_rivlin;
 mod neo_hookean;
+mod outline;
 mod quality;
+mod region;
+mod relaxation;
 mod saint_venant_kirchhoff;
+mod segments;
+mod springs;
 mod topology;
+mod triangulation;
 
+pub use channel::{Channel, ChannelWalls};
+pub use channel_shapes::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, StraightChannel, Valve};
 pub use deformation::{DeformationGradient, Mat2};
 pub use energy::EnergyDensity;
 pub use error::SolidError;
+pub use forces::ElasticForces;
+pub use gmsh::{GmshMesh, PhysicalGroup};
+pub use hyperelastic::Hyperelastic;
 pub use lattice::{equilateral_block, equilateral_strip, fitted_strip};
 pub use mesh::{BoundaryLoop, Edge, TriangleMesh};
+pub use mesher::Mesher;
 pub use moduli::Moduli;
 pub use mooney_rivlin::MooneyRivlin;
 pub use neo_hookean::NeoHookean;
+pub use outline::Outline;
 pub use quality::MeshQuality;
+pub use region::Region;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
+pub use springs::Springs;

@@ -172,11 +172,6 @@ impl TriangleMesh {
         corners_of(&self.triangles[triangle], self.shifts[triangle], self.period.unwrap_or(0.0), positions)
     }
 
-    /// What to add to x of the second and third corner of a triangle across the seam (length).
-    pub(crate) fn corner_shifts(&self, triangle: usize) -> [f64; 2] {
-        self.shifts[triangle].map(|shift| f64::from(shift) * self.period.unwrap_or(0.0))
-    }
-
     /// The centroid of a triangle in the reference state (length).
     ///
     /// # Panics

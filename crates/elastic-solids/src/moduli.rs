@@ -59,6 +59,16 @@ impl Moduli {
         Self::of_springs(3.0 / 16.0 * THESIS_SPACING * k)
     }
 
+    /// Those of springs whose shear modulus is known to be positive.
+    pub(crate) fn springs_of_checked(shear: f64) -> Self {
+        Self { shear, bulk: 2.0 * shear }
+    }
+
+    /// The larger of both moduli.
+    pub(crate) fn larger(&self, other: &Self) -> Self {
+        Self { shear: self.shear.max(other.shear), bulk: self.bulk.max(other.bulk) }
+    }
+
     /// Shear modulus mu (force per length).
     #[must_use]
     pub fn shear(&self) -> f64 {

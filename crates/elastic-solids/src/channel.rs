@@ -1,0 +1,171 @@
+//! Channels between two walls.
+
+use ib_core::Vec2;
+
+use crate::error::finite;
+use crate::segments::Segments;
+use crate::{Mesher, Outline, Region, SolidError, TriangleMesh};
+
+/// A channel along x, periodic: the lines that bound it below and above, and islands between them.
+///
+/// ```
+/// use elastic_solids::*;
+///
+/// // A wavy channel, written as two functions of x.
+/// let wave = |x: f64| 0.2 * (std::f64::consts::PI * x / 3.0).cos();
+/// let channel = Channel::between(-6.0, 12.0, move |x| -1.0 - wave(x), move |x| 1.0 + wave(x))?;
+///
+/// // Its walls, out to y = -2.5 and 2.5.
+/// let walls = channel.walls(-2.5, 2.5, &Mesher::new(0.1)?)?;
+/// println!("{}", walls.lower.quality());
+/// assert!((walls.lower.area() - 12.0 * 1.5).abs() < 0.01);
+/// # Ok::<(), SolidError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Channel {
+    lower: Outline,
+    upper: Outline,
+    islands: Vec<Outline>,
+    period: f64,
+}
+
+/// Meshes of the walls of a channel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChannelWalls {
+    /// The wall below.
+    pub lower: TriangleMesh,
+    /// The wall above.
+    pub upper: TriangleMesh,
+    /// The islands, in the order of their addition.
+    pub islands: Vec<TriangleMesh>,
+}
+
+/// Points a period by which it is seen whether lines cross.
+const SAMPLES: f64 = 2000.0;
+
+impl Channel {
+    /// The channel between two periodic outlines, which may have corners and overhang.
+    ///
+    /// # Errors
+    /// Outlines without or with different periods, that cross or touch, or the wrong way round.
+    pub fn new(lower: Outline, upper: Outline) -> Result<Self, SolidError> {
+        Self::with_islands(lower, upper, Vec::new())
+    }
+
+    /// The same with closed outlines between them.
+    ///
+    /// # Errors
+    /// As [`Channel::new`]; an island that is not closed, or not between the lines.
+    pub fn with_islands(lower: Outline, upper: Outline, islands: Vec<Outline>) -> Result<Self, SolidError> {
+        let Some(period) = lower.period() else {
+            return Err(SolidError::Unsupported {
+                what: "a closed outline as the side of a channel",
+                remedy: "give a profile, a polyline or a flat line",
+            });
+        };
+        if upper.period() != Some(period) {
+            let second = upper.period().unwrap_or(0.0);
+            return Err(SolidError::DifferentPeriods { first: period, second });
+        }
+        if islands.iter().any(|island| island.period().is_some()) {
+            return Err(SolidError::Unsupported {
+                what: "a periodic line as an island",
+                remedy: "give a closed outline",
+            });
+        }
+        let spacing = period / SAMPLES;
+        let lines = [&lower, &upper]
+            .into_iter()
+            .chain(&islands)
+            .map(|outline| outline.resampled(spacing))
+            .collect::<Result<Vec<_>, _>>()?;
+        let start = lines[0][0].x;
+        let segments = Segments::new(&lines, Some((start, period)), 2.0 * spacing);
+        if let Some(place) = segments.first_crossing() {
+            return Err(SolidError::Crossing { x: place.x, y: place.y });
+        }
+        // What lies between the lines has one of them above; islands are crossed twice or not at all.
+        for (number, line) in lines.iter().enumerate().filter(|&(number, _)| number != 1) {
+            let mut place = line[0];
+            place.x -= period * ((place.x - start) / period).floor();
+            if segments.crossings_above(place, Some(number)) % 2 != 1 {
+                return Err(SolidError::NotBetween { x: place.x, y: place.y });
+            }
+        }
+        Ok(Self { lower, upper, islands, period })
+    }
+
+    /// The channel from y = `lower(x)` to `upper(x)` (length) for x from `start` to `start + period` (length), smooth everywhere.
+    ///
+    /// # Errors
+    /// Those of [`Outline::profile`] and [`Channel::new`].
+    pub fn between(
+        start: f64,
+        period: f64,
+        lower: impl Fn(f64) -> f64 + Send + Sync + 'static,
+        upper: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Result<Self, SolidError> {
+        Self::new(Outline::profile(start, period, lower)?, Outline::profile(start, period, upper)?)
+    }
+
+    /// The channel with a lower side as given and its mirror image about y = 0 above.
+    ///
+    /// # Errors
+    /// Those of [`Channel::new`].
+    pub fn symmetric(lower: Outline) -> Result<Self, SolidError> {
+        let upper = lower.mirrored(0.0)?;
+        Self::new(lower, upper)
+    }
+
+    /// The line below.
+    #[must_use]
+    pub fn lower(&self) -> &Outline {
+        &self.lower
+    }
+
+    /// The line above.
+    #[must_use]
+    pub fn upper(&self) -> &Outline {
+        &self.upper
+    }
+
+    /// The islands.
+    #[must_use]
+    pub fn islands(&self) -> &[Outline] {
+        &self.islands
+    }
+
+    /// Period in x (length).
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// The channel wider by `by` (length): the lower line moved down and the upper one up by half of it.
+    ///
+    /// # Errors
+    /// A number that is not finite, or so negative that the lines touch.
+    pub fn widened(&self, by: f64) -> Result<Self, SolidError> {
+        finite("the widening", by)?;
+        let step = Vec2::new(0.0, 0.5 * by);
+        Self::with_islands(self.lower.translated(-step)?, self.upper.translated(step)?, self.islands.clone())
+    }
+
+    /// Meshes of the wall from y = `bottom` (length) up to the lower line, of the wall from the upper line up to `top` (length), and of the
+    /// islands.
+    ///
+    /// # Errors
+    /// Those of [`Mesher::mesh`].
+    pub fn walls(&self, bottom: f64, top: f64, mesher: &Mesher) -> Result<ChannelWalls, SolidError> {
+        let start = |line: &Outline| line.start().x;
+        let outer = |line: &Outline, height: f64| Outline::flat(start(line), self.period, height);
+        let lower = Region::new([outer(&self.lower, bottom)?, self.lower.clone()])?;
+        let upper = Region::new([self.upper.clone(), outer(&self.upper, top)?])?;
+        let islands = self.islands.iter().map(|island| mesher.mesh(&Region::new([island.clone()])?));
+        Ok(ChannelWalls {
+            lower: mesher.mesh(&lower)?,
+            upper: mesher.mesh(&upper)?,
+            islands: islands.collect::<Result<_, _>>()?,
+        })
+    }
+}

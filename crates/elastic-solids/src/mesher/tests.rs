@@ -1,0 +1,162 @@
+//! Uniformity, exact areas, what is refused, and time.
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::Outline;
+
+fn v(x: f64, y: f64) -> Vec2 {
+    Vec2::new(x, y)
+}
+
+#[test]
+fn polygons_are_filled_exactly() {
+    let l_shape = [v(0.0, 0.0), v(3.0, 0.0), v(3.0, 1.0), v(1.0, 1.0), v(1.0, 2.5), v(0.0, 2.5)];
+    for angle in [0.0, 0.4] {
+        let outline = Outline::polygon(&l_shape).unwrap().rotated(angle, v(1.0, 2.0)).unwrap();
+        let mesh = outline.mesh(0.1).unwrap();
+        assert!((mesh.area() - 4.5).abs() < 1e-12);
+        let quality = mesh.quality();
+        assert!(quality.edge_deviation < 0.1 && quality.smallest_angle > 30.0, "{quality}");
+        assert!((quality.mean_edge - 0.1).abs() < 0.004);
+    }
+}
+
+#[test]
+fn a_disc_and_a_ring_converge_to_their_area() {
+    let circle = |radius: f64| Outline::circle(v(0.3, 0.1), radius).unwrap();
+    let exact = std::f64::consts::PI * (1.0 - 0.16);
+    let errors = [0.1, 0.05].map(|spacing| {
+        let ring = Region::new([circle(1.0), circle(0.4)]).unwrap().mesh(spacing).unwrap();
+        assert_eq!(ring.boundary_loops().len(), 2);
+        (ring.area() - exact).abs()
+    });
+    let order = (errors[0] / errors[1]).log2();
+    assert!((order - 2.0).abs() < 0.3, "{errors:?}, order {order}");
+    let disc = circle(1.0).mesh(0.05).unwrap();
+    let quality = disc.quality();
+    assert!(quality.edge_deviation < 0.055 && quality.smallest_angle > 33.0, "{quality}");
+}
+
+#[test]
+fn refinement_is_less_even() {
+    let region = Region::new([Outline::circle(v(0.0, 0.0), 1.0).unwrap()]).unwrap();
+    let refined = Mesher::new(0.1).unwrap().refinement().mesh(&region).unwrap().quality();
+    let relaxed = region.mesh(0.1).unwrap().quality();
+    assert!(refined.smallest_angle > 20.0, "{refined}");
+    assert!((refined.mean_edge - 0.1).abs() < 0.01, "{refined}");
+    assert!(refined.edge_deviation > 2.0 * relaxed.edge_deviation, "{refined}");
+}
+
+#[test]
+fn a_straight_wall_is_a_lattice_unless_its_seeds_are_turned() {
+    let flat = |y| Outline::flat(-3.0, 6.0, y).unwrap();
+    for height in [1.0, 1.07, 1.1] {
+        let region = Region::new([flat(0.0), flat(height)]).unwrap();
+        let quality = region.mesh(0.1).unwrap().quality();
+        assert!(quality.edge_deviation < 0.02 && quality.smallest_angle > 57.0, "{quality}");
+        let turned = Mesher::new(0.1).unwrap().turned(0.2).unwrap().mesh(&region).unwrap();
+        assert!((turned.area() - 6.0 * height).abs() < 1e-12);
+        let quality = turned.quality();
+        assert!(quality.edge_deviation > 0.03 && quality.smallest_angle > 28.0, "{quality}");
+    }
+}
+
+#[test]
+fn several_parts_and_islands_in_holes() {
+    let circle = |x: f64, radius: f64| Outline::circle(v(x, 0.0), radius).unwrap();
+    let region = Region::new([circle(0.0, 1.0), circle(0.0, 0.6), circle(0.0, 0.3), circle(3.0, 0.5)]).unwrap();
+    let mesh = region.mesh(0.05).unwrap();
+    assert_eq!(mesh.boundary_loops().len(), 4);
+    let expected = std::f64::consts::PI * (1.0 - 0.36 + 0.09 + 0.25);
+    assert!((mesh.area() - expected).abs() < 0.01);
+}
+
+#[test]
+fn outlines_that_make_no_mesh_are_refused() {
+    let circle = |x: f64, radius: f64| Outline::circle(v(x, 0.0), radius).unwrap();
+    let refused =
+        |outlines: Vec<Outline>, spacing: f64| Region::new(outlines).and_then(|r| r.mesh(spacing)).unwrap_err();
+    let bow_tie = Outline::polygon(&[v(0.0, 0.0), v(1.0, 1.0), v(1.0, 0.0), v(0.0, 1.0)]).unwrap();
+    match refused(vec![bow_tie], 0.1) {
+        SolidError::Crossing { x, y } => assert!((v(x, y) - v(0.5, 0.5)).norm() < 0.05),
+        other => panic!("{other}"),
+    }
+    let spike = Outline::polygon(&[v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0), v(1.0, 0.5), v(0.0, 0.5)]).unwrap();
+    assert!(matches!(refused(vec![spike], 0.1), SolidError::Crossing { .. }));
+    let twice = refused(vec![circle(0.0, 1.0), circle(0.5, 1.0)], 0.1);
+    assert!(matches!(twice, SolidError::Crossing { .. }));
+    let same = refused(vec![circle(0.0, 1.0), circle(0.0, 1.0)], 0.1);
+    assert!(matches!(same, SolidError::Crossing { .. }));
+    match refused(vec![circle(0.0, 1.0), circle(0.0, 0.04)], 0.1) {
+        SolidError::HoleTooSmall { width, .. } => assert!((width - 0.08).abs() < 0.01),
+        other => panic!("{other}"),
+    }
+    match refused(vec![circle(0.0, 1.0), circle(0.0, 0.93)], 0.1) {
+        SolidError::WallTooThin { thickness, .. } => assert!((thickness - 0.07).abs() < 0.005),
+        other => panic!("{other}"),
+    }
+    assert!(matches!(refused(vec![circle(0.0, 0.04)], 0.1), SolidError::WallTooThin { .. }));
+    // A dumbbell whose bar is thinner than the spacing, by one outline alone.
+    let bar = |t: f64| {
+        let c = (std::f64::consts::TAU * t).cos();
+        v(2.0 * c, (0.03 + 0.5 * c * c) * (std::f64::consts::TAU * t).sin())
+    };
+    let dumbbell = Outline::closed(bar).unwrap();
+    assert!(matches!(refused(vec![dumbbell.clone()], 0.1), SolidError::WallTooThin { .. }));
+    assert!(dumbbell.mesh(0.04).is_ok());
+    let flat = |y: f64| Outline::flat(0.0, 1.0, y).unwrap();
+    assert!(matches!(refused(vec![flat(0.0)], 0.1), SolidError::OpenRegion { lines: 1 }));
+    assert!(matches!(refused(vec![flat(0.0), flat(0.05)], 0.1), SolidError::WallTooThin { .. }));
+    assert!(matches!(refused(vec![flat(0.0), flat(1.0)], 0.3), SolidError::OutOfRange { .. }));
+    let other = Outline::flat(0.0, 2.0, 1.0).unwrap();
+    assert!(matches!(refused(vec![flat(0.0), other], 0.1), SolidError::DifferentPeriods { .. }));
+    assert!(matches!(refused(vec![], 0.1), SolidError::TooFew { .. }));
+    assert!(matches!(refused(vec![circle(0.0, 1.0)], f64::NAN), SolidError::NotPositive { .. }));
+    assert!(matches!(refused(vec![circle(0.0, 1.0)], 1e-7), SolidError::OutOfRange { .. }));
+    let periodic = Region::new([flat(0.0), flat(1.0)]).unwrap();
+    let refined = Mesher::new(0.1).unwrap().refinement().mesh(&periodic);
+    assert!(matches!(refined, Err(SolidError::Unsupported { .. })));
+}
+
+/// The bound is generous: a machine may be busy.
+#[test]
+fn ten_thousand_points_take_less_than_a_second() {
+    let flat = Outline::flat(-6.0, 12.0, -2.5).unwrap();
+    let profile = Outline::profile(-6.0, 12.0, |x| -1.0 + 0.4 * (std::f64::consts::PI * x / 3.0).cos()).unwrap();
+    let region = Region::new([flat, profile]).unwrap();
+    let start = std::time::Instant::now();
+    let mesh = region.mesh(0.046).unwrap();
+    let seconds = start.elapsed().as_secs_f64();
+    assert!(mesh.points().len() > 10_000, "{}", mesh.points().len());
+    assert!(seconds < 1.0, "{seconds}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    /// Smooth closed outlines of random shape and place: the mesh fills the polygon of its boundary, and is even.
+    #[test]
+    fn random_outlines(
+        modes in prop::collection::vec((-0.06..0.06_f64, -0.06..0.06_f64), 4),
+        x in -50.0..50.0_f64, y in -50.0..50.0_f64, size in 0.5..20.0_f64,
+    ) {
+        let shape = move |t: f64| {
+            let angle = std::f64::consts::TAU * t;
+            let wave = |(k, (a, b)): (usize, &(f64, f64))| {
+                let phase = (k + 2) as f64 * angle;
+                a * phase.cos() + b * phase.sin()
+            };
+            let radius = size * (1.0 + modes.iter().enumerate().map(wave).sum::<f64>());
+            v(x + radius * angle.cos(), y + radius * angle.sin())
+        };
+        let outline = Outline::closed(shape).unwrap();
+        let spacing = size / 8.0;
+        let mesh = outline.mesh(spacing).unwrap();
+        let polygon = outline.resampled(spacing).unwrap();
+        let area: f64 = (0..polygon.len()).map(|k| 0.5 * polygon[k].perp(&polygon[(k + 1) % polygon.len()])).sum();
+        prop_assert!((mesh.area() - area.abs()).abs() < 1e-10 * (1.0 + x.abs() + y.abs()) * size * size);
+        let quality = mesh.quality();
+        prop_assert!(quality.smallest_angle > 20.0 && quality.edge_deviation < 0.12, "{quality}");
+    }
+}

@@ -1,0 +1,340 @@
+//! Outlines of solids, in code.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use ib_core::Vec2;
+
+use crate::SolidError;
+use crate::error::{all_points_finite, at_least, finite, positive};
+
+mod fillet;
+mod piece;
+
+use piece::{Piece, is_corner};
+
+/// A line that bounds a solid: closed, or repeating itself in x with a period (the surface of a channel wall).
+///
+/// It is made of smooth pieces that join at corners. Meshing keeps the corners and puts points at equal spacing on the exact
+/// curve between them. The direction does not matter: what is solid follows from the number of outlines around a point
+/// ([`Region`](crate::Region)).
+///
+/// ```
+/// use elastic_solids::*;
+/// use ib_core::Vec2;
+///
+/// let post = Outline::rectangle(Vec2::new(-0.5, 0.0), Vec2::new(0.5, 2.0))?.filleted(0.2)?;
+/// println!("circumference {:.4}", post.length()); // 6 - 8 r + 2 pi r = 5.6566
+/// assert!((post.length() - 5.6566).abs() < 1e-4);
+/// # Ok::<(), SolidError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Outline {
+    pieces: Vec<Piece>,
+    period: Option<f64>,
+}
+
+/// Most points on an outline: more are a mistake.
+const MOST_POINTS: f64 = 1e7;
+
+impl Outline {
+    /// The closed polygon through `corners` (length).
+    ///
+    /// # Errors
+    /// Fewer than three corners, corners that are not finite or coincide with the next.
+    pub fn polygon(corners: &[Vec2]) -> Result<Self, SolidError> {
+        at_least("corners of the polygon", corners.len(), 3)?;
+        let next = corners[1..].iter().chain(&corners[..1]);
+        Self::straight("the corners of the polygon", corners.iter().zip(next), None)
+    }
+
+    /// The rectangle with two opposite corners (length).
+    ///
+    /// # Errors
+    /// Corners that are not finite or on one side of a rectangle without area.
+    pub fn rectangle(corner: Vec2, opposite: Vec2) -> Result<Self, SolidError> {
+        Self::polygon(&[corner, Vec2::new(opposite.x, corner.y), opposite, Vec2::new(corner.x, opposite.y)])
+    }
+
+    /// The circle of `radius` about `centre` (length).
+    ///
+    /// # Errors
+    /// A radius that is not positive, a centre that is not finite.
+    pub fn circle(centre: Vec2, radius: f64) -> Result<Self, SolidError> {
+        Self::ellipse(centre, [radius, radius])
+    }
+
+    /// The ellipse with the half axes `axes` along x and y about `centre` (length).
+    ///
+    /// # Errors
+    /// Half axes that are not positive, a centre that is not finite.
+    pub fn ellipse(centre: Vec2, axes: [f64; 2]) -> Result<Self, SolidError> {
+        positive("a half axis", axes[0])?;
+        positive("a half axis", axes[1])?;
+        Self::closed(move |t| {
+            let (sine, cosine) = (TAU * t).sin_cos();
+            centre + Vec2::new(axes[0] * cosine, axes[1] * sine)
+        })
+    }
+
+    /// A post: a rectangle of `width` with a round tip, `height` high in all, standing on the middle of its foot (length).
+    ///
+    /// # Errors
+    /// Sizes that are not positive, a foot that is not finite, a height that is not above half the width.
+    pub fn post(foot: Vec2, width: f64, height: f64) -> Result<Self, SolidError> {
+        positive("the width of the post", width)?;
+        let radius = 0.5 * width;
+        positive("the height of the post above half its width", height - radius)?;
+        all_points_finite("the foot of the post", &[foot])?;
+        let at = move |x: f64, y: f64| foot + Vec2::new(x, y);
+        let tip = move |t: f64| {
+            let (sine, cosine) = (0.5 * TAU * t).sin_cos();
+            at(radius * cosine, height - radius + radius * sine)
+        };
+        Self::from_pieces(
+            vec![
+                Piece::line(at(-radius, 0.0), at(radius, 0.0))?,
+                Piece::line(at(radius, 0.0), at(radius, height - radius))?,
+                Piece::curve(Arc::new(tip), [0.0, 1.0])?,
+                Piece::line(at(-radius, height - radius), at(-radius, 0.0))?,
+            ],
+            None,
+        )
+    }
+
+    /// The closed curve `curve(t)` (length), t from 0 to 1, smooth everywhere.
+    ///
+    /// # Errors
+    /// A curve that is not finite, has no length, or does not close.
+    pub fn closed(curve: impl Fn(f64) -> Vec2 + Send + Sync + 'static) -> Result<Self, SolidError> {
+        Self::from_pieces(vec![Piece::curve(Arc::new(curve), [0.0, 1.0])?], None)
+    }
+
+    /// The closed curve `curve(t)` (length), t from 0 to 1, with corners at t = 0 and at the increasing parameters `corners` between 0
+    /// and 1.
+    ///
+    /// # Errors
+    /// As [`Outline::closed`]; parameters that do not increase from above 0 to below 1.
+    pub fn closed_with_corners(
+        curve: impl Fn(f64) -> Vec2 + Send + Sync + 'static,
+        corners: &[f64],
+    ) -> Result<Self, SolidError> {
+        Self::from_pieces(Piece::split(&(Arc::new(curve) as _), [0.0, 1.0], corners)?, None)
+    }
+
+    /// The level line y = `height` (length) with the period `period` (length) from x = `start`: the flat surface of a channel wall.
+    ///
+    /// # Errors
+    /// A period that is not positive, a start or height that is not finite.
+    pub fn flat(start: f64, period: f64, height: f64) -> Result<Self, SolidError> {
+        positive("the period", period)?;
+        let points = [Vec2::new(start, height), Vec2::new(start + period, height)];
+        Self::straight("the start and height", std::iter::once((&points[0], &points[1])), Some(period))
+    }
+
+    /// The smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated.
+    ///
+    /// # Errors
+    /// A period that is not positive, a height that is not finite or does not return to its first value.
+    pub fn profile(
+        start: f64,
+        period: f64,
+        height: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Result<Self, SolidError> {
+        Self::profile_with_corners(start, period, &[], height)
+    }
+
+    /// The piecewise smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated, with
+    /// corners at the increasing positions `corners` between them.
+    ///
+    /// # Errors
+    /// As [`Outline::profile`]; corners that do not increase from above the start to below the end.
+    pub fn profile_with_corners(
+        start: f64,
+        period: f64,
+        corners: &[f64],
+        height: impl Fn(f64) -> f64 + Send + Sync + 'static,
+    ) -> Result<Self, SolidError> {
+        positive("the period", period)?;
+        finite("the start of the profile", start)?;
+        let curve = move |x: f64| Vec2::new(x, height(x));
+        Self::from_pieces(Piece::split(&(Arc::new(curve) as _), [start, start + period], corners)?, Some(period))
+    }
+
+    /// The line of straight pieces through `points` (length), repeated with `period` (length) so that the first point follows the
+    /// last one period further. It may overhang.
+    ///
+    /// # Errors
+    /// No point, points that are not finite or coincide with the next, a period that is not positive.
+    pub fn polyline(points: &[Vec2], period: f64) -> Result<Self, SolidError> {
+        positive("the period", period)?;
+        at_least("points of the line", points.len(), 1)?;
+        let last = points[0] + Vec2::new(period, 0.0);
+        let next = points[1..].iter().chain(std::iter::once(&last));
+        Self::straight("the points of the line", points.iter().zip(next), Some(period))
+    }
+
+    fn straight<'a>(
+        name: &'static str,
+        pairs: impl Iterator<Item = (&'a Vec2, &'a Vec2)>,
+        period: Option<f64>,
+    ) -> Result<Self, SolidError> {
+        let pieces = pairs
+            .map(|(from, to)| {
+                all_points_finite(name, &[*from, *to])?;
+                Piece::line(*from, *to)
+            })
+            .collect::<Result<_, _>>()?;
+        Self::from_pieces(pieces, period)
+    }
+
+    fn from_pieces(pieces: Vec<Piece>, period: Option<f64>) -> Result<Self, SolidError> {
+        let outline = Self { pieces, period };
+        let (first, last) = (outline.pieces[0].start(), outline.pieces[outline.pieces.len() - 1].end());
+        let gap = last - first - Vec2::new(period.unwrap_or(0.0), 0.0);
+        if gap.norm() > 1e-9 * outline.length() {
+            let [x, y] = last.into();
+            return Err(SolidError::OpenOutline { x, y, gap: gap.norm() });
+        }
+        Ok(outline)
+    }
+
+    /// Period in x (length); `None` for a closed outline.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        self.period
+    }
+
+    /// Its first point (length).
+    pub(crate) fn start(&self) -> Vec2 {
+        self.pieces[0].start()
+    }
+
+    /// Length of the outline, or of one period of it (length).
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        self.pieces.iter().map(Piece::length).sum()
+    }
+
+    /// The outline moved by `offset` (length).
+    ///
+    /// # Errors
+    /// An offset that is not finite.
+    pub fn translated(&self, offset: Vec2) -> Result<Self, SolidError> {
+        all_points_finite("the offset", &[offset])?;
+        self.mapped(move |point| point + offset, self.period)
+    }
+
+    /// A closed outline turned counter-clockwise by `angle` (radians) about `centre` (length).
+    ///
+    /// # Errors
+    /// An angle or centre that is not finite, a periodic outline.
+    pub fn rotated(&self, angle: f64, centre: Vec2) -> Result<Self, SolidError> {
+        finite("the angle", angle)?;
+        all_points_finite("the centre", &[centre])?;
+        if self.period.is_some() {
+            return Err(SolidError::Unsupported {
+                what: "turning a periodic outline",
+                remedy: "turn closed outlines only, a channel runs along x",
+            });
+        }
+        let rotation = nalgebra::Rotation2::new(angle);
+        self.mapped(move |point| centre + rotation * (point - centre), None)
+    }
+
+    /// The outline with y reversed about the level `height` (length): the other wall of a symmetric channel.
+    ///
+    /// # Errors
+    /// A height that is not finite.
+    pub fn mirrored(&self, height: f64) -> Result<Self, SolidError> {
+        finite("the height of the mirror", height)?;
+        self.mapped(move |point| Vec2::new(point.x, 2.0 * height - point.y), self.period)
+    }
+
+    fn mapped(
+        &self,
+        map: impl Fn(Vec2) -> Vec2 + Clone + Send + Sync + 'static,
+        period: Option<f64>,
+    ) -> Result<Self, SolidError> {
+        let pieces = self.pieces.iter().map(|piece| piece.mapped(map.clone())).collect::<Result<_, _>>()?;
+        Self::from_pieces(pieces, period)
+    }
+
+    /// The outline with every corner between two straight pieces rounded by a circle of `radius` (length).
+    ///
+    /// # Errors
+    /// A radius that is not positive or too large for the sides next to a corner.
+    pub fn filleted(&self, radius: f64) -> Result<Self, SolidError> {
+        positive("the radius of the fillets", radius)?;
+        Self::from_pieces(fillet::rounded(&self.pieces, radius)?, self.period)
+    }
+
+    /// Points on the outline at about `spacing` (length), equally spaced between corners, corners among them; at least three on a
+    /// closed outline.
+    ///
+    /// # Errors
+    /// A spacing that is not positive, or so small that there would be more than 1e7 points.
+    pub fn resampled(&self, spacing: f64) -> Result<Vec<Vec2>, SolidError> {
+        self.resampled_from(spacing, 0.0)
+    }
+
+    /// The same, where an outline without corners starts with the fraction `phase` of a spacing.
+    pub(crate) fn resampled_from(&self, spacing: f64, phase: f64) -> Result<Vec<Vec2>, SolidError> {
+        positive("the spacing", spacing)?;
+        if self.length() / spacing > MOST_POINTS {
+            return Err(SolidError::OutOfRange {
+                name: "the spacing",
+                value: spacing,
+                minimum: self.length() / MOST_POINTS,
+                maximum: self.length(),
+            });
+        }
+        let chains = self.chains();
+        let phase = if !(0..self.pieces.len()).any(|k| self.is_corner(k)) { phase } else { 0.0 };
+        // A closed line of one or two smooth parts needs points in between to enclose an area.
+        let least = if self.period.is_some() { 1 } else { 3_usize.div_ceil(chains.len()) };
+        let mut points = Vec::new();
+        for chain in chains {
+            let total: f64 = chain.iter().map(|(piece, _)| piece.length()).sum();
+            let count = ((total / spacing).round() as usize).max(least);
+            let (mut current, mut before) = (0, 0.0);
+            for k in 0..count {
+                let along = total * (k as f64 + phase) / count as f64;
+                while current + 1 < chain.len() && along >= before + chain[current].0.length() {
+                    before += chain[current].0.length();
+                    current += 1;
+                }
+                let (piece, shift) = chain[current];
+                points.push(piece.at(along - before) + Vec2::new(shift, 0.0));
+            }
+        }
+        Ok(points)
+    }
+
+    /// Runs of pieces that join smoothly, from corner to corner, each piece with what to add to its x. Without a corner the one run
+    /// starts at the first piece.
+    fn chains(&self) -> Vec<Vec<(&Piece, f64)>> {
+        let count = self.pieces.len();
+        let corner = |k: usize| self.is_corner(k);
+        let first = (0..count).find(|&k| corner(k)).unwrap_or(0);
+        let mut chains: Vec<Vec<_>> = Vec::new();
+        for step in first..first + count {
+            let k = step % count;
+            let entry = (&self.pieces[k], if step < count { 0.0 } else { self.period.unwrap_or(0.0) });
+            match chains.last_mut() {
+                Some(chain) if !corner(k) => chain.push(entry),
+                _ => chains.push(vec![entry]),
+            }
+        }
+        chains
+    }
+
+    /// Whether the tangent turns at the start of piece k.
+    fn is_corner(&self, k: usize) -> bool {
+        let count = self.pieces.len();
+        is_corner(&self.pieces[(k + count - 1) % count], &self.pieces[k])
+    }
+}
+
+#[cfg(test)]
+mod tests;

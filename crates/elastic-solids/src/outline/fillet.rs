@@ -1,0 +1,65 @@
+//! Rounded corners.
+
+use std::sync::Arc;
+
+use ib_core::Vec2;
+
+use super::piece::Piece;
+use crate::SolidError;
+
+/// A turn of the tangent below which nothing is rounded (radians).
+const STRAIGHT_ON: f64 = 1e-6;
+
+/// An arc that replaces a corner, and how much it takes off the two sides.
+struct Fillet {
+    arc: Piece,
+    cut: f64,
+}
+
+/// The pieces with every corner between two straight ones replaced by an arc of `radius`.
+pub(super) fn rounded(pieces: &[Piece], radius: f64) -> Result<Vec<Piece>, SolidError> {
+    let count = pieces.len();
+    // Fillet k is the one at the start of piece k.
+    let fillets = (0..count)
+        .map(|k| {
+            let (before, after) = (&pieces[(k + count - 1) % count], &pieces[k]);
+            if before.is_straight() && after.is_straight() { fillet(before, after, radius) } else { Ok(None) }
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut result = Vec::new();
+    for (k, piece) in pieces.iter().enumerate() {
+        let cut = |fillet: &Option<Fillet>| fillet.as_ref().map_or(0.0, |fillet| fillet.cut);
+        let (first, last) = (cut(&fillets[k]), cut(&fillets[(k + 1) % count]));
+        if first + last == 0.0 {
+            result.push(piece.clone());
+            continue;
+        }
+        let side = piece.length();
+        if first + last > side * (1.0 + 1e-12) {
+            let maximum = radius * side / (first + last);
+            return Err(SolidError::FilletTooLarge { radius, x: piece.start().x, y: piece.start().y, side, maximum });
+        }
+        if let Some(fillet) = &fillets[k] {
+            result.push(fillet.arc.clone());
+        }
+        // A side that its two arcs use up leaves nothing between them.
+        if first + last < side * (1.0 - 1e-9) {
+            result.push(Piece::line(piece.at(first), piece.at(side - last))?);
+        }
+    }
+    Ok(result)
+}
+
+fn fillet(before: &Piece, after: &Piece, radius: f64) -> Result<Option<Fillet>, SolidError> {
+    let (one, other) = (before.end_direction(), after.start_direction());
+    let turn = one.perp(&other).atan2(one.dot(&other));
+    if turn.abs() < STRAIGHT_ON {
+        return Ok(None);
+    }
+    let cut = radius * (0.5 * turn.abs()).tan();
+    let start = after.start() - one * cut;
+    let centre = start + Vec2::new(-one.y, one.x) * (radius * turn.signum());
+    let spoke = start - centre;
+    let arc = Piece::curve(Arc::new(move |t| centre + nalgebra::Rotation2::new(turn * t) * spoke), [0.0, 1.0])?;
+    Ok(Some(Fillet { arc, cut }))
+}

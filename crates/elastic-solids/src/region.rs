@@ -1,0 +1,64 @@
+//! What is solid.
+
+use crate::{Mesher, Outline, SolidError, TriangleMesh};
+
+/// The solid between outlines: a point is solid where a line upwards from it crosses an odd number of them. One closed outline is
+/// a solid, a second one inside it a hole, one outside it another part; two periodic outlines, one above the other, are a wall.
+#[derive(Debug, Clone)]
+pub struct Region {
+    outlines: Vec<Outline>,
+    period: Option<f64>,
+}
+
+impl Region {
+    /// The solid between `outlines`, which must not cross (this is checked when it is meshed).
+    ///
+    /// # Errors
+    /// No outline; periodic outlines of different periods, or an odd number of them (the region would have no end).
+    pub fn new(outlines: impl IntoIterator<Item = Outline>) -> Result<Self, SolidError> {
+        let outlines: Vec<Outline> = outlines.into_iter().collect();
+        if outlines.is_empty() {
+            return Err(SolidError::TooFew { name: "outlines", found: 0, minimum: 1 });
+        }
+        let mut periods = outlines.iter().filter_map(Outline::period);
+        let period = periods.next();
+        if let (Some(first), Some(second)) = (period, periods.find(|other| Some(*other) != period)) {
+            return Err(SolidError::DifferentPeriods { first, second });
+        }
+        let periodic = outlines.iter().filter(|outline| outline.period().is_some()).count();
+        if periodic % 2 == 1 {
+            return Err(SolidError::OpenRegion { lines: periodic });
+        }
+        Ok(Self { outlines, period })
+    }
+
+    /// The outlines.
+    #[must_use]
+    pub fn outlines(&self) -> &[Outline] {
+        &self.outlines
+    }
+
+    /// Period in x (length), where there is one.
+    #[must_use]
+    pub fn period(&self) -> Option<f64> {
+        self.period
+    }
+
+    /// A uniform mesh of spacing `spacing` (length), by [`Mesher`] with its defaults.
+    ///
+    /// # Errors
+    /// Those of [`Mesher::mesh`].
+    pub fn mesh(&self, spacing: f64) -> Result<TriangleMesh, SolidError> {
+        Mesher::new(spacing)?.mesh(self)
+    }
+}
+
+impl Outline {
+    /// A uniform mesh of spacing `spacing` (length) of what a closed outline encloses, by [`Mesher`] with its defaults.
+    ///
+    /// # Errors
+    /// Those of [`Mesher::mesh`]; a periodic outline, which encloses nothing.
+    pub fn mesh(&self, spacing: f64) -> Result<TriangleMesh, SolidError> {
+        Region::new([self.clone()])?.mesh(spacing)
+    }
+}
