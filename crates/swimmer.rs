@@ -103,7 +103,7 @@ pub struct Swimmer {
     pub offset: [f64; 2],
     /// Particles at the start.
     pub initial: InitialState,
-    /// Time step, to be given to the run: `scene.run(until).step_size(swimmer.step)`; scenes do not know it.
+    /// Time step of the scene's runs.
     pub step: StepSize,
 }
 
@@ -131,7 +131,7 @@ impl Default for Swimmer {
             angle: 0.0,
             offset: [0.0, 0.0],
             initial: InitialState::Polarised,
-            step: StepSize::OfLimit(0.25),
+            step: StepSize::default(),
         }
     }
 }
@@ -251,7 +251,7 @@ impl Swimmer {
             return Err(SetupError::Box { lx, ly, spacing: self.spacing, problem });
         }
         let grid = Grid::periodic(self.cells(lx)?, self.cells(ly)?, self.spacing)?;
-        Ok(Scene::new(self.couple(PeriodicStokes::new(grid, self.viscosity)?)))
+        Ok(Scene::new(self.couple(PeriodicStokes::new(grid, self.viscosity)?)).with_step_size(self.step))
     }
 
     /// The scene and the droplet in a channel with rigid no-slip walls at y = +-`lengths[1]`/2, periodic in x with the period
@@ -270,7 +270,7 @@ impl Swimmer {
         let grid = Grid::channel(self.cells(lx)?, self.cells(ly)?, self.spacing)?;
         let mut solver = ChannelStokes::new(grid, self.viscosity)?;
         solver.set_drive(drive)?;
-        let mut scene = Scene::new(self.couple(solver));
+        let mut scene = Scene::new(self.couple(solver)).with_step_size(self.step);
         let droplet = scene.add(droplet);
         Ok((scene, droplet))
     }
@@ -325,7 +325,7 @@ impl Swimmer {
         let settings = Settings { nodes: self.nodes, reference_perimeter: TAU * self.radius, ..Settings::default() };
         let flow = BoundaryIntegral::new(domain, self.viscosity, settings)?;
         let droplet = self.droplet_with(&curve.markers(self.concentration_cells.max(self.nodes))?)?;
-        let mut scene = Scene::new(flow);
+        let mut scene = Scene::new(flow).with_step_size(self.step);
         let droplet = scene.add(droplet);
         Ok((scene, droplet))
     }

@@ -11,7 +11,7 @@ use motile::ib_core::{AnyKernel, Kernel, StepSize};
 use motile::stokes_grid::Drive;
 use motile_validation::growth::Mode;
 use motile_validation::lateral::{self, Method};
-use motile_validation::swimmers::{LongRun, long_run, reference_swimmer, steady, transient};
+use motile_validation::swimmers::{LongRun, long_run, reference_swimmer, steady, steady_without_grid, transient};
 use motile_validation::{Case, StudyError, Table, channel, fixed_shapes, growth, order, relaxation, resolution};
 
 /// A study.
@@ -22,6 +22,7 @@ enum Study {
     Relaxation,
     Growth,
     Steady,
+    WithoutGrid,
     Transient,
     Threshold,
     MarkerSpacing,
@@ -47,13 +48,17 @@ struct Flags {
 
 type Tables = Result<Vec<Table>, StudyError>;
 
+/// What runs a study, with or without the finest grids.
+type Run = fn(bool) -> Tables;
+
 fn main() -> anyhow::Result<()> {
     let flags = Flags::parse();
-    let studies: [(Study, fn(bool) -> Tables); 14] = [
+    let studies: [(Study, Run); 15] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
         (Study::Steady, swim),
+        (Study::WithoutGrid, without_grid),
         (Study::Transient, start),
         (Study::Threshold, threshold),
         (Study::MarkerSpacing, marker_spacing),
@@ -209,6 +214,40 @@ fn threshold(quick: bool) -> Tables {
             format!("{:.2e}", run.speed),
             verdict.to_owned(),
         ]);
+    }
+    let weak = Swimmer { activity: -1.0, lengths: [12.0, 2.0], spacing: 0.1, ..Swimmer::default() };
+    let mut narrow = Table::new(
+        "Activity -1 in a channel of width 2 R0, polarised start: speed at two times",
+        &["t = 50", "t = 300"],
+    );
+    let speed = |time| channel::speed(&weak, Drive::ZeroGradient, time);
+    narrow.push([format!("{:.1e}", speed(50.0)?), format!("{:.1e}", speed(300.0)?)]);
+    Ok(vec![table, narrow])
+}
+
+fn without_grid(quick: bool) -> Tables {
+    let mut table = Table::new(
+        "Steady swimmers without a grid, 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active fraction, maximum concentration",
+        &["viscosities in/out", "activity", "nodes", "cells", "errors", "area change", "steps", "seconds"],
+    );
+    let all = [(32, 256), (48, 256), (64, 256), (64, 512), (96, 384), (128, 512), (192, 768)];
+    for (inside, viscosity, activity) in [(None, 100.0, -2.0), (None, 100.0, -4.0), (Some(100.0), 10.0, -1.0)] {
+        for &(nodes, concentration_cells) in if quick { &all[2..5] } else { &all[..] } {
+            let base = Swimmer { nodes, concentration_cells, viscosity_inside: inside, ..Swimmer::default() };
+            let swimmer = Swimmer { viscosity, ..reference_swimmer(&base, activity, 0.05) };
+            let clock = std::time::Instant::now();
+            let errors = steady_without_grid(&swimmer, 80.0)?;
+            table.push([
+                format!("{}/{viscosity}", inside.unwrap_or(viscosity)),
+                activity.to_string(),
+                nodes.to_string(),
+                concentration_cells.to_string(),
+                errors.list().map(per_cent).join(" / "),
+                format!("{:.1e}", errors.area_change),
+                errors.steps.to_string(),
+                format!("{:.1}", clock.elapsed().as_secs_f64()),
+            ]);
+        }
     }
     Ok(vec![table])
 }

@@ -2,6 +2,7 @@
 
 use motile::Swimmer;
 use motile::ib_core::CubicQuadratic;
+use motile::stokes_grid::Drive;
 use motile_validation::{Case, channel, order};
 
 const SPACINGS: [f64; 3] = [0.1, 0.05, 0.025];
@@ -33,6 +34,14 @@ fn fixed_shapes_are_second_order() {
             assert!(rows[1].wall_shear.abs() < 2e-3, "{what}");
         }
     }
+}
+
+/// Activity -1 is above the threshold in a box but not in a channel of its own width (thesis section 3.1).
+#[test]
+fn a_weak_swimmer_comes_to_rest() {
+    let swimmer = Swimmer { activity: -1.0, lengths: [12.0, 2.0], spacing: 0.1, ..Swimmer::default() };
+    let late = channel::speed(&swimmer, Drive::ZeroGradient, 300.0).unwrap();
+    assert!(late < 1e-4, "{late}");
 }
 
 /// The droplet as wide as the channel starts in contact with both walls and opens a film of 0.09 R0.

@@ -9,7 +9,7 @@ fn gap(droplet: &ActiveDroplet, height: f64) -> f64 {
 }
 
 fn area_change(droplet: &ActiveDroplet) -> f64 {
-    polygon_area(droplet.markers()).unwrap() / droplet.initial_area() - 1.0
+    polygon_area(droplet.markers()).expect("a droplet of a scene") / droplet.initial_area() - 1.0
 }
 
 /// A passive droplet off the centre line of a Poiseuille flow drifts along, is deformed, and in Stokes flow without a viscosity

@@ -3,7 +3,7 @@
 use allocation_counter::measure;
 use motile::Swimmer;
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::ib_core::{CubicQuadratic, FlowWork, Hydrodynamics, ImmersedBoundary, Scene};
+use motile::ib_core::{Body, CubicQuadratic, FlowWork, Hydrodynamics, ImmersedBoundary, Scene};
 use motile::stokes_grid::{Drive, Grid, PeriodicStokes};
 
 #[test]
@@ -43,11 +43,10 @@ fn a_passive_droplet_has_no_transport() {
     let droplet = scene.add(ActiveDroplet::passive(&curve.markers(128).unwrap(), 1.0).unwrap());
     scene.step(0.01).unwrap();
     assert!(scene.body(droplet).particle_numbers().is_empty());
-    let reasons: Vec<_> =
-        motile::ib_core::Body::step_limits(scene.body(droplet), &scene.system().hydrodynamics().medium())
-            .iter()
-            .map(|limit| limit.reason)
-            .collect();
+    let reasons: Vec<_> = Body::step_limits(scene.body(droplet), &scene.system().hydrodynamics().medium())
+        .iter()
+        .map(|limit| limit.reason)
+        .collect();
     assert_eq!(reasons, ["the surface tension"]);
 }
 

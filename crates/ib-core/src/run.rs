@@ -41,6 +41,12 @@ pub enum StepSize {
     OfLimit(f64),
 }
 
+impl Default for StepSize {
+    fn default() -> Self {
+        Self::OfLimit(0.5)
+    }
+}
+
 struct Watch<'a, H> {
     every: Every,
     due: f64,
@@ -66,10 +72,11 @@ const STEPS_PER_CHECK: usize = 20;
 
 impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     pub(crate) fn new(scene: &'a mut Scene<H, I>, until: f64) -> Self {
-        Self { scene, until, step: StepSize::OfLimit(0.25), watches: Vec::new() }
+        let step = scene.step_size();
+        Self { scene, until, step, watches: Vec::new() }
     }
 
-    /// Sets the time step (default: a quarter of the stability limit).
+    /// Sets the time step (default: the scene's, [`Scene::step_size`]).
     #[must_use]
     pub fn step_size(mut self, step: StepSize) -> Self {
         self.step = step;

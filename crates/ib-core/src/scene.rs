@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use crate::{Body, Hydrodynamics, Integrator, Midpoint, Run, SceneError, System};
+use crate::{Body, Hydrodynamics, Integrator, Midpoint, Run, SceneError, StepSize, System};
 
 /// Where a body of type B stands in its scene.
 pub struct Handle<B> {
@@ -36,6 +36,7 @@ impl<B> Handle<B> {
 pub struct Scene<H, I = Midpoint> {
     system: System<H>,
     integrator: I,
+    step_size: StepSize,
     saved: Vec<f64>,
     saved_lengths: Vec<usize>,
 }
@@ -52,7 +53,13 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     /// A scene without bodies, advanced by `integrator`.
     #[must_use]
     pub fn with_integrator(hydrodynamics: H, integrator: I) -> Self {
-        Self { system: System::new(hydrodynamics), integrator, saved: Vec::new(), saved_lengths: Vec::new() }
+        Self {
+            system: System::new(hydrodynamics),
+            integrator,
+            step_size: StepSize::default(),
+            saved: Vec::new(),
+            saved_lengths: Vec::new(),
+        }
     }
 
     /// Adds a body; the handle gives it back.
@@ -140,6 +147,19 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         }
         self.system.advance_clock(dt);
         Ok(())
+    }
+
+    /// How long the steps of runs are unless they are told otherwise.
+    #[must_use]
+    pub fn step_size(&self) -> StepSize {
+        self.step_size
+    }
+
+    /// The same scene with another step size for its runs (default: half the stability limit).
+    #[must_use]
+    pub fn with_step_size(mut self, step: StepSize) -> Self {
+        self.step_size = step;
+        self
     }
 
     /// A run up to time `until`, to be given a time step and observers.

@@ -39,7 +39,7 @@ fn check(grid: Grid, kernel: AnyKernel, positions: &[Vec2], forces: &[Vec2], see
     let h2 = grid.spacing() * grid.spacing();
     let on_grid = h2 * inner(&density, &velocity);
     let at_markers: f64 = forces.iter().zip(&velocities).map(|(f, u)| f.dot(u)).sum();
-    let scale: f64 = forces.iter().map(|f| f.norm()).sum();
+    let scale: f64 = forces.iter().map(Vec2::norm).sum();
     prop_assert!((on_grid - at_markers).abs() < 1e-13 * (1.0 + scale), "{}: {on_grid} {at_markers}", kernel.name());
     if !grid.has_walls() {
         let total: Vec2 = forces.iter().sum();

@@ -154,7 +154,7 @@ pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SwimmerErrors, StudyError>
         .select("zeta_dmu", &format!("{:.1}", swimmer.activity));
     let (mut scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient)?;
     let particles: f64 = scene.body(droplet).particle_numbers().iter().sum();
-    scene.run(time).step_size(swimmer.step).go()?;
+    scene.run(time).go()?;
     let seen = look(&mut scene, droplet)?;
     let relative = |value: f64, name: &str| -> Result<f64, StudyError> {
         let exact = reference.value(name)?;
@@ -180,7 +180,7 @@ pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SwimmerErrors, StudyError>
 /// What a run can fail with.
 pub fn speed(swimmer: &Swimmer, drive: Drive, time: f64) -> Result<f64, StudyError> {
     let (mut scene, droplet) = swimmer.build_in_channel(drive)?;
-    scene.run(time).step_size(swimmer.step).go()?;
+    scene.run(time).go()?;
     Ok(look(&mut scene, droplet)?.speed())
 }
 

@@ -2,7 +2,7 @@
 
 use motile::Swimmer;
 use motile::active_interface::{ActiveDroplet, LinearMode, extrema, fit_linear_mode};
-use motile::ib_core::{Handle, Hydrodynamics, Scene, StepSize};
+use motile::ib_core::{Handle, Hydrodynamics, Scene};
 use motile::stokes_grid::Drive;
 
 use crate::swimmers::look;
@@ -47,11 +47,11 @@ pub fn track(swimmer: &Swimmer, method: Method, time: f64, every: f64) -> Result
     match method {
         Method::ImmersedBoundary => {
             let (scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient)?;
-            follow(scene, droplet, swimmer.step, time, every)
+            follow(scene, droplet, time, every)
         }
         Method::BoundaryIntegral => {
             let (scene, droplet) = swimmer.build_without_grid_in_channel(Drive::ZeroGradient)?;
-            follow(scene, droplet, swimmer.step, time, every)
+            follow(scene, droplet, time, every)
         }
     }
 }
@@ -59,13 +59,12 @@ pub fn track(swimmer: &Swimmer, method: Method, time: f64, every: f64) -> Result
 fn follow<H: Hydrodynamics>(
     mut scene: Scene<H>,
     droplet: Handle<ActiveDroplet>,
-    step: StepSize,
     time: f64,
     every: f64,
 ) -> Result<Track, StudyError> {
     let mut track = Track::default();
     for i in 1..=(time / every).round() as usize {
-        scene.run(every * i as f64).step_size(step).go()?;
+        scene.run(every * i as f64).go()?;
         let seen = look(&mut scene, droplet)?;
         track.times.push(scene.time());
         track.heights.push(seen.centroid.y);

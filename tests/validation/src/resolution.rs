@@ -32,11 +32,11 @@ pub fn perturbed(activity: f64, h: f64, time: f64) -> Result<Perturbed, StudyErr
     let mut largest_early_speed = 0.0_f64;
     for part in 0..=20 {
         if part > 0 {
-            scene.run(time * f64::from(part) / 40.0).step_size(swimmer.step).go()?;
+            scene.run(time * f64::from(part) / 40.0).go()?;
         }
         largest_early_speed = largest_early_speed.max(look(&mut scene, droplet)?.speed());
     }
-    scene.run(time).step_size(swimmer.step).go()?;
+    scene.run(time).go()?;
     let speed = look(&mut scene, droplet)?.speed();
     Ok(Perturbed { time, largest_early_speed, speed, swims: speed > largest_early_speed && speed > 1e-3 })
 }

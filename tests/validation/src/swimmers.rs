@@ -63,25 +63,43 @@ pub fn reference_swimmer(base: &Swimmer, activity: f64, h: f64) -> Swimmer {
     }
 }
 
-/// Runs a swimmer from the polarised start to `time` and compares with the steady state of `steady_swimmer_box6.csv`, or of
-/// `steady_swimmer_contrast_box6.csv` where the viscosity inside is another one.
+/// Runs a swimmer on a grid from the polarised start to `time` and compares with the steady state of `steady_swimmer_box6.csv`.
 ///
 /// # Errors
 /// An activity that is not in the table, and what a run can fail with.
 pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SteadyErrors, StudyError> {
+    let (scene, droplet) = swimmer.build()?;
+    compare(scene, droplet, swimmer, time)
+}
+
+/// As [`steady`] without a grid; a droplet of viscosity 100 in surroundings of viscosity 10 is compared with
+/// `steady_swimmer_contrast_box6.csv`.
+///
+/// # Errors
+/// An activity that is not in the tables, and what a run can fail with.
+pub fn steady_without_grid(swimmer: &Swimmer, time: f64) -> Result<SteadyErrors, StudyError> {
+    let (scene, droplet) = swimmer.build_without_grid()?;
+    compare(scene, droplet, swimmer, time)
+}
+
+fn compare<H: Hydrodynamics>(
+    mut scene: Scene<H>,
+    droplet: Handle<ActiveDroplet>,
+    swimmer: &Swimmer,
+    time: f64,
+) -> Result<SteadyErrors, StudyError> {
     let file = match swimmer.viscosity_inside {
-        Some(_) => ReferenceFile::SteadySwimmerContrast,
         None => ReferenceFile::SteadySwimmers,
+        Some(_) => ReferenceFile::SteadySwimmerContrast,
     };
     let reference = Reference::read(file)?.select("zeta_dmu", &format!("{:.1}", swimmer.activity));
-    let (mut scene, droplet) = swimmer.build()?;
-    scene.run(time).step_size(swimmer.step).go()?;
+    scene.run(time).go()?;
     let seen = look(&mut scene, droplet)?;
     let relative = |value: f64, name: &str| -> Result<f64, StudyError> {
         let exact = reference.value(name)?;
         Ok((value - exact) / exact.abs())
     };
-    let dt = match swimmer.step {
+    let dt = match scene.step_size() {
         StepSize::Fixed(dt) => dt,
         StepSize::OfLimit(fraction) => scene.system().step_limit().map_or(f64::NAN, |(limit, _)| fraction * limit.dt),
     };
@@ -111,7 +129,7 @@ pub fn transient(base: &Swimmer, h: f64) -> Result<(f64, f64), StudyError> {
     let mut worst = (0.0_f64, 0.0);
     for (&time, speed) in times.iter().zip(speeds) {
         if time > 0.0 {
-            scene.run(time).step_size(swimmer.step).go()?;
+            scene.run(time).go()?;
         }
         let error = look(&mut scene, droplet)?.speed() / speed - 1.0;
         if error.abs() > worst.0.abs() {
@@ -155,7 +173,7 @@ pub fn long_run(swimmer: &Swimmer, time: f64) -> Result<LongRun, StudyError> {
         }
         Ok(())
     };
-    scene.run(time).step_size(swimmer.step).observe(Every::Time(0.5), &mut watch).go()?;
+    scene.run(time).observe(Every::Time(0.5), &mut watch).go()?;
     let late: Vec<_> = records.iter().filter(|(t, _)| *t >= 0.5 * time).collect();
     let (Some((t0, first)), Some((t1, last)), Some((_, start))) = (late.first(), late.last(), records.first()) else {
         return Err(StudyError::Reference("a run without records".to_owned()));
