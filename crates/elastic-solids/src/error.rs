@@ -310,6 +310,12 @@ pub enum SolidError {
         /// Its deformed over its reference area, negative when turned.
         jacobian: f64,
     },
+    /// Points that found no equilibrium.
+    #[error("the inner points found no equilibrium, {residual:e} of the force is left: use a smaller strain or a stable material")]
+    NotRelaxed {
+        /// Force left over that at the boundary.
+        residual: f64,
+    },
 }
 
 /// `value` if it is positive and finite.

@@ -1,0 +1,248 @@
+//! An elastic solid: a mesh, its forces, and where its points are now.
+
+use ib_core::Vec2;
+
+use crate::error::{all_points_finite, at_least, positive};
+use crate::forces::fits;
+use crate::{ElasticForces, EnergyDensity, Hyperelastic, SolidError, Springs, TriangleMesh};
+
+/// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid and move with
+/// it. Use it as [`ElasticSolid`] or [`SpringLattice`].
+///
+/// Points may be pinned, that is, stay where they are and put no force on the fluid, or tethered to where they are in the reference
+/// state.
+#[derive(Debug, Clone)]
+pub struct Solid<F> {
+    pub(crate) name: String,
+    pub(crate) mesh: TriangleMesh,
+    pub(crate) law: F,
+    /// Of all points, pinned ones among them.
+    pub(crate) positions: Vec<Vec2>,
+    /// Points that are not pinned, which are the markers.
+    pub(crate) free: Vec<usize>,
+    pub(crate) tethers: Vec<Tether>,
+    /// Forces of all points, kept between calls.
+    pub(crate) forces: Vec<Vec2>,
+    /// Mean edge of the mesh.
+    pub(crate) spacing: f64,
+    pub(crate) may_invert: bool,
+}
+
+/// A solid of hyperelastic material E (thesis section 4.2).
+///
+/// ```
+/// use elastic_solids::*;
+/// use ib_core::Vec2;
+///
+/// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest row pinned.
+/// let walls = StraightChannel { period: 12.0, width: 2.0 }.channel()?.walls(-2.5, 2.5, &Mesher::new(0.1)?)?;
+/// let shear = |s: Vec2| if s.x < 0.0 { 100.0 } else { 1000.0 };
+/// let wall = ElasticSolid::graded(walls.lower, |s| NeoHookean::new(shear(s), 2.0 * shear(s)))?
+///     .named("lower wall")
+///     .pinned(|s| s.y < -2.49)?;
+/// println!("{} points, {} of them free", wall.mesh().points().len(), wall.free_points().len()); // 2160 and 2040
+/// assert_eq!(wall.free_points().len(), 2040);
+/// # Ok::<(), SolidError>(())
+/// ```
+pub type ElasticSolid<E> = Solid<Hyperelastic<E>>;
+
+/// A solid of springs along the edges of its mesh (thesis section 4.1).
+///
+/// ```
+/// use elastic_solids::*;
+/// use ib_core::Vec2;
+///
+/// let mesh = equilateral_strip(Vec2::new(-6.0, -2.5), 120, 17, 0.1)?;
+/// let moduli = Moduli::from_thesis_spring_constant(1e4)?;
+/// let wall = SpringLattice::new(mesh, moduli.shear())?;
+/// println!("energy at rest {}", wall.elastic_energy()?); // 0, to round-off
+/// assert!(wall.elastic_energy()? < 1e-20);
+/// # Ok::<(), SolidError>(())
+/// ```
+pub type SpringLattice = Solid<Springs>;
+
+/// A spring from a point to a fixed place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tether {
+    /// The point of the mesh.
+    pub point: usize,
+    /// Where it is held (length).
+    pub anchor: Vec2,
+    /// Force per distance (force per length).
+    pub stiffness: f64,
+}
+
+impl<E: EnergyDensity> ElasticSolid<E> {
+    /// A solid of one material everywhere, in its reference state.
+    #[must_use]
+    pub fn new(mesh: TriangleMesh, material: E) -> Self {
+        let law = Hyperelastic::new(&mesh, material);
+        Self::at_rest(mesh, law)
+    }
+
+    /// A solid whose material is a function of the reference position (length), taken at the centroid of each triangle.
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn graded(mesh: TriangleMesh, material: impl FnMut(Vec2) -> Result<E, SolidError>) -> Result<Self, SolidError> {
+        let law = Hyperelastic::graded(&mesh, material)?;
+        Ok(Self::at_rest(mesh, law))
+    }
+}
+
+impl SpringLattice {
+    /// A solid of springs with one shear modulus everywhere (force per length), in its reference state.
+    ///
+    /// # Errors
+    /// A shear modulus that is not positive and finite.
+    pub fn new(mesh: TriangleMesh, shear: f64) -> Result<Self, SolidError> {
+        let law = Springs::new(&mesh, shear)?;
+        Ok(Self::at_rest(mesh, law))
+    }
+
+    /// A solid of springs whose shear modulus (force per length) is a function of the reference position (length).
+    ///
+    /// # Errors
+    /// A shear modulus that is not positive and finite.
+    pub fn graded(mesh: TriangleMesh, shear: impl FnMut(Vec2) -> f64) -> Result<Self, SolidError> {
+        let law = Springs::graded(&mesh, shear)?;
+        Ok(Self::at_rest(mesh, law))
+    }
+
+    /// The same, where triangles may turn inside out, which springs do not resist: for comparison with work that lets them.
+    /// [`Solid::smallest_jacobian`] tells whether they have. Otherwise a step that turns one inside out is an error.
+    #[must_use]
+    pub fn allow_inversion(mut self) -> Self {
+        self.may_invert = true;
+        self
+    }
+}
+
+impl<F: ElasticForces> Solid<F> {
+    /// A solid with elastic forces of your own, in its reference state.
+    ///
+    /// # Errors
+    /// Forces made for another number of points.
+    pub fn with_forces(mesh: TriangleMesh, law: F) -> Result<Self, SolidError> {
+        fits("the mesh of the forces", law.point_count(), mesh.points().len())?;
+        Ok(Self::at_rest(mesh, law))
+    }
+
+    fn at_rest(mesh: TriangleMesh, law: F) -> Self {
+        let count = mesh.points().len();
+        Self {
+            name: "solid".to_owned(),
+            law,
+            positions: mesh.points().to_vec(),
+            free: (0..count).collect(),
+            tethers: Vec::new(),
+            forces: vec![Vec2::zeros(); count],
+            spacing: mesh.quality().mean_edge,
+            may_invert: false,
+            mesh,
+        }
+    }
+
+    /// The same with a name for messages ("solid" otherwise).
+    #[must_use]
+    pub fn named(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.name);
+        self
+    }
+
+    /// The same with the points pinned whose reference position (length) satisfies a condition, such as the outermost row of a wall on
+    /// the no-slip wall of the channel. Pinned points stay where they are, and their forces are not put on the fluid: whatever
+    /// holds them takes the forces up.
+    ///
+    /// # Errors
+    /// No point left free.
+    pub fn pinned(mut self, condition: impl Fn(Vec2) -> bool) -> Result<Self, SolidError> {
+        let points = self.mesh.points();
+        self.free.retain(|&point| !condition(points[point]));
+        at_least("free points", self.free.len(), 1)?;
+        Ok(self)
+    }
+
+    /// The same with springs of `stiffness` (force per length) from each point whose reference position (length) satisfies a condition to
+    /// that position.
+    ///
+    /// # Errors
+    /// A stiffness that is not positive and finite; no point that satisfies the condition.
+    pub fn tethered(mut self, stiffness: f64, condition: impl Fn(Vec2) -> bool) -> Result<Self, SolidError> {
+        positive("the stiffness of the tethers", stiffness)?;
+        let before = self.tethers.len();
+        let held = self.mesh.points().iter().enumerate().filter(|(_, place)| condition(**place));
+        self.tethers.extend(held.map(|(point, &anchor)| Tether { point, anchor, stiffness }));
+        at_least("tethered points", self.tethers.len() - before, 1)?;
+        Ok(self)
+    }
+
+    /// The same in a deformed state: every point, pinned ones too, at a function of its reference position (length).
+    ///
+    /// # Errors
+    /// Positions that are not finite.
+    pub fn deformed(mut self, position: impl Fn(Vec2) -> Vec2) -> Result<Self, SolidError> {
+        let positions: Vec<Vec2> = self.mesh.points().iter().map(|&place| position(place)).collect();
+        self.set_positions(&positions)?;
+        Ok(self)
+    }
+
+    /// Puts all points, pinned ones too, elsewhere (length). Where they make a state that cannot be, the next step says so.
+    ///
+    /// # Errors
+    /// A list of the wrong length, positions that are not finite.
+    pub fn set_positions(&mut self, positions: &[Vec2]) -> Result<(), SolidError> {
+        fits("the positions", positions.len(), self.positions.len())?;
+        all_points_finite("the positions", positions)?;
+        self.positions.copy_from_slice(positions);
+        Ok(())
+    }
+
+    /// The mesh of the reference state.
+    #[must_use]
+    pub fn mesh(&self) -> &TriangleMesh {
+        &self.mesh
+    }
+
+    /// What computes the elastic forces.
+    #[must_use]
+    pub fn law(&self) -> &F {
+        &self.law
+    }
+
+    /// Present positions of all points of the mesh (length), not wrapped into the period.
+    #[must_use]
+    pub fn positions(&self) -> &[Vec2] {
+        &self.positions
+    }
+
+    /// The points that are not pinned, in increasing order; they are the markers of the body.
+    #[must_use]
+    pub fn free_points(&self) -> &[usize] {
+        &self.free
+    }
+
+    /// The tethers.
+    #[must_use]
+    pub fn tethers(&self) -> &[Tether] {
+        &self.tethers
+    }
+
+    /// The tethers, to be moved or changed between steps.
+    pub fn tethers_mut(&mut self) -> &mut [Tether] {
+        &mut self.tethers
+    }
+
+    /// Computes the forces (force) of all points, those of the tethers included.
+    pub(crate) fn compute_forces(&mut self) -> Result<(), SolidError> {
+        self.forces.fill(Vec2::zeros());
+        self.law.add_forces(&self.positions, &mut self.forces)?;
+        for tether in &self.tethers {
+            self.forces[tether.point] += (tether.anchor - self.positions[tether.point]) * tether.stiffness;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

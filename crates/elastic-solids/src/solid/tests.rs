@@ -1,0 +1,196 @@
+//! The solid as a body, and what is measured on it.
+
+use ib_core::{Body, BodyError, Domain, MarkerKind, Medium};
+
+use super::*;
+use crate::{Constriction, Mat2, Mesher, NeoHookean, equilateral_block, equilateral_strip, width_between};
+
+fn medium() -> Medium {
+    let domain = Domain { origin: [-2.0, -2.0], periods: [Some(4.0), None], walls: Some([-2.0, 2.0]) };
+    Medium { domain, viscosity: 10.0, spacing: Some(0.2), shape_modes: None, interface_stiffness: 1.0 }
+}
+
+fn block() -> TriangleMesh {
+    equilateral_block(Vec2::new(-1.0, -1.0), 8, 8, 0.2).unwrap()
+}
+
+fn shear(s: Vec2) -> Vec2 {
+    Vec2::new(s.x + 0.2 * s.y, s.y)
+}
+
+#[test]
+fn pinned_points_are_no_markers() {
+    let bottom = |s: Vec2| s.y < -0.99;
+    let mut solid = SpringLattice::new(block(), 1.0).unwrap().pinned(bottom).unwrap().deformed(shear).unwrap();
+    let (all, free) = (solid.mesh().points().len(), solid.free_points().len());
+    assert_eq!(all - free, 9);
+    assert_eq!((solid.marker_count(), solid.state_len(), solid.kind()), (free, 2 * free, MarkerKind::Points));
+    let mut markers = vec![Vec2::zeros(); free];
+    solid.write_markers(&mut markers);
+    assert!(markers.iter().all(|marker| marker.y > -0.99));
+    // Free points feel the pinned ones, so their forces alone do not sum to zero.
+    let mut forces = vec![Vec2::zeros(); free];
+    solid.write_forces(&medium(), &mut forces).unwrap();
+    assert!(forces.iter().sum::<Vec2>().norm() > 0.1);
+    // Move all by the state: pinned points stay.
+    let before = solid.positions().to_vec();
+    let mut state = vec![0.0; 2 * free];
+    solid.write_state(&mut state);
+    state.iter_mut().for_each(|x| *x += 0.5);
+    solid.read_state(&state).unwrap();
+    for (point, (old, new)) in before.iter().zip(solid.positions()).enumerate() {
+        let expected = if bottom(solid.mesh().points()[point]) { *old } else { old + Vec2::repeat(0.5) };
+        assert_eq!(*new, expected);
+    }
+    assert!(matches!(SpringLattice::new(block(), 1.0).unwrap().pinned(|_| true), Err(SolidError::TooFew { .. })));
+}
+
+/// Overdamped motion along the forces: the energy falls to zero and the shape returns.
+#[test]
+fn a_deformed_solid_relaxes() {
+    let mut solid = ElasticSolid::new(block(), NeoHookean::new(1.0, 2.0).unwrap())
+        .pinned(|s| s.y < -0.99)
+        .unwrap()
+        .deformed(shear)
+        .unwrap();
+    let count = solid.marker_count();
+    let (mut forces, mut state, mut rate) = (vec![Vec2::zeros(); count], vec![0.0; 2 * count], vec![0.0; 2 * count]);
+    // The pinned row was sheared too; put it back.
+    let points: Vec<Vec2> = solid.mesh().points().to_vec();
+    let back: Vec<Vec2> =
+        points.iter().zip(solid.positions()).map(|(s, x)| if s.y < -0.99 { *s } else { *x }).collect();
+    solid.set_positions(&back).unwrap();
+    let mut energy = solid.elastic_energy().unwrap();
+    let start = energy;
+    for _ in 0..4000 {
+        solid.write_forces(&medium(), &mut forces).unwrap();
+        solid.rate(&forces, &mut rate);
+        solid.write_state(&mut state);
+        state.iter_mut().zip(&rate).for_each(|(x, r)| *x += 0.1 * r);
+        solid.read_state(&state).unwrap();
+        solid.end_step(&medium(), 0.1).unwrap();
+        let now = solid.elastic_energy().unwrap();
+        assert!(now <= energy);
+        energy = now;
+    }
+    assert!(energy < 1e-6 * start, "{start} {energy}");
+    assert!(solid.largest_displacement().total < 1e-3);
+}
+
+#[test]
+fn tethers_pull_back_to_their_anchors() {
+    let mut solid = SpringLattice::new(block(), 1.0)
+        .unwrap()
+        .tethered(3.0, |s| s.y < -0.99)
+        .unwrap()
+        .deformed(|s| s + Vec2::new(0.1, 0.0))
+        .unwrap();
+    assert_eq!(solid.tethers().len(), 9);
+    assert!((solid.tether_energy() - 9.0 * 0.5 * 3.0 * 0.01).abs() < 1e-14);
+    assert!(solid.elastic_energy().unwrap() < 1e-20);
+    let mut forces = vec![Vec2::zeros(); solid.marker_count()];
+    solid.write_forces(&medium(), &mut forces).unwrap();
+    assert!((forces.iter().sum::<Vec2>() - Vec2::new(-9.0 * 0.3, 0.0)).norm() < 1e-12);
+    let limits = solid.step_limits(&medium());
+    assert_eq!(limits.len(), 2);
+    assert!(limits.iter().all(|limit| limit.dt > 0.0 && limit.dt.is_finite()));
+    for bad in [0.0, -1.0, f64::NAN] {
+        assert!(matches!(solid.clone().tethered(bad, |_| true), Err(SolidError::NotPositive { .. })));
+    }
+    assert!(matches!(solid.tethered(1.0, |_| false), Err(SolidError::TooFew { .. })));
+}
+
+#[test]
+fn step_limits_follow_the_moduli() {
+    let limit = |shear: f64, bulk: f64, grid: Option<f64>| {
+        let solid = ElasticSolid::new(block(), NeoHookean::new(shear, bulk).unwrap());
+        solid.step_limits(&Medium { spacing: grid, ..medium() })[0].dt
+    };
+    assert!((limit(4.0, 8.0, Some(0.2)) - 5.0).abs() < 1e-12);
+    assert!((limit(4.0, 80.0, Some(0.2)) - 5.0).abs() < 1e-12);
+    // Coarser than the grid, bulk counts: 20/(0.11 * 80).
+    assert!((limit(4.0, 80.0, Some(0.1)) - 20.0 / 8.8).abs() < 1e-12);
+    let graded = SpringLattice::graded(block(), |s| 2.0 + s.x).unwrap();
+    // The rightmost triangle's centroid stands less than 0.6 right of the origin.
+    let dt = graded.step_limits(&medium())[0].dt;
+    assert!(dt > 20.0 / 2.6 && dt < 20.0 / 2.3, "{dt}");
+}
+
+#[test]
+fn bad_states_are_refused() {
+    let mut solid = SpringLattice::new(block(), 1.0).unwrap();
+    let mut state = vec![0.0; solid.state_len()];
+    solid.write_state(&mut state);
+    state[5] = f64::NAN;
+    assert!(matches!(solid.read_state(&state), Err(BodyError::NonFinite { index: 5, .. })));
+    assert!(matches!(solid.set_positions(&[]), Err(SolidError::WrongLength { .. })));
+    assert!(matches!(solid.clone().deformed(|s| s / 0.0), Err(SolidError::EntryNotFinite { .. })));
+    // Springs do not mind a mirror image, the step does, unless it may be.
+    let mirrored = solid.deformed(|s| Vec2::new(-s.x, s.y)).unwrap();
+    assert!(mirrored.elastic_energy().unwrap() < 1e-20);
+    assert!((mirrored.smallest_jacobian().0 + 1.0).abs() < 1e-12);
+    assert!(mirrored.clone().end_step(&medium(), 0.1).is_err());
+    assert!(matches!(mirrored.stresses(), Err(SolidError::Inverted { .. })));
+    assert!(mirrored.allow_inversion().end_step(&medium(), 0.1).is_ok());
+    let other = Springs::new(&equilateral_strip(Vec2::zeros(), 5, 3, 1.0).unwrap(), 1.0).unwrap();
+    assert!(matches!(Solid::with_forces(block(), other), Err(SolidError::WrongLength { .. })));
+}
+
+#[test]
+fn observables_of_a_uniform_deformation() {
+    let a = Mat2::new(1.1, 0.2, 0.0, 0.9);
+    let shift = Vec2::new(0.3, -0.2);
+    let solid = ElasticSolid::new(block(), NeoHookean::new(2.0, 5.0).unwrap()).deformed(|s| a * s + shift).unwrap();
+    assert!(solid.jacobians().all(|jacobian| (jacobian - 0.99).abs() < 1e-12));
+    let gradient = crate::DeformationGradient::new(a).unwrap();
+    let material = NeoHookean::new(2.0, 5.0).unwrap();
+    let expected = material.cauchy_stress(&gradient);
+    for (triangle, stress) in solid.stresses().unwrap().iter().enumerate() {
+        assert!((stress - expected).norm() < 1e-12);
+        assert!((solid.gradient(triangle) - a).norm() < 1e-12);
+    }
+    let energy = material.energy(&gradient) * solid.mesh().area();
+    assert!((solid.elastic_energy().unwrap() - energy).abs() < 1e-12);
+    // The mean displacement is that of the centre of area.
+    let centre: Vec2 =
+        (0..solid.mesh().triangles().len()).map(|t| solid.mesh().centroid(t) * solid.mesh().areas()[t]).sum::<Vec2>()
+            / solid.mesh().area();
+    assert!((solid.drift() - (a * centre + shift - centre)).norm() < 1e-13);
+}
+
+#[test]
+fn displacements_along_and_across_a_surface() {
+    let strip = equilateral_strip(Vec2::zeros(), 20, 5, 0.1).unwrap();
+    let slid = SpringLattice::new(strip.clone(), 1.0).unwrap().deformed(|s| s + Vec2::new(0.4, 0.0)).unwrap();
+    let largest = slid.largest_displacement();
+    assert!((largest.total - 0.4).abs() < 1e-14 && largest.normal < 1e-14);
+    let top = 5.0 * 0.1 * 0.75_f64.sqrt();
+    // The top row is an odd one, half a spacing off.
+    let bulged = |s: Vec2| s + Vec2::new(0.4, if (s.x - 0.55).abs() < 1e-9 { 0.05 * s.y / top } else { 0.0 });
+    let largest = SpringLattice::new(strip, 1.0).unwrap().deformed(bulged).unwrap().largest_displacement();
+    assert!((largest.normal - 0.05).abs() < 1e-12 && (largest.total - 0.4_f64.hypot(0.05)).abs() < 1e-12);
+}
+
+#[test]
+fn the_width_of_a_channel_between_deformed_walls() {
+    let walls = Constriction::thesis().channel().unwrap().walls(-2.5, 2.5, &Mesher::new(0.1).unwrap()).unwrap();
+    let lower = SpringLattice::new(walls.lower, 1.0).unwrap();
+    let upper = ElasticSolid::new(walls.upper, NeoHookean::new(1.0, 2.0).unwrap());
+    let width = width_between(&lower, &upper).unwrap();
+    assert!((width.minimum - 1.0).abs() < 1e-12 && (width.maximum - 2.0).abs() < 1e-12);
+    // The upper wall rises by 0.1 at x = 0 and slides on by many periods.
+    let moved =
+        upper.deformed(|s| Vec2::new(s.x + 120.0, s.y + 0.1 * (s.x * std::f64::consts::PI / 6.0).cos())).unwrap();
+    let width = width_between(&lower, &moved).unwrap();
+    let exact = |x: f64| {
+        let ramp = (x.abs() - 2.0).clamp(0.0, 1.0);
+        1.5 - 0.5 * (std::f64::consts::PI * ramp).cos() + 0.1 * (x * std::f64::consts::PI / 6.0).cos()
+    };
+    let narrowest = (0..1000).map(|k| 0.003 * f64::from(k)).min_by(|a, b| exact(*a).total_cmp(&exact(*b))).unwrap();
+    assert!((width.minimum - exact(narrowest)).abs() < 2e-3, "{width:?} {}", exact(narrowest));
+    assert!((width.minimum_at.abs() - narrowest).abs() < 0.1, "{width:?} {narrowest}");
+    assert!(matches!(
+        width_between(&moved, &SpringLattice::new(block(), 1.0).unwrap()),
+        Err(SolidError::DifferentPeriods { .. })
+    ));
+}
