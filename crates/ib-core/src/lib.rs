@@ -54,6 +54,7 @@ mod quadrature;
 mod run;
 mod sampling;
 mod scene;
+mod smeared_contrast;
 mod system;
 mod transfer;
 
@@ -68,5 +69,6 @@ pub use markers::{MarkerGroup, MarkerKind, Markers, Vec2};
 pub use mobility::{Deficit, MobilityDeficit};
 pub use run::{Every, Observer, Run, StepSize};
 pub use scene::{Handle, Scene};
+pub use smeared_contrast::SmearedContrast;
 pub use system::System;
 pub use transfer::Transfer;
