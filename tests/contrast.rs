@@ -69,6 +69,26 @@ fn an_ellipse_at_every_ratio() {
     }
 }
 
+/// What the thesis' way is kept for: it is of first order, and its errors grow with the ratio.
+#[test]
+fn a_smeared_viscosity_is_first_order() {
+    for region in [Region::Box(6.0), Region::Channel(8.0, 5.0)] {
+        let mut last = 0.0;
+        for ratio in [1.0, 10.0, 100.0] {
+            let exact = Exact::new(region, &[Droplet::circle(1, ratio)], 128).unwrap();
+            let [coarse, fine] = [0.1, 0.05].map(|h| exact.smeared_errors(h).unwrap()[0]);
+            println!("{region:?}, ratio {ratio}: {:.4} {:.4}", coarse.speed, fine.speed);
+            assert!(fine.speed > 1.5 * last, "{ratio}: {coarse:?} {fine:?}");
+            if ratio > 1.0 {
+                let order = (coarse.speed / fine.speed).log2();
+                assert!((0.7..1.3).contains(&order), "{ratio}: order {order}, {coarse:?} {fine:?}");
+                assert!((0.1..0.4).contains(&fine.speed), "{ratio}: {fine:?}");
+            }
+            last = fine.speed;
+        }
+    }
+}
+
 /// One and a half cells of the middle spacing from a wall.
 #[test]
 fn beside_a_wall() {

@@ -41,6 +41,8 @@ pub struct ImmersedBoundary<S, K> {
     stiffness: f64,
     variance: f64,
     contrast: Option<ContrastFlow>,
+    /// Whether the solver itself knows the viscosities inside interfaces.
+    varying: bool,
     work: FlowWork,
 }
 
@@ -69,6 +71,15 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Self::build(solver, kernel, false)
     }
 
+    /// The method for a solver that is told the viscosity inside interfaces by other means.
+    pub(crate) fn with_varying_viscosity(solver: S, kernel: K) -> Self {
+        Self { varying: true, ..Self::build(solver, kernel, false) }
+    }
+
+    pub(crate) fn solver_mut(&mut self) -> &mut S {
+        &mut self.solver
+    }
+
     fn build(solver: S, kernel: K, corrected: bool) -> Self {
         let grid = *solver.grid();
         let deficit = MobilityDeficit::new(&kernel);
@@ -83,6 +94,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             stiffness,
             variance: std::f64::consts::PI * constant * constant,
             contrast: None,
+            varying: false,
             work: FlowWork::default(),
             solver,
         }
@@ -177,7 +189,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     fn has_contrast(&self, markers: &Markers) -> Result<bool, FlowError> {
         for group in markers.groups() {
             if other_viscosity(&group.kind, self.solver.viscosity())?.is_some() {
-                return Ok(true);
+                return Ok(!self.varying);
             }
         }
         Ok(false)
@@ -280,7 +292,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     }
 
     /// Refuses markers that are not finite or too far beyond a wall, and forces that are not finite.
-    fn check(&self, markers: &Markers) -> Result<(), FlowError> {
+    pub(crate) fn check(&self, markers: &Markers) -> Result<(), FlowError> {
         let walls = self.walls();
         let allowed = WALL_TOLERANCE * self.grid().spacing();
         for (body, group) in markers.groups().iter().enumerate() {

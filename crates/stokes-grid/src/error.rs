@@ -68,4 +68,19 @@ pub enum StokesError {
         /// The quantity.
         name: &'static str,
     },
+    /// An iteration that did not reach its tolerance.
+    #[error(
+        "the relative residual is {residual:e} after {iterations} iterations, above {tolerance:e}: allow more iterations, \
+         ask for less, or use viscosities that differ less"
+    )]
+    NoConvergence {
+        /// Iterations done.
+        iterations: usize,
+        /// True relative residual at the end.
+        residual: f64,
+        /// What was asked for.
+        tolerance: f64,
+        /// Relative residuals at the start and after each iteration.
+        history: Vec<f64>,
+    },
 }

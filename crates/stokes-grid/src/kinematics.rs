@@ -191,6 +191,12 @@ fn v_rows(velocity: &StaggeredField, j: usize) -> (&[f64], &[f64]) {
     (&velocity.y()[j * nx..][..nx], &velocity.y()[above * nx..][..nx])
 }
 
-fn right(i: usize, nx: usize) -> usize {
+/// The column to the right in a periodic row.
+pub(crate) fn right(i: usize, nx: usize) -> usize {
     if i + 1 == nx { 0 } else { i + 1 }
+}
+
+/// The column to the left in a periodic row.
+pub(crate) fn left(i: usize, nx: usize) -> usize {
+    if i == 0 { nx - 1 } else { i - 1 }
 }

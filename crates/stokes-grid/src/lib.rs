@@ -10,8 +10,9 @@
 //! | [`PeriodicStokes`] | box | streamfunction | 1 + 1 in two dimensions |
 //! | [`ChannelStokes`] | channel | streamfunction | 1 + 1 along x, tridiagonal sweeps along y |
 //! | [`ProjectionStokes`] | both | projection, the thesis' way | 3 + 3 (box), 2 + 2 and six sine or cosine transforms (channel) |
+//! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients around one of the above | one solve an iteration |
 //!
-//! All of them are direct: their velocity and pressure satisfy the discrete equations (second-order differences on the
+//! All but the last are direct: their velocity and pressure satisfy the discrete equations (second-order differences on the
 //! marker-and-cell grid) to round-off, so the two methods agree to round-off as well. They are plans behind one trait,
 //! [`StokesSolver`]: made once for a grid, run many times, without an allocation per run.
 //!
@@ -89,6 +90,8 @@ mod solver;
 mod sums;
 mod symbol;
 mod transform;
+mod two_phase;
+mod viscous_force;
 mod walls;
 
 pub use channel::ChannelStokes;
@@ -104,4 +107,5 @@ pub use projection::ProjectionStokes;
 pub use solver::{SolveReport, StokesSolver, Work};
 pub use symbol::Symbol;
 pub use transform::RealFft2;
+pub use two_phase::TwoPhaseStokes;
 pub use walls::{Wall, WallMotion};

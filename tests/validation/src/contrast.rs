@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
 use motile::boundary_integral::{BoundaryIntegral, Channel, FluidDomain, PeriodicBox, Settings};
-use motile::ib_core::{CubicQuadratic, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2};
+use motile::ib_core::{
+    CubicQuadratic, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Peskin4, SmearedContrast, Vec2,
+};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 
 use crate::StudyError;
@@ -179,7 +181,29 @@ impl Exact {
     /// # Errors
     /// A spacing that does not divide the region; what the solver can fail with.
     pub fn errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
-        let mut flow = coupled(self.region, h)?;
+        self.compare(coupled(self.region, h)?, h)
+    }
+
+    /// The errors of the thesis' way, a viscosity smeared over Peskin's kernel, without a mobility correction.
+    ///
+    /// # Errors
+    /// As [`Exact::errors`].
+    pub fn smeared_errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
+        let cells = |length: f64| (length / h).round() as usize;
+        let flow: Box<dyn Hydrodynamics> = match self.region {
+            Region::Box(side) => {
+                let grid = Grid::periodic(cells(side), cells(side), h)?;
+                Box::new(SmearedContrast::new(PeriodicStokes::new(grid, 1.0)?, Peskin4)?)
+            }
+            Region::Channel(length, width) => {
+                let grid = Grid::channel(cells(length), cells(width), h)?;
+                Box::new(SmearedContrast::new(ChannelStokes::new(grid, 1.0)?, Peskin4)?)
+            }
+        };
+        self.compare(flow, h)
+    }
+
+    fn compare(&self, mut flow: Box<dyn Hydrodynamics>, h: f64) -> Result<Vec<Errors>, StudyError> {
         let mut markers = Markers::new();
         for droplet in &self.droplets {
             droplet.push_even(0.5 * h, &mut markers)?;

@@ -14,3 +14,5 @@ mod kinematics;
 mod periodic;
 #[cfg(test)]
 mod properties;
+#[cfg(test)]
+mod two_phase;

@@ -1,0 +1,334 @@
+//! Stokes flow with a viscosity that varies in space.
+
+use crate::checks::{check_grid, check_viscosity};
+use crate::viscous_force::ViscousForce;
+use crate::{CentreField, NodeField, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
+
+/// Stokes flow with a viscosity eta(x, y) that varies in space,
+///
+/// `div(2 eta D(v)) - grad p + f = 0`, `div v = 0`,
+///
+/// around any solver S of one viscosity, whose grid, walls and drive it takes over (thesis section 2.2.4).
+///
+/// It is solved by conjugate gradients among the velocities without divergence, with a solve of S as preconditioner: each iteration
+/// costs one solve and one viscous force. The number of iterations grows like the square root of the ratio of the largest to
+/// the smallest viscosity, does not depend on the grid, nor on the viscosity of S; for a uniform viscosity one is enough. Normal
+/// stresses take the viscosity at the centres, shear stresses that at the nodes.
+///
+/// **Start.** Each solution starts from the linear extrapolation of the two before, which halves the iterations where the viscosity
+/// and the forces move slowly.
+///
+/// **Accuracy.** Iterations end when the residual r, in the norm `sqrt(r . S r)`, is below [`TwoPhaseStokes::tolerance`] times that of the
+/// forces. The true residual is computed anew from the solution and is what [`SolveReport::residual`] has.
+///
+/// [`StokesSolver::viscosity`] is that of S, the surroundings' by convention.
+///
+/// ```
+/// use stokes_grid::{Grid, PeriodicStokes, StaggeredField, StokesSolver, TwoPhaseStokes};
+///
+/// let grid = Grid::periodic(48, 48, 1.0 / 48.0)?;
+/// let mut flow = TwoPhaseStokes::new(PeriodicStokes::new(grid, 1.0)?)?;
+/// // A layer a hundred times as viscous as the rest.
+/// flow.set_viscosity(|_, y| if y > 0.0 { 100.0 } else { 1.0 })?;
+/// let mut force = StaggeredField::zeros(grid);
+/// force.components_mut().0[12 * 48 + 7] = 1.0;
+/// let mut velocity = StaggeredField::zeros(grid);
+/// let report = flow.solve(&force, &mut velocity)?;
+/// println!("{} iterations", report.iterations);
+/// assert!(report.residual < 1e-6 && report.iterations < 80);
+/// # Ok::<(), stokes_grid::StokesError>(())
+/// ```
+#[derive(Debug)]
+pub struct TwoPhaseStokes<S> {
+    solver: S,
+    force: ViscousForce,
+    tolerance: f64,
+    most: usize,
+    /// The flow without forces and the uniform force along x that its mean pressure gradient stands for.
+    imposed: StaggeredField,
+    gradient: [f64; 2],
+    /// Solutions of the last two solves, the latest first.
+    previous: [StaggeredField; 2],
+    known: usize,
+    residual: StaggeredField,
+    preconditioned: StaggeredField,
+    direction: StaggeredField,
+    image: StaggeredField,
+    solution: StaggeredField,
+    history: Vec<f64>,
+    work: Work,
+}
+
+impl<S: StokesSolver> TwoPhaseStokes<S> {
+    /// The solver, with the viscosity of `solver` everywhere at first and a tolerance of 1e-6.
+    ///
+    /// # Errors
+    /// Those of `solver`.
+    pub fn new(mut solver: S) -> Result<Self, StokesError> {
+        let grid = *solver.grid();
+        let eta = solver.viscosity();
+        let field = || StaggeredField::zeros(grid);
+        let (mut centres, mut nodes) = (CentreField::zeros(grid), NodeField::zeros(grid));
+        centres.values_mut().fill(eta);
+        nodes.values_mut().fill(eta);
+        let mut imposed = field();
+        let gradient = solver.solve(&field(), &mut imposed)?.mean_pressure_gradient;
+        Ok(Self {
+            solver,
+            force: ViscousForce::new(centres, nodes),
+            tolerance: 1e-6,
+            most: 2000,
+            imposed,
+            gradient,
+            previous: [field(), field()],
+            known: 0,
+            residual: field(),
+            preconditioned: field(),
+            direction: field(),
+            image: field(),
+            solution: field(),
+            history: Vec::with_capacity(2001),
+            work: Work::default(),
+        })
+    }
+
+    /// The same with another tolerance of the relative residual.
+    ///
+    /// # Errors
+    /// A tolerance that is not positive and finite.
+    pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, StokesError> {
+        if !(tolerance.is_finite() && tolerance > 0.0) {
+            return Err(StokesError::NotPositive { name: "the tolerance", value: tolerance });
+        }
+        self.tolerance = tolerance;
+        Ok(self)
+    }
+
+    /// The same with another largest number of iterations.
+    #[must_use]
+    pub fn with_most_iterations(mut self, most: usize) -> Self {
+        self.most = most;
+        self.history.reserve(most + 1);
+        self
+    }
+
+    /// The tolerance of the relative residual.
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The solver of one viscosity.
+    #[must_use]
+    pub fn solver(&self) -> &S {
+        &self.solver
+    }
+
+    /// The viscosity (stress times time) at the centres and at the nodes.
+    #[must_use]
+    pub fn viscosity_fields(&self) -> (&CentreField, &NodeField) {
+        self.force.viscosity()
+    }
+
+    /// Relative residuals of the last solve: at its start and after each iteration.
+    #[must_use]
+    pub fn history(&self) -> &[f64] {
+        &self.history
+    }
+
+    /// Takes the viscosity (stress times time) from a function of x and y.
+    ///
+    /// # Errors
+    /// A value that is not positive and finite; the viscosity is then left as it was.
+    pub fn set_viscosity(&mut self, viscosity: impl Fn(f64, f64) -> f64) -> Result<(), StokesError> {
+        let grid = *self.solver.grid();
+        let (nx, h, [x0, y0]) = (grid.nx(), grid.spacing(), grid.origin());
+        let at =
+            |shift: f64, k: usize| viscosity(x0 + ((k % nx) as f64 + shift) * h, y0 + ((k / nx) as f64 + shift) * h);
+        let (mut centres, mut nodes) = (CentreField::zeros(grid), NodeField::zeros(grid));
+        centres.values_mut().iter_mut().enumerate().for_each(|(k, value)| *value = at(0.5, k));
+        nodes.values_mut().iter_mut().enumerate().for_each(|(k, value)| *value = at(0.0, k));
+        self.set_viscosity_fields(&centres, &nodes)
+    }
+
+    /// Takes the viscosity (stress times time) at the centres and at the nodes.
+    ///
+    /// # Errors
+    /// Fields of another grid, or a value that is not positive and finite; the viscosity is then left as it was.
+    pub fn set_viscosity_fields(&mut self, centres: &CentreField, nodes: &NodeField) -> Result<(), StokesError> {
+        check_grid(self.solver.grid(), centres.grid(), "the viscosity at the centres")?;
+        check_grid(self.solver.grid(), nodes.grid(), "the viscosity at the nodes")?;
+        centres.values().iter().chain(nodes.values()).try_for_each(|&value| check_viscosity(value))?;
+        let (at_centres, at_nodes) = self.force.viscosity_mut();
+        at_centres.copy_from_slice(centres.values());
+        at_nodes.copy_from_slice(nodes.values());
+        Ok(())
+    }
+
+    /// Forgets the solutions so far, so that the next one starts from the flow without forces.
+    pub fn forget(&mut self) {
+        self.known = 0;
+    }
+
+    /// The preconditioner: `self.preconditioned` from `self.residual`, and the product of both.
+    fn precondition(&mut self) -> Result<(f64, [f64; 2]), StokesError> {
+        let report = self.solver.solve(&self.residual, &mut self.preconditioned)?;
+        combine(&mut self.preconditioned, 1.0, -1.0, &self.imposed);
+        Ok((dot(&self.residual, &self.preconditioned), report.mean_pressure_gradient))
+    }
+
+    /// `self.residual` of `self.solution`.
+    fn fill_residual(&mut self, force: &StaggeredField) {
+        let Self { force: viscous, solution, solver, residual, gradient, .. } = self;
+        viscous.add(solution, solver.walls(), 1.0, Some(force), residual);
+        if solver.grid().has_walls() {
+            residual.components_mut().0.iter_mut().for_each(|value| *value -= gradient[0]);
+        }
+    }
+
+    /// Conjugate gradients from `self.solution`, whose residual is `square`, until it is below `goal`; iterations done.
+    fn iterate(&mut self, mut square: f64, goal: f64, scale: f64, mut left: usize) -> Result<usize, StokesError> {
+        let mut done = 0;
+        copy(&mut self.direction, &self.preconditioned);
+        while square > goal && left > 0 {
+            self.force.add(&self.direction, &WallMotion::AT_REST, -1.0, None, &mut self.image);
+            let curvature = dot(&self.direction, &self.image);
+            if !(curvature.is_finite() && curvature > 0.0) {
+                break;
+            }
+            let step = square / curvature;
+            combine(&mut self.solution, 1.0, step, &self.direction);
+            combine(&mut self.residual, 1.0, -step, &self.image);
+            let (next, _) = self.precondition()?;
+            combine(&mut self.direction, next / square, 1.0, &self.preconditioned);
+            square = next;
+            self.history.push((square.max(0.0) / scale).sqrt());
+            done += 1;
+            left -= 1;
+        }
+        Ok(done)
+    }
+}
+
+impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
+    fn grid(&self) -> &crate::Grid {
+        self.solver.grid()
+    }
+
+    fn viscosity(&self) -> f64 {
+        self.solver.viscosity()
+    }
+
+    fn walls(&self) -> &WallMotion {
+        self.solver.walls()
+    }
+
+    fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
+        check_grid(self.solver.grid(), force.grid(), "the force")?;
+        check_grid(self.solver.grid(), velocity.grid(), "the velocity")?;
+        self.history.clear();
+        copy(&mut self.solution, &self.imposed);
+        self.fill_residual(force);
+        let (scale, mut gradient) = self.precondition()?;
+        let mut square = scale;
+        let mut iterations = 0;
+        let mut residual = 0.0;
+        if scale > 0.0 {
+            if self.known > 0 {
+                copy(&mut self.solution, &self.previous[0]);
+                if self.known > 1 {
+                    combine(&mut self.solution, 2.0, -1.0, &self.previous[1]);
+                }
+                self.fill_residual(force);
+                (square, gradient) = self.precondition()?;
+            }
+            let goal = self.tolerance * self.tolerance * scale;
+            self.history.push((square.max(0.0) / scale).sqrt());
+            // Round-off lets the recurrence drift from the true residual; then the iteration starts anew from where it is.
+            for _ in 0..3 {
+                iterations += self.iterate(square, goal, scale, self.most - iterations)?;
+                self.fill_residual(force);
+                (square, gradient) = self.precondition()?;
+                if square <= 1.21 * goal || iterations >= self.most {
+                    break;
+                }
+            }
+            residual = (square.max(0.0) / scale).sqrt();
+            self.work.iterations += iterations;
+            if square.is_nan() || square > 1.21 * goal {
+                self.known = 0;
+                let (tolerance, history) = (self.tolerance, self.history.clone());
+                return Err(StokesError::NoConvergence { iterations, residual, tolerance, history });
+            }
+        }
+        self.work.solves += 1;
+        self.previous.swap(0, 1);
+        copy(&mut self.previous[0], &self.solution);
+        self.known = (self.known + 1).min(2);
+        copy(velocity, &self.solution);
+        Ok(SolveReport { iterations, residual, mean_pressure_gradient: gradient })
+    }
+
+    /// From the force that the viscous stress leaves, with the pressure of the solver of one viscosity.
+    fn pressure(
+        &mut self,
+        force: &StaggeredField,
+        velocity: &StaggeredField,
+        pressure: &mut CentreField,
+    ) -> Result<(), StokesError> {
+        check_grid(self.solver.grid(), force.grid(), "the force")?;
+        check_grid(self.solver.grid(), velocity.grid(), "the velocity")?;
+        check_grid(self.solver.grid(), pressure.grid(), "the pressure")?;
+        copy(&mut self.solution, velocity);
+        self.fill_residual(force);
+        let Self { solver, residual, direction, image, imposed, .. } = self;
+        solver.solve(residual, direction)?;
+        solver.pressure(residual, direction, pressure)?;
+        // The solver's own flow without forces, of moving walls say, has a pressure as well.
+        image.fill(0.0);
+        let mut own = CentreField::zeros(*solver.grid());
+        solver.pressure(image, imposed, &mut own)?;
+        for (pressure, own) in pressure.values_mut().iter_mut().zip(own.values()) {
+            *pressure -= own;
+        }
+        Ok(())
+    }
+
+    fn work(&self) -> Work {
+        let inner = self.solver.work();
+        Work { solves: self.work.solves, iterations: self.work.iterations, ..inner }
+    }
+}
+
+fn dot(a: &StaggeredField, b: &StaggeredField) -> f64 {
+    let product = |a: &[f64], b: &[f64]| {
+        const LANES: usize = 8;
+        let (a, a_rest) = a.as_chunks::<LANES>();
+        let (b, b_rest) = b.as_chunks::<LANES>();
+        let mut lanes = [0.0; LANES];
+        for (a, b) in a.iter().zip(b) {
+            for lane in 0..LANES {
+                lanes[lane] += a[lane] * b[lane];
+            }
+        }
+        lanes.iter().sum::<f64>() + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
+    };
+    product(a.x(), b.x()) + product(a.y(), b.y())
+}
+
+/// `target = keep * target + factor * term`.
+fn combine(target: &mut StaggeredField, keep: f64, factor: f64, term: &StaggeredField) {
+    let (x, y) = target.components_mut();
+    for (target, term) in x.iter_mut().zip(term.x()) {
+        *target = keep * *target + factor * term;
+    }
+    for (target, term) in y.iter_mut().zip(term.y()) {
+        *target = keep * *target + factor * term;
+    }
+}
+
+fn copy(target: &mut StaggeredField, source: &StaggeredField) {
+    let (x, y) = target.components_mut();
+    x.copy_from_slice(source.x());
+    y.copy_from_slice(source.y());
+}
