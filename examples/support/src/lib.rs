@@ -10,6 +10,7 @@
 //! | animations | [`Animation`] |
 //! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG |
 //! | results | [`Summary`] (`summary.json` and a table), [`Trajectory`] (CSV) |
+//! | studies | [`RunPool`] (parallel, resumable), [`write_results`] (CSV) |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | runs with a droplet | [`WatchedRun`] with the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`] |
 //!
@@ -46,6 +47,7 @@ mod plot_paint;
 mod progress;
 mod raster;
 mod recorder;
+mod run_pool;
 mod snapshot;
 mod steady;
 mod streamlines;
@@ -73,10 +75,11 @@ pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::Progress;
 pub use raster::{Raster, ScalarSamples, VectorSamples};
 pub use recorder::{Dial, Recorder, check_run};
+pub use run_pool::RunPool;
 pub use snapshot::{Snapshot, at_markers, domain_raster};
 pub use steady::Steadiness;
 pub use streamlines::streamlines;
-pub use summary::{Summary, make_directory};
+pub use summary::{Summary, make_directory, write_results};
 pub use surface::{Anchor, Pen, Pixel, Rect, Surface, TextStyle};
 pub use svg::Svg;
 pub use trajectory::Trajectory;

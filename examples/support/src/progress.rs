@@ -54,21 +54,40 @@ impl Progress {
     /// Tells where the run is: its time, the number of steps so far, and the speed of what moves (length per time).
     /// To be called after every step: it mostly returns at once.
     pub fn update(&mut self, time: f64, steps: usize, speed: f64) {
+        if self.due() {
+            let state = state(time, self.end, steps, speed, self.seconds());
+            self.show(time / self.end, &state);
+        }
+    }
+
+    /// The same for a study: tells how many of its runs are done, and which was the last one.
+    pub fn update_runs(&mut self, done: usize, total: usize, last: &str) {
+        if self.due() {
+            let left = left(self.seconds(), done as f64, total as f64);
+            self.show(done as f64 / total as f64, &format!("{done} of {total} runs  {left} left  {last}"));
+        }
+    }
+
+    /// Whether it is time for an update.
+    fn due(&mut self) -> bool {
         let interval = match self.display {
             Display::Bar(_) => BAR_INTERVAL,
             Display::Lines => LINE_INTERVAL,
-            Display::Nothing => return,
+            Display::Nothing => return false,
         };
-        if self.shown.is_some_and(|shown| shown.elapsed() < interval) {
-            return;
+        let due = self.shown.is_none_or(|shown| shown.elapsed() >= interval);
+        if due {
+            self.shown = Some(Instant::now());
         }
-        self.shown = Some(Instant::now());
-        let fraction = (time / self.end).clamp(0.0, 1.0);
-        let state = state(time, self.end, steps, speed, self.started.elapsed().as_secs_f64());
+        due
+    }
+
+    fn show(&self, fraction: f64, state: &str) {
+        let fraction = fraction.clamp(0.0, 1.0);
         match &self.display {
             Display::Bar(bar) => {
                 bar.set_position((fraction * DIVISIONS as f64) as u64);
-                bar.set_message(state);
+                bar.set_message(state.to_string());
             }
             Display::Lines => eprintln!("{:>3.0} %  {state}", 100.0 * fraction),
             Display::Nothing => {}
@@ -100,8 +119,13 @@ impl Progress {
 /// The state of a run in words.
 fn state(time: f64, end: f64, steps: usize, speed: f64, seconds: f64) -> String {
     let pace = if seconds > 0.0 { steps as f64 / seconds } else { 0.0 };
-    let left = if time > 0.0 { clock(seconds * (end - time).max(0.0) / time) } else { "?".into() };
+    let left = left(seconds, time, end);
     format!("t = {time:.2} of {end}  speed {speed:.4}  {pace:.0} steps/s  {left} left")
+}
+
+/// The time that is left when `done` of `all` took some seconds.
+fn left(seconds: f64, done: f64, all: f64) -> String {
+    if done > 0.0 { clock(seconds * (all - done).max(0.0) / done) } else { "?".into() }
 }
 
 /// Seconds as minutes and seconds, or hours, minutes and seconds.

@@ -101,6 +101,29 @@ impl Summary {
     }
 }
 
+/// Writes a table of results, one a row, to a CSV file; the columns are those of the first. Lists and objects are written
+/// as in `summary.json`, `null` as nothing.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn write_results(path: &Path, results: &[Summary]) -> Result<()> {
+    let names: Vec<&String> = results.first().map(|first| first.values.keys().collect()).unwrap_or_default();
+    let field = |summary: &Summary, name: &str| match summary.values.get(name) {
+        None | Some(Value::Null) => String::new(),
+        Some(Value::String(text)) => text.clone(),
+        Some(value) => value.to_string(),
+    };
+    let write = || -> Result<()> {
+        let mut file = csv::Writer::from_path(path)?;
+        file.write_record(&names)?;
+        for summary in results {
+            file.write_record(names.iter().map(|name| field(summary, name)))?;
+        }
+        Ok(file.flush()?)
+    };
+    write().with_context(|| format!("writing {}", path.display()))
+}
+
 fn about_text(about: &Map<String, Value>, name: &str) -> String {
     about.get(name).and_then(Value::as_str).unwrap_or_default().to_string()
 }
@@ -160,6 +183,24 @@ mod tests {
         assert_eq!(back.number("speed"), 0.2);
         assert!(back.number("area").is_nan() && back.number("absent").is_nan());
         assert!(Summary::read(&path).unwrap().is_none());
+    }
+
+    #[test]
+    fn results_are_rows() {
+        let path = std::env::temp_dir().join(format!("motile-results-{}.csv", std::process::id()));
+        let rows: Vec<Summary> = [0.25, f64::NAN]
+            .into_iter()
+            .map(|speed| {
+                let mut summary = Summary::new();
+                summary.put("regime", "at rest, or nearly", "");
+                summary.put("speed", speed, "");
+                summary
+            })
+            .collect();
+        write_results(&path, &rows).unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        fs::remove_file(&path).unwrap();
+        assert_eq!(text, "regime,speed\n\"at rest, or nearly\",0.25\n\"at rest, or nearly\",\n");
     }
 
     #[test]
