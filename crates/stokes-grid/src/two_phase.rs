@@ -55,6 +55,8 @@ pub struct TwoPhaseStokes<S> {
     direction: StaggeredField,
     image: StaggeredField,
     solution: StaggeredField,
+    /// Pressure of the flow without forces.
+    imposed_pressure: CentreField,
     history: Vec<f64>,
     work: Work,
 }
@@ -87,6 +89,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
             direction: field(),
             image: field(),
             solution: field(),
+            imposed_pressure: CentreField::zeros(grid),
             history: Vec::with_capacity(2001),
             work: Work::default(),
         })
@@ -281,13 +284,12 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
         check_grid(self.solver.grid(), pressure.grid(), "the pressure")?;
         copy(&mut self.solution, velocity);
         self.fill_residual(force);
-        let Self { solver, residual, direction, image, imposed, .. } = self;
+        let Self { solver, residual, direction, image, imposed, imposed_pressure: own, .. } = self;
         solver.solve(residual, direction)?;
         solver.pressure(residual, direction, pressure)?;
         // The solver's own flow without forces, of moving walls say, has a pressure as well.
         image.fill(0.0);
-        let mut own = CentreField::zeros(*solver.grid());
-        solver.pressure(image, imposed, &mut own)?;
+        solver.pressure(image, imposed, own)?;
         for (pressure, own) in pressure.values_mut().iter_mut().zip(own.values()) {
             *pressure -= own;
         }

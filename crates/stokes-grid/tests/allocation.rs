@@ -2,7 +2,8 @@
 
 use allocation_counter::measure;
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, PeriodicStokes, ProjectionStokes, StaggeredField, StokesSolver, WallMotion,
+    CentreField, ChannelStokes, Drive, Grid, PeriodicStokes, ProjectionStokes, StaggeredField, StokesSolver,
+    TwoPhaseStokes, WallMotion,
 };
 
 fn allocations(solver: &mut dyn StokesSolver) -> u64 {
@@ -35,5 +36,8 @@ fn solving_allocates_nothing() {
         assert_eq!(allocations(&mut ProjectionStokes::new(periodic, 2.0).unwrap()), 0);
         assert_eq!(allocations(&mut streamfunction), 0);
         assert_eq!(allocations(&mut projection), 0);
+        let mut varying = TwoPhaseStokes::new(streamfunction).unwrap();
+        varying.set_viscosity(|x, y| 3.0 + x.sin() + y.cos()).unwrap();
+        assert_eq!(allocations(&mut varying), 0);
     }
 }
