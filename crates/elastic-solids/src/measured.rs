@@ -148,9 +148,10 @@ mod tests {
 
     #[test]
     fn springs_on_an_equilateral_lattice() {
-        for mesh in
-            [equilateral_strip(Vec2::zeros(), 20, 12, 0.05).unwrap(), equilateral_block(Vec2::zeros(), 12, 9, 0.05).unwrap()]
-        {
+        for mesh in [
+            equilateral_strip(Vec2::zeros(), 20, 12, 0.05).unwrap(),
+            equilateral_block(Vec2::zeros(), 12, 9, 0.05).unwrap(),
+        ] {
             let law = Springs::new(&mesh, SHEAR).unwrap();
             for inner in [InnerPoints::Strained, InnerPoints::Relaxed] {
                 assert_close(measured(&mesh, &law, inner), SHEAR, 2.0 * SHEAR, 1e-3);
@@ -188,7 +189,9 @@ mod tests {
     fn layers_in_series_relax_to_the_mean_compliance() {
         let mesh = equilateral_strip(Vec2::zeros(), 10, 20, 0.05).unwrap();
         let middle = 10.0 * 0.05 * 0.75_f64.sqrt();
-        let law = Hyperelastic::graded(&mesh, |s| if s.y < middle { NeoHookean::new(1.0, 2.0) } else { NeoHookean::new(3.0, 2.0) });
+        let law = Hyperelastic::graded(&mesh, |s| {
+            if s.y < middle { NeoHookean::new(1.0, 2.0) } else { NeoHookean::new(3.0, 2.0) }
+        });
         let law = law.unwrap();
         let strained = measured(&mesh, &law, InnerPoints::Strained);
         let relaxed = measured(&mesh, &law, InnerPoints::Relaxed);
