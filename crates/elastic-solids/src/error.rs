@@ -311,7 +311,9 @@ pub enum SolidError {
         jacobian: f64,
     },
     /// Points that found no equilibrium.
-    #[error("the inner points found no equilibrium, {residual:e} of the force is left: use a smaller strain or a stable material")]
+    #[error(
+        "the inner points found no equilibrium, {residual:e} of the force is left: use a smaller strain or a stable material"
+    )]
     NotRelaxed {
         /// Force left over that at the boundary.
         residual: f64,
