@@ -1,27 +1,43 @@
 //! Elastic solids in the plane, for channels with soft walls and any other geometry.
 //!
-//! A material is an [`EnergyDensity`]: the strain energy W per reference area as a function of the deformation gradient
-//! A (thesis section 4.2), and its derivative, the stress P = dW/dA. Ready are [`NeoHookean`] (the thesis' material),
-//! [`SaintVenantKirchhoff`] and [`MooneyRivlin`]; [`Moduli`] converts between the constants.
+//! A solid is a triangle mesh of its reference state and a law for its forces (thesis chapter 4): springs along the edges
+//! ([`SpringLattice`]) or a hyperelastic material ([`ElasticSolid`]). Both are bodies of a scene ([`ib_core::Body`]): their
+//! points put the forces on the fluid and move with it. The parts, each usable by itself:
+//!
+//! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with fillets; [`Region`] for what lies between them;
+//!   [`Channel`] for two walls, and ready ones: [`StraightChannel`], [`Constriction`] (thesis figure 4.18), [`Valve`], [`Ratchet`],
+//!   [`SinusoidalChannel`], [`BranchingChannel`].
+//! * **Meshes**: [`Mesher`] for any region, [`equilateral_strip`] and its relatives for lattices, [`GmshMesh`] for files;
+//!   [`TriangleMesh::quality`] says how even they are.
+//! * **Materials**: [`NeoHookean`] (the thesis'), [`SaintVenantKirchhoff`], [`MooneyRivlin`], or an [`EnergyDensity`] of your own;
+//!   [`Moduli`] converts between constants, the thesis' spring constant among them. Moduli may depend on the place.
+//! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`width_between`] walls; [`measured_moduli`] of a mesh.
 //!
 //! # Conventions
 //!
-//! Two dimensions: moduli and stresses are forces per length. Quantities have the units that you choose; every item names its
-//! dimension. Bad input ends in a [`SolidError`].
+//! Two dimensions: moduli and stresses are forces per length. Triangles are counter-clockwise. Walls repeat themselves in x, their two ends
+//! share points. Forces are those of the solid on the fluid. Quantities have the units that you choose; every item names its dimension. Bad
+//! input ends in a [`SolidError`].
 //!
 //! # Example
 //!
-//! The thesis' wall with a spring constant of 1e4, sheared by a tenth:
+//! The thesis' constriction with soft walls, squeezed together by a twentieth:
 //! ```
 //! use elastic_solids::*;
+//! use ib_core::Vec2;
 //!
+//! let walls = Constriction::thesis().channel()?.walls(-2.5, 2.5, &Mesher::new(0.1)?)?;
 //! let moduli = Moduli::from_thesis_spring_constant(1e4)?;
-//! let material = NeoHookean::from(moduli);
-//! let sheared = DeformationGradient::new(Mat2::new(1.0, 0.1, 0.0, 1.0))?;
+//! let squeezed = |s: Vec2| Vec2::new(s.x, 0.95 * s.y);
+//! let lower = SpringLattice::new(walls.lower, moduli.shear())?.deformed(squeezed)?;
+//! let upper = ElasticSolid::new(walls.upper, NeoHookean::from(moduli)).deformed(squeezed)?;
 //!
-//! let stress = material.cauchy_stress(&sheared);
-//! println!("shear stress {:.3}", stress.m12); // 9.375: the shear modulus is 93.75
-//! assert!((stress.m12 - 9.375).abs() < 1e-10);
+//! println!("{}", lower.mesh().quality());
+//! let width = width_between(&lower, &upper)?;
+//! println!("width {:.2} to {:.2}", width.minimum, width.maximum); // 0.95 to 1.90
+//! println!("energies {:.2} and {:.2}", lower.elastic_energy()?, upper.elastic_energy()?); // about the same
+//! assert!((width.minimum - 0.95).abs() < 1e-12 && (width.maximum - 1.9).abs() < 1e-12);
+//! assert!((lower.elastic_energy()? / upper.elastic_energy()? - 1.0).abs() < 0.03);
 //! # Ok::<(), SolidError>(())
 //! ```
 

@@ -12,8 +12,9 @@ use crate::{Region, SolidError, TriangleMesh};
 /// Makes uniform triangle meshes.
 ///
 /// The outlines are resampled at equal spacing, corners kept; the inside is seeded with a lattice of equilateral triangles, no
-/// closer to the boundary than 0.6 spacings; the constrained Delaunay triangulation of all these points is relaxed, sweep after sweep, until
-/// the edges have about equal length. The two ends of a periodic wall share their points.
+/// closer to the boundary than 0.45 spacings; the constrained Delaunay triangulation of all these points is relaxed, sweep after sweep, until
+/// the edges have about equal length. The two ends of a periodic wall share their points, and its spacing is changed by up to 5 per cent so
+/// that the lattice fits its height: a lattice stretched across the wall would be anisotropic, for springs by as much as the stretch.
 ///
 /// ```
 /// use elastic_solids::*;
@@ -36,14 +37,19 @@ enum Method {
     Refined,
 }
 
-/// Distance of the seeds from the boundary over the spacing.
-const MARGIN: f64 = 0.6;
+/// Distance of the seeds from the boundary over the spacing. At about half the height of a row the seeds next to the boundary stand, on average,
+/// one row away from it; a larger distance leaves too few of them, which relaxation makes up for by stretching all triangles across a
+/// wall.
+const MARGIN: f64 = 0.45;
 
 /// Sweeps of the default.
 const SWEEPS: usize = 20;
 
 /// Length of boundary, in spacings, beyond which two nearby parts of it are the two sides of a wall, not of a corner.
 const ACROSS: usize = 6;
+
+/// Largest change of the spacing, over itself, that makes rows of triangles fit a wall.
+const LARGEST_FIT: f64 = 0.05;
 
 /// Most points of a mesh.
 const MOST_POINTS: f64 = 1e7;
@@ -96,7 +102,7 @@ impl Mesher {
     /// Outlines that cross or touch; a hole or part narrower than the spacing; a wall thinner than the spacing; a period shorter
     /// than six spacings; more than 1e7 points; a triangulation that failed.
     pub fn mesh(&self, region: &Region) -> Result<TriangleMesh, SolidError> {
-        let boundary = Boundary::new(region, self.spacing)?;
+        let boundary = Boundary::new(region, self.spacing, matches!(self.method, Method::Relaxed { angle: 0.0, .. }))?;
         let mesh = match self.method {
             Method::Refined if region.period().is_some() => Err(SolidError::Unsupported {
                 what: "refining a periodic region",
@@ -107,8 +113,8 @@ impl Mesher {
                 TriangleMesh::new(points, triangles)?
             }
             Method::Relaxed { sweeps, angle } => {
-                let mut set = boundary.point_set(boundary.seeds(self.spacing, angle)?);
-                let triangles = relax(&mut set, sweeps, self.spacing)?;
+                let mut set = boundary.point_set(boundary.seeds(angle)?);
+                let triangles = relax(&mut set, sweeps, boundary.spacing)?;
                 match set.period {
                     None => TriangleMesh::new(set.points, triangles)?,
                     Some((_, period)) => TriangleMesh::periodic(set.points, triangles, period)?,
@@ -127,6 +133,7 @@ impl Mesher {
 
 /// The checked boundary of a region at the spacing of its mesh.
 struct Boundary {
+    spacing: f64,
     outlines: Vec<Vec<Vec2>>,
     segments: Segments,
     period: Option<(f64, f64)>,
@@ -135,7 +142,9 @@ struct Boundary {
 }
 
 impl Boundary {
-    fn new(region: &Region, spacing: f64) -> Result<Self, SolidError> {
+    /// `fitted` where the seeds of a wall are to be a lattice between its surfaces.
+    fn new(region: &Region, asked: f64, fitted: bool) -> Result<Self, SolidError> {
+        let mut spacing = asked;
         if let Some(period) = region.period() {
             within("the period over the mesh spacing", period / spacing, 6.0, MOST_POINTS)?;
         }
@@ -152,9 +161,17 @@ impl Boundary {
             region.outlines().iter().map(|outline| outline.resampled(spacing)).collect::<Result<Vec<_>, _>>()
         };
         let mut outlines = resampled(spacing)?;
+        let (low, high) = bounds(&outlines);
+        if region.period().is_some() && fitted {
+            // Triangles that fit the height of the wall without being stretched.
+            let fit = (high.y - low.y) / (rows(high.y - low.y, asked) * ROW_HEIGHT);
+            if (fit / asked - 1.0).abs() < LARGEST_FIT {
+                spacing = fit;
+                outlines = resampled(spacing)?;
+            }
+        }
         let start = region.outlines().iter().position(|outline| outline.period().is_some());
         let period = start.zip(region.period()).map(|(outline, period)| (outlines[outline][0].x, period));
-        let (low, high) = bounds(&outlines);
         if period.is_some() {
             // Every second row of the seeds stands half a spacing further right; let flat surfaces continue that lattice.
             let rows = rows(high.y - low.y, spacing);
@@ -172,9 +189,9 @@ impl Boundary {
             }
         }
         let segments = Segments::new(&outlines, period, 10.0 * spacing);
-        let boundary = Self { outlines, segments, period, low, high };
-        boundary.check_widths(region, spacing)?;
-        boundary.check_walls(spacing)?;
+        let boundary = Self { spacing, outlines, segments, period, low, high };
+        boundary.check_widths(region, asked)?;
+        boundary.check_walls(asked)?;
         Ok(boundary)
     }
 
@@ -221,17 +238,19 @@ impl Boundary {
     }
 
     /// A lattice of about equilateral triangles inside, fitted to the bounding box, or turned by an angle.
-    fn seeds(&self, spacing: f64, angle: f64) -> Result<Vec<Vec2>, SolidError> {
+    fn seeds(&self, angle: f64) -> Result<Vec<Vec2>, SolidError> {
+        let spacing = self.spacing;
         let size = self.high - self.low;
         let (start, width) = self.period.unwrap_or((self.low.x, size.x));
         let mut columns = (width / spacing).round().max(1.0);
         let mut rows = rows(size.y, spacing);
         within("the number of points in the bounding box", columns * rows, 1.0, MOST_POINTS)?;
-        let step = Vec2::new(width / columns, size.y / rows);
+        let mut step = Vec2::new(width / columns, size.y / rows);
         let corner = Vec2::new(start, self.low.y);
         let (rotation, centre) = (nalgebra::Rotation2::new(angle), corner + 0.5 * Vec2::new(width, size.y));
         let mut first = corner;
         if angle != 0.0 {
+            step = Vec2::new(spacing, ROW_HEIGHT * spacing);
             // A square of lattice that covers the box however it is turned.
             let reach = 0.5 * width.hypot(size.y);
             first = centre - Vec2::repeat(reach);
