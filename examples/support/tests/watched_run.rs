@@ -1,6 +1,6 @@
 //! A run from the flags to the files.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use motile::Swimmer;
 use support::{OutputFlags, Summary, WatchedRun, caption};
@@ -9,8 +9,8 @@ fn directory(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("motile-{name}-{}", std::process::id()))
 }
 
-fn output(directory: &PathBuf, no_pictures: bool) -> OutputFlags {
-    OutputFlags { no_pictures, quiet: true, out: Some(directory.clone()) }
+fn output(directory: &Path, no_pictures: bool) -> OutputFlags {
+    OutputFlags { no_pictures, quiet: true, out: Some(directory.to_path_buf()) }
 }
 
 #[test]
