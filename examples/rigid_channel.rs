@@ -10,7 +10,7 @@ use anyhow::Result;
 use clap::Parser;
 use motile::Swimmer;
 use motile::active_interface::{Evidence, RegimeCriteria, net_flux};
-use support::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption};
+use support::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a channel with rigid walls.
 #[derive(Debug, Parser)]
@@ -61,8 +61,8 @@ fn swim(flags: &Flags) -> Result<()> {
     }
     summary.put("minimum_gap", scene.system().minimum_wall_gap(), "to the walls, over the run (R0)");
     summary.write(&run.directory().join("summary.json"))?;
-    print!("{}", summary.table());
+    say(summary.table().trim_end());
     run.write_pictures(&mut scene)?;
-    println!("results in {}", run.directory().display());
+    say(format_args!("results in {}", run.directory().display()));
     Ok(outcome?)
 }

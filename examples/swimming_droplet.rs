@@ -15,7 +15,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile::Swimmer;
-use support::{BoxFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption};
+use support::{BoxFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a periodic box.
 #[derive(Debug, Parser)]
@@ -50,8 +50,8 @@ fn swim(flags: &Flags) -> Result<()> {
     // The results, also of a run that broke off.
     let summary = run.summary()?;
     summary.write(&run.directory().join("summary.json"))?;
-    print!("{}", summary.table());
+    say(summary.table().trim_end());
     run.write_pictures(&mut scene)?;
-    println!("results in {}", run.directory().display());
+    say(format_args!("results in {}", run.directory().display()));
     Ok(outcome?)
 }

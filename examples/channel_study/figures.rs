@@ -1,6 +1,6 @@
 //! The figures of the study, and its table.
 
-use support::{AxisScale, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series, Summary};
+use support::{AxisScale, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series, Summary, say};
 
 use crate::run::{Job, NARROW, OSCILLATING, Purpose, THESIS_FITS};
 
@@ -26,9 +26,11 @@ fn in_narrow_channels(points: &Points, activity: f64, viscosity: f64) -> Vec<(f6
 
 /// Table of the speeds in channels as wide as the droplet, with the thesis' fits and the deviation from them.
 pub(crate) fn print_speeds(points: &Points) {
-    println!(
-        "speed in channels of width 2: length, activity, viscosity; here; thesis' fit, (3.7); deviation from the fit"
-    );
+    say("Speed in channels as wide as the droplet");
+    say(format_args!(
+        "  {:>6} {:>8} {:>9}  {:>7}  {:>11} {:>12}  {:>9}",
+        "length", "activity", "viscosity", "speed", "thesis, fit", "thesis (3.7)", "deviation"
+    ));
     for (activity, viscosity, _, _) in THESIS_FITS {
         for (length, speed) in in_narrow_channels(points, activity, viscosity) {
             let job = points.iter().map(|(job, _)| job).find(|job| {
@@ -37,9 +39,9 @@ pub(crate) fn print_speeds(points: &Points) {
             });
             if let Some([Some(fit), Some(expression)]) = job.map(Job::thesis_speeds) {
                 let deviation = 100.0 * (speed / fit - 1.0);
-                println!(
-                    "  {length:>4} {activity:>4} {viscosity:>5}  {speed:.4}  {fit:.4} {expression:.4}  {deviation:+.1} %"
-                );
+                say(format_args!(
+                    "  {length:>6} {activity:>8} {viscosity:>9}  {speed:>7.4}  {fit:>11.4} {expression:>12.4}  {deviation:>+7.1} %"
+                ));
             }
         }
     }

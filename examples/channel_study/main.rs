@@ -13,7 +13,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
-use support::{OutputFlags, RunPool, Summary, positive, write_results};
+use support::{OutputFlags, RunPool, Summary, positive, say, write_results};
 
 use crate::figures::{amplitude_against_length, print_speeds, speed_against_length, speed_against_width};
 use crate::run::{Job, NARROW, OSCILLATING, Purpose, THESIS_FITS};
@@ -84,7 +84,7 @@ fn study(flags: &Flags) -> Result<()> {
         speed_against_width(&points).write(&directory, "speed_against_width")?;
         amplitude_against_length(&points).write(&directory, "amplitude_against_length")?;
     }
-    println!("results of {} runs in {}", points.len(), directory.display());
+    say(format_args!("results of {} runs in {}", points.len(), directory.display()));
     match failures.into_iter().next() {
         Some(first) => Err(first.context("a run failed; the study can be started again")),
         None => Ok(()),

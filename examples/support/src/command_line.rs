@@ -1,6 +1,6 @@
 //! The frame of an example: reads the command line, runs, and ends with one sentence where something is wrong.
 
-use std::{error::Error as _, process::ExitCode};
+use std::{error::Error as _, io::Write as _, process::ExitCode};
 
 use anyhow::Result;
 use clap::{
@@ -60,6 +60,11 @@ pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Writes a line to the standard output; where nobody listens any more, as behind `head`, that is no reason to fail.
+pub fn say(line: impl std::fmt::Display) {
+    let _ = writeln!(std::io::stdout(), "{line}");
 }
 
 /// An error and its causes, without those that it tells already.

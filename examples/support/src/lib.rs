@@ -64,7 +64,7 @@ pub use animation::Animation;
 pub use axes::AxisScale;
 pub use canvas::Canvas;
 pub use colour::{ColourMap, ColourScale, Limits, Rgb, SERIES_COLOURS};
-pub use command_line::run;
+pub use command_line::{run, say};
 pub use droplet_plots::{concentration_plot, time_series};
 pub use droplet_summary::{RunCost, droplet_summary};
 pub use film::{Film, Look};
