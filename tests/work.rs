@@ -47,7 +47,7 @@ fn a_passive_droplet_has_no_transport() {
         .iter()
         .map(|limit| limit.reason)
         .collect();
-    assert_eq!(reasons, ["the surface tension"]);
+    assert_eq!(reasons, ["the surface tension", "the relaxation of the marker spacing"]);
 }
 
 #[test]

@@ -381,6 +381,9 @@ impl ActiveDroplet {
             dt: 2.0 * viscosity / (medium.interface_stiffness * tension),
             reason: "the surface tension",
         }];
+        if let Motion::Equidistributed { relaxation, .. } = self.motion {
+            limits.push(StepLimit { dt: 2.0 / relaxation, reason: "the relaxation of the marker spacing" });
+        }
         if self.transport.is_some() {
             let scale = finest_response(medium);
             // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.
