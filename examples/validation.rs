@@ -516,7 +516,7 @@ fn regimes(_quick: bool) -> Tables {
     for (width, length, activity, said) in [
         (5.0, 12.0, -3.0, "returns to the centre line"),
         (5.0, 12.0, -4.0, "oscillates"),
-        (3.0, 12.0, -3.0, "stays on the centre line"),
+        (3.0, 12.0, -3.0, "oscillates"),
         (3.0, 12.0, -4.0, "stays on the centre line"),
         (3.0, 18.0, -4.0, "stays on the centre line"),
         (3.0, 24.0, -4.0, "oscillates"),
