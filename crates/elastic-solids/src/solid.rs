@@ -1,9 +1,10 @@
 //! An elastic solid: a mesh, its forces, and where its points are now.
 
-use ib_core::Vec2;
+use ib_core::{MobilityDeficit, Vec2};
 
 use crate::error::{all_points_finite, at_least, positive};
 use crate::forces::fits;
+use crate::surface_correction::SurfaceCorrection;
 use crate::{ElasticForces, EnergyDensity, Hyperelastic, SolidError, Springs, TriangleMesh};
 
 /// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid and move with
@@ -26,6 +27,7 @@ pub struct Solid<F> {
     /// Mean edge of the mesh.
     pub(crate) spacing: f64,
     pub(crate) may_invert: bool,
+    pub(crate) surface: Option<SurfaceCorrection>,
 }
 
 /// A solid of hyperelastic material E (thesis section 4.2).
@@ -139,6 +141,7 @@ impl<F: ElasticForces> Solid<F> {
             forces: vec![Vec2::zeros(); count],
             spacing: mesh.quality().mean_edge,
             may_invert: false,
+            surface: None,
             mesh,
         }
     }
@@ -160,6 +163,9 @@ impl<F: ElasticForces> Solid<F> {
         let points = self.mesh.points();
         self.free.retain(|&point| !condition(points[point]));
         at_least("free points", self.free.len(), 1)?;
+        // The correction knows the points that are free.
+        let free = &self.free;
+        self.surface = self.surface.map(|surface| surface.with_free(free));
         Ok(self)
     }
 
@@ -175,6 +181,34 @@ impl<F: ElasticForces> Solid<F> {
         self.tethers.extend(held.map(|(point, &anchor)| Tether { point, anchor, stiffness }));
         at_least("tethered points", self.tethers.len() - before, 1)?;
         Ok(self)
+    }
+
+    /// The same with the mobility correction of its surface, for the kernel by which markers and grid are coupled.
+    ///
+    /// Each point within two grid spacings of the surface moves, besides with the fluid, with `(h/eta) phi(d/h) f_t` along the surface,
+    /// f_t being the tangential elastic force per length of the surface, d the distance from it in the reference state, and `phi(0)` the
+    /// deficit of a flat interface at long wavelengths. Measured with the default kernel: a stiff wall stops the fluid 0.31 to 0.44 h in
+    /// front of its surface, with the correction within 0.02 h of it; a sheared layer 17 h thick relaxes 2.5 % too slowly, with the
+    /// correction 0.07 %. Stable time steps stay the same.
+    ///
+    /// Only the solid's own points are corrected, not markers of others that come within two grid spacings; surfaces closer than that
+    /// to each other or to a no-slip wall are corrected as if they stood alone.
+    ///
+    /// ```
+    /// use elastic_solids::*;
+    /// use ib_core::{CubicQuadratic, MobilityDeficit, Vec2};
+    ///
+    /// let deficit = MobilityDeficit::new(&CubicQuadratic::default());
+    /// let mesh = equilateral_strip(Vec2::zeros(), 20, 10, 0.1)?;
+    /// let wall = SpringLattice::new(mesh, 1000.0)?.pinned(|s| s.y < 0.01)?.surface_corrected(&deficit);
+    /// println!("{} points move", wall.free_points().len()); // 200
+    /// assert_eq!(wall.free_points().len(), 200);
+    /// # Ok::<(), SolidError>(())
+    /// ```
+    #[must_use]
+    pub fn surface_corrected(mut self, deficit: &MobilityDeficit) -> Self {
+        self.surface = Some(SurfaceCorrection::new(&self.mesh, &self.free, deficit));
+        self
     }
 
     /// The same in a deformed state: every point, pinned ones too, at a function of its reference position (length).

@@ -35,8 +35,11 @@ impl<F: ElasticForces> Body for Solid<F> {
         }
     }
 
-    fn write_forces(&mut self, _medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.compute_forces()?;
+        if let Some(surface) = &mut self.surface {
+            surface.prepare(&self.mesh, &self.free, medium.viscosity, medium.spacing);
+        }
         for (force, &point) in forces.iter_mut().zip(&self.free) {
             *force = self.forces[point];
         }
@@ -66,6 +69,9 @@ impl<F: ElasticForces> Body for Solid<F> {
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(velocities) {
             pair.copy_from_slice(velocity.as_slice());
+        }
+        if let Some(surface) = &mut self.surface {
+            surface.add(&self.positions, &self.forces, rate);
         }
     }
 
