@@ -95,7 +95,8 @@ impl Channel {
         Ok(Self { lower, upper, islands, period })
     }
 
-    /// The channel from y = `lower(x)` to `upper(x)` (length) for x from `start` to `start + period` (length), smooth everywhere.
+    /// The channel from y = `lower(x)` to `upper(x)` (length) for x from `start` to `start + period` (length), smooth
+    /// everywhere.
     ///
     /// # Errors
     /// Those of [`Outline::profile`] and [`Channel::new`].
@@ -151,8 +152,8 @@ impl Channel {
         Self::with_islands(self.lower.translated(-step)?, self.upper.translated(step)?, self.islands.clone())
     }
 
-    /// Meshes of the wall from y = `bottom` (length) up to the lower line, of the wall from the upper line up to `top` (length), and of the
-    /// islands.
+    /// Meshes of the wall from y = `bottom` (length) up to the lower line, of the wall from the upper line up to `top`
+    /// (length), and of the islands.
     ///
     /// # Errors
     /// Those of [`Mesher::mesh`].

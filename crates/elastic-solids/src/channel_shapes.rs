@@ -78,8 +78,8 @@ pub struct SinusoidalChannel {
     pub amplitude: f64,
     /// Number of waves in a period.
     pub waves: usize,
-    /// Phase of the upper side against the lower one (radians): 0 for a channel that narrows and widens, pi for one of constant
-    /// width that winds.
+    /// Phase of the upper side against the lower one (radians): 0 for a channel that narrows and widens, pi for one of
+    /// constant width that winds.
     pub phase: f64,
 }
 
@@ -112,7 +112,8 @@ impl StraightChannel {
 }
 
 impl Constriction {
-    /// That of thesis figure 4.18 in units of the droplet's radius: period 12, width 2, throat 1 over a length of 4, ramps of 1.
+    /// That of thesis figure 4.18 in units of the droplet's radius: period 12, width 2, throat 1 over a length of 4,
+    /// ramps of 1.
     #[must_use]
     pub fn thesis() -> Self {
         Self { period: 12.0, width: 2.0, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 0.0 }
@@ -143,7 +144,8 @@ impl Valve {
     /// The channel.
     ///
     /// # Errors
-    /// Lengths that are not positive, a gap not below the width, a base longer than the period, a radius too large for the teeth.
+    /// Lengths that are not positive, a gap not below the width, a base longer than the period, a radius too large for
+    /// the teeth.
     pub fn channel(&self) -> Result<Channel, SolidError> {
         let Self { period, width, gap, base, radius, centre } = *self;
         positive("the width of the channel", width)?;
@@ -215,8 +217,8 @@ impl SinusoidalChannel {
 }
 
 impl BranchingChannel {
-    /// The channel. The island's outline is `x = l/2 sin(t)`, `y = d/2 cos(t) sqrt(1 + sin(t)^2)`: blunt tips, and flat beside the
-    /// middle.
+    /// The channel. The island's outline is `x = l/2 sin(t)`, `y = d/2 cos(t) sqrt(1 + sin(t)^2)`: blunt tips, and flat
+    /// beside the middle.
     ///
     /// # Errors
     /// Lengths that are not positive, or more than the period together, sides that touch.

@@ -33,8 +33,8 @@ pub fn width_between<F: ElasticForces, G: ElasticForces>(
     channel_width(&below, &above, first)
 }
 
-/// The vertical distance between two lines through the points `lower` and `upper` (length), each repeated with `period` (length): the smallest and the
-/// largest over x. Where a line overhangs, the part next to the other counts.
+/// The vertical distance between two lines through the points `lower` and `upper` (length), each repeated with `period`
+/// (length): the smallest and the largest over x. Where a line overhangs, the part next to the other counts.
 ///
 /// Its extremes lie at points of one of the lines.
 ///
@@ -96,7 +96,8 @@ mod tests {
 
     #[test]
     fn extremes_lie_at_the_points_of_either_line() {
-        // Lower side a tent at x = 1 of 4, upper side flat but for a dip at 2.6; the upper one runs left and starts elsewhere.
+        // Lower side a tent at x = 1 of 4, upper side flat but for a dip at 2.6; the upper one runs left and starts
+        // elsewhere.
         let lower = [v(0.0, 0.0), v(1.0, 0.5), v(2.0, 0.0), v(3.0, 0.0)];
         let upper = [v(6.6, 1.4), v(5.6, 2.0), v(4.0, 2.0), v(3.6, 2.0)];
         let width = channel_width(&lower, &upper, 4.0).unwrap();

@@ -63,8 +63,8 @@ impl DeformationGradient {
         Mat2::new(a.m22, -a.m21, -a.m12, a.m11)
     }
 
-    /// `tr(A A^T) - 2 J = (A11 - A22)^2 + (A12 + A21)^2`: the square of the difference of the principal stretches, zero for a
-    /// rotation with uniform dilation. Free of cancellation.
+    /// `tr(A A^T) - 2 J = (A11 - A22)^2 + (A12 + A21)^2`: the square of the difference of the principal stretches, zero
+    /// for a rotation with uniform dilation. Free of cancellation.
     #[inline]
     #[must_use]
     pub fn distortion(&self) -> f64 {

@@ -4,8 +4,8 @@ use ib_core::Vec2;
 
 use crate::{Mat2, Moduli, SolidError, TriangleMesh};
 
-/// The elastic forces of a deformed mesh, as the gradient of an energy: [`Hyperelastic`](crate::Hyperelastic) material or
-/// [`Springs`](crate::Springs).
+/// The elastic forces of a deformed mesh, as the gradient of an energy: [`Hyperelastic`](crate::Hyperelastic) material
+/// or [`Springs`](crate::Springs).
 ///
 /// Forces sum to zero and give no torque to round-off, whatever the deformation.
 pub trait ElasticForces: std::fmt::Debug + Send + 'static {
@@ -24,8 +24,8 @@ pub trait ElasticForces: std::fmt::Debug + Send + 'static {
     /// As [`ElasticForces::add_forces`].
     fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError>;
 
-    /// First Piola-Kirchhoff stress (force per reference length) in a triangle whose deformation gradient is `gradient`, where it is
-    /// defined.
+    /// First Piola-Kirchhoff stress (force per reference length) in a triangle whose deformation gradient is
+    /// `gradient`, where it is defined.
     ///
     /// # Panics
     /// A triangle beyond the last.

@@ -50,19 +50,19 @@ pub struct GmshMesh {
 }
 
 impl GmshMesh {
-    /// Reads a mesh of triangles with three points. Points and lines are passed over, as are sections that say nothing of the mesh;
-    /// z must be the same everywhere. Points keep their order; those that no triangle uses are left out.
+    /// Reads a mesh of triangles with three points. Points and lines are passed over, as are sections that say nothing
+    /// of the mesh; z must be the same everywhere. Points keep their order; those that no triangle uses are left out.
     ///
     /// # Errors
-    /// [`SolidError::Gmsh`] with the line for text that is not in the format, other versions, binary files, elements that are not
-    /// triangles of three points; those of [`TriangleMesh::new`].
+    /// [`SolidError::Gmsh`] with the line for text that is not in the format, other versions, binary files, elements
+    /// that are not triangles of three points; those of [`TriangleMesh::new`].
     pub fn from_text(text: &str) -> Result<Self, SolidError> {
         let Contents { points, triangles, groups } = parse(text)?;
         Ok(Self { mesh: TriangleMesh::new(points, triangles)?, groups })
     }
 
-    /// The same for a mesh that repeats itself in x with `period` (length): points that coincide when moved by a period become one. They may
-    /// differ by 1e-3 of the shortest edge.
+    /// The same for a mesh that repeats itself in x with `period` (length): points that coincide when moved by a period
+    /// become one. They may differ by 1e-3 of the shortest edge.
     ///
     /// # Errors
     /// As [`GmshMesh::from_text`], and those of [`TriangleMesh::periodic`].
@@ -76,8 +76,8 @@ impl GmshMesh {
     /// The text of the file. Points of a periodic mesh are written on both sides of the seam.
     ///
     /// # Errors
-    /// A group of a triangle that does not exist, two groups of one number, a number that is not positive, a name with a quotation mark
-    /// or line break.
+    /// A group of a triangle that does not exist, two groups of one number, a number that is not positive, a name with
+    /// a quotation mark or line break.
     pub fn to_text(&self) -> Result<String, SolidError> {
         self.check_groups()?;
         let (points, triangles) = self.unrolled();
@@ -111,7 +111,8 @@ impl GmshMesh {
         Ok(())
     }
 
-    /// Points and triangles of a mesh that is not periodic: with images of the points that triangles across the seam need.
+    /// Points and triangles of a mesh that is not periodic: with images of the points that triangles across the seam
+    /// need.
     fn unrolled(&self) -> (Vec<Vec2>, Vec<[usize; 3]>) {
         let mut points = self.mesh.points().to_vec();
         let mut images = BTreeMap::new();

@@ -5,8 +5,9 @@ use ib_core::Vec2;
 use crate::forces::{Element, fits};
 use crate::{DeformationGradient, ElasticForces, EnergyDensity, Mat2, Moduli, SolidError, TriangleMesh};
 
-/// Elastic forces of a hyperelastic material on a triangle mesh (thesis section 4.2.1.1): the deformation gradient A is constant in each
-/// triangle, the energy is the sum of W(A) A_ref over the triangles (4.11), and the force on a point is minus its derivative (4.12).
+/// Elastic forces of a hyperelastic material on a triangle mesh (thesis section 4.2.1.1): the deformation gradient A is
+/// constant in each triangle, the energy is the sum of W(A) A_ref over the triangles (4.11), and the force on a point
+/// is minus its derivative (4.12).
 #[derive(Debug, Clone)]
 pub struct Hyperelastic<E> {
     elements: Vec<Element>,

@@ -8,9 +8,9 @@ use crate::{SolidError, TriangleMesh};
 /// Height of an equilateral triangle over its side.
 pub(crate) const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
 
-/// A strip of equilateral triangles, periodic in x: `columns` points a row, `rows` layers of triangles (`rows + 1` rows of
-/// points) of side `spacing` (length). The lowest row starts at `corner` (length). The period is `columns * spacing`, the
-/// thickness `rows * sqrt(3)/2 spacing`: the wall of thesis section 4.1.
+/// A strip of equilateral triangles, periodic in x: `columns` points a row, `rows` layers of triangles (`rows + 1` rows
+/// of points) of side `spacing` (length). The lowest row starts at `corner` (length). The period is `columns *
+/// spacing`, the thickness `rows * sqrt(3)/2 spacing`: the wall of thesis section 4.1.
 ///
 /// Points are numbered row by row from below.
 ///
@@ -20,9 +20,9 @@ pub fn equilateral_strip(corner: Vec2, columns: usize, rows: usize, spacing: f64
     strip(corner, columns, rows, [positive("the lattice spacing", spacing)?, ROW_HEIGHT * spacing])
 }
 
-/// A strip of almost equilateral triangles, periodic in x, that fills a rectangle of `size` = period and thickness (length) exactly, with
-/// the lower left corner at `corner` (length): the number of rows is the nearest to `spacing` (length), the number of
-/// columns that which stretches the triangles least.
+/// A strip of almost equilateral triangles, periodic in x, that fills a rectangle of `size` = period and thickness
+/// (length) exactly, with the lower left corner at `corner` (length): the number of rows is the nearest to `spacing`
+/// (length), the number of columns that which stretches the triangles least.
 ///
 /// # Errors
 /// Sizes or a spacing that are not positive, a corner that is not finite, fewer than three columns or one row.
@@ -35,8 +35,9 @@ pub fn fitted_strip(corner: Vec2, size: [f64; 2], spacing: f64) -> Result<Triang
     strip(corner, columns, rows, [size[0] / columns as f64, height])
 }
 
-/// A block of equilateral triangles of side `spacing` (length): `columns + 1` points in the even rows, `columns` in the odd ones, `rows`
-/// layers of triangles. Its lower left point is `corner` (length); the sides to the left and right are toothed.
+/// A block of equilateral triangles of side `spacing` (length): `columns + 1` points in the even rows, `columns` in the
+/// odd ones, `rows` layers of triangles. Its lower left point is `corner` (length); the sides to the left and right are
+/// toothed.
 ///
 /// Points are numbered row by row from below.
 ///

@@ -1,25 +1,27 @@
 //! Elastic solids in the plane, for channels with soft walls and any other geometry.
 //!
-//! A solid is a triangle mesh of its reference state and a law for its forces (thesis chapter 4): springs along the edges
-//! ([`SpringLattice`]) or a hyperelastic material ([`ElasticSolid`]). Both are bodies of a scene ([`ib_core::Body`]): their
-//! points put the forces on the fluid and move with it. The parts, each usable by itself:
+//! A solid is a triangle mesh of its reference state and a law for its forces (thesis chapter 4): springs along the
+//! edges ([`SpringLattice`]) or a hyperelastic material ([`ElasticSolid`]). Both are bodies of a scene
+//! ([`ib_core::Body`]): their points put the forces on the fluid and move with it. The parts, each usable by itself:
 //!
-//! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with fillets; [`Region`] for what lies between them;
-//!   [`Channel`] for two walls, and ready ones: [`StraightChannel`], [`Constriction`] (thesis figure 4.18), [`Valve`], [`Ratchet`],
-//!   [`SinusoidalChannel`], [`BranchingChannel`].
-//! * **Meshes**: [`Mesher`] for any region, [`equilateral_strip`] and its relatives for lattices, [`GmshMesh`] for files;
-//!   [`TriangleMesh::quality`] says how even they are.
-//! * **Materials**: [`NeoHookean`] (the thesis'), [`SaintVenantKirchhoff`], [`MooneyRivlin`], or an [`EnergyDensity`] of your own;
-//!   [`Moduli`] converts between constants, the thesis' spring constant among them. Moduli may depend on the place.
-//! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid, [`Solid::surface_corrected`] for a surface that the flow
-//!   knows to a few hundredths of a grid spacing instead of a third.
-//! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`width_between`] walls; [`measured_moduli`] of a mesh.
+//! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with fillets; [`Region`] for what
+//!   lies between them; [`Channel`] for two walls, and ready ones: [`StraightChannel`], [`Constriction`] (thesis figure
+//!   4.18), [`Valve`], [`Ratchet`], [`SinusoidalChannel`], [`BranchingChannel`].
+//! * **Meshes**: [`Mesher`] for any region, [`equilateral_strip`] and its relatives for lattices, [`GmshMesh`] for
+//!   files; [`TriangleMesh::quality`] says how even they are.
+//! * **Materials**: [`NeoHookean`] (the thesis'), [`SaintVenantKirchhoff`], [`MooneyRivlin`], or an [`EnergyDensity`]
+//!   of your own; [`Moduli`] converts between constants, the thesis' spring constant among them. Moduli may depend on
+//!   the place.
+//! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid, [`Solid::surface_corrected`] for a
+//!   surface that the flow knows to a few hundredths of a grid spacing instead of a third.
+//! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`width_between`] walls;
+//!   [`measured_moduli`] of a mesh.
 //!
 //! # Conventions
 //!
-//! Two dimensions: moduli and stresses are forces per length. Triangles are counter-clockwise. Walls repeat themselves in x, their two ends
-//! share points. Forces are those of the solid on the fluid. Quantities have the units that you choose; every item names its dimension. Bad
-//! input ends in a [`SolidError`].
+//! Two dimensions: moduli and stresses are forces per length. Triangles are counter-clockwise. Walls repeat themselves
+//! in x, their two ends share points. Forces are those of the solid on the fluid. Quantities have the units that you
+//! choose; every item names its dimension. Bad input ends in a [`SolidError`].
 //!
 //! # Example
 //!

@@ -20,16 +20,17 @@ pub struct MeasuredModuli {
 pub enum InnerPoints {
     /// They follow the uniform strain: the sum over the triangles as they are.
     Strained,
-    /// They relax to equilibrium: what a solid of this mesh feels like from outside. Never more than [`InnerPoints::Strained`].
+    /// They relax to equilibrium: what a solid of this mesh feels like from outside. Never more than
+    /// [`InnerPoints::Strained`].
     Relaxed,
 }
 
-/// Shear and bulk modulus of a mesh under the small uniform strain `strain` (dimensionless, 1e-6 to 0.1), with the boundary displaced
-/// uniformly.
+/// Shear and bulk modulus of a mesh under the small uniform strain `strain` (dimensionless, 1e-6 to 0.1), with the
+/// boundary displaced uniformly.
 ///
-/// The energy density of the simple shear X = s + g (s_y, 0) is mu g^2/2, that of the dilation X = (1 + g) s is
-/// 2 kappa g^2; the mean over g and -g is taken, so that the error is of second order in the strain. A periodic mesh cannot dilate: there
-/// the stretch X = s + g (0, s_y), of energy density (mu + kappa) g^2/2, takes its place.
+/// The energy density of the simple shear X = s + g (s_y, 0) is mu g^2/2, that of the dilation X = (1 + g) s is 2 kappa
+/// g^2; the mean over g and -g is taken, so that the error is of second order in the strain. A periodic mesh cannot
+/// dilate: there the stretch X = s + g (0, s_y), of energy density (mu + kappa) g^2/2, takes its place.
 ///
 /// ```
 /// use elastic_solids::*;
@@ -44,8 +45,8 @@ pub enum InnerPoints {
 /// ```
 ///
 /// # Errors
-/// Forces made for another mesh; a strain out of its range; a relaxation that does not converge, which only an unstable material
-/// has.
+/// Forces made for another mesh; a strain out of its range; a relaxation that does not converge, which only an unstable
+/// material has.
 pub fn measured_moduli<F: ElasticForces>(
     mesh: &TriangleMesh,
     law: &F,
@@ -74,11 +75,12 @@ pub fn measured_moduli<F: ElasticForces>(
     Ok(MeasuredModuli { shear, bulk })
 }
 
-/// Residual force over the force at the start at which the inner points are in equilibrium; the energy is exact to its square.
+/// Residual force over the force at the start at which the inner points are in equilibrium; the energy is exact to its
+/// square.
 const TOLERANCE: f64 = 1e-6;
 
-/// Moves the points that are not on the boundary until the forces on them vanish, by nonlinear conjugate gradients (Polak and Ribiere) with
-/// one secant step along each direction, which is exact for small strains.
+/// Moves the points that are not on the boundary until the forces on them vanish, by nonlinear conjugate gradients
+/// (Polak and Ribiere) with one secant step along each direction, which is exact for small strains.
 fn relax_inner<F: ElasticForces>(mesh: &TriangleMesh, law: &F, positions: &mut [Vec2]) -> Result<(), SolidError> {
     let mut inner = vec![true; positions.len()];
     for &point in mesh.boundary_loops().iter().flat_map(|boundary| &boundary.points) {
@@ -182,7 +184,8 @@ mod tests {
             for inner in [InnerPoints::Strained, InnerPoints::Relaxed] {
                 let found = measured(&mesh, &law, inner);
                 assert!((found.shear / SHEAR - 1.0).abs() < 0.02, "{inner:?} {found:?}");
-                // The bulk modulus of a wall is the difference of this and the shear modulus, with both their anisotropies.
+                // The bulk modulus of a wall is the difference of this and the shear modulus, with both their
+                // anisotropies.
                 let stretch = found.shear + found.bulk;
                 assert!((stretch / (3.0 * SHEAR) - 1.0).abs() < 0.02, "{inner:?} {found:?}");
                 if mesh.period().is_none() {

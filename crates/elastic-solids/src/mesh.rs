@@ -17,21 +17,22 @@ pub struct Edge {
     pub triangles: (usize, Option<usize>),
 }
 
-/// A closed loop of boundary edges with the solid to their left: outer boundaries run counter-clockwise, holes clockwise.
+/// A closed loop of boundary edges with the solid to their left: outer boundaries run counter-clockwise, holes
+/// clockwise.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BoundaryLoop {
     /// Its points in order; the last one is joined to the first.
     pub points: Vec<usize>,
-    /// How many periods the loop advances in x before it closes: 1 for the lower surface of a periodic wall, -1 for the upper one, 0
-    /// for a loop that closes on itself.
+    /// How many periods the loop advances in x before it closes: 1 for the lower surface of a periodic wall, -1 for the
+    /// upper one, 0 for a loop that closes on itself.
     pub periods: i32,
 }
 
 /// A triangle mesh of the reference state of a solid, possibly periodic in x.
 ///
-/// Triangles are counter-clockwise. In a periodic mesh the two ends share their points: a triangle across the seam has corners
-/// one period away from its points, which [`TriangleMesh::corners`] and [`TriangleMesh::edge_vector`] account for. Every point belongs
-/// to a triangle and every edge to one or two.
+/// Triangles are counter-clockwise. In a periodic mesh the two ends share their points: a triangle across the seam has
+/// corners one period away from its points, which [`TriangleMesh::corners`] and [`TriangleMesh::edge_vector`] account
+/// for. Every point belongs to a triangle and every edge to one or two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TriangleMesh {
     points: Vec<Vec2>,
@@ -45,17 +46,18 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
-    /// From points (length) and triangles, each by the numbers of its three points; clockwise triangles are turned round.
+    /// From points (length) and triangles, each by the numbers of its three points; clockwise triangles are turned
+    /// round.
     ///
     /// # Errors
-    /// No triangle, points that are not finite or in no triangle, numbers beyond the points, triangles without area, edges
-    /// of more than two triangles or of two that lie on the same side.
+    /// No triangle, points that are not finite or in no triangle, numbers beyond the points, triangles without area,
+    /// edges of more than two triangles or of two that lie on the same side.
     pub fn new(points: Vec<Vec2>, triangles: Vec<[usize; 3]>) -> Result<Self, SolidError> {
         Self::build(points, triangles, None)
     }
 
-    /// A mesh that repeats itself in x with `period` (length): triangles whose points seem further apart than half a period are
-    /// taken across the seam.
+    /// A mesh that repeats itself in x with `period` (length): triangles whose points seem further apart than half a
+    /// period are taken across the seam.
     ///
     /// # Errors
     /// As [`TriangleMesh::new`], a period that is not positive, triangles as wide as half a period.
@@ -193,8 +195,8 @@ impl TriangleMesh {
         vector
     }
 
-    /// The boundary loop as a polygon when the points are at `positions` (length): one continuous line, without the repeated first
-    /// point; for a loop with periods its end is that many periods ahead of its start.
+    /// The boundary loop as a polygon when the points are at `positions` (length): one continuous line, without the
+    /// repeated first point; for a loop with periods its end is that many periods ahead of its start.
     ///
     /// # Panics
     /// Fewer positions than points.

@@ -11,10 +11,11 @@ use crate::{Region, SolidError, TriangleMesh};
 
 /// Makes uniform triangle meshes.
 ///
-/// The outlines are resampled at equal spacing, corners kept; the inside is seeded with a lattice of equilateral triangles, no
-/// closer to the boundary than 0.45 spacings; the constrained Delaunay triangulation of all these points is relaxed, sweep after sweep, until
-/// the edges have about equal length. The two ends of a periodic wall share their points, and its spacing is changed by up to 5 per cent so
-/// that the lattice fits its height: a lattice stretched across the wall would be anisotropic, for springs by as much as the stretch.
+/// The outlines are resampled at equal spacing, corners kept; the inside is seeded with a lattice of equilateral
+/// triangles, no closer to the boundary than 0.45 spacings; the constrained Delaunay triangulation of all these points
+/// is relaxed, sweep after sweep, until the edges have about equal length. The two ends of a periodic wall share their
+/// points, and its spacing is changed by up to 5 per cent so that the lattice fits its height: a lattice stretched
+/// across the wall would be anisotropic, for springs by as much as the stretch.
 ///
 /// ```
 /// use elastic_solids::*;
@@ -37,9 +38,9 @@ enum Method {
     Refined,
 }
 
-/// Distance of the seeds from the boundary over the spacing. At about half the height of a row the seeds next to the boundary stand, on average,
-/// one row away from it; a larger distance leaves too few of them, which relaxation makes up for by stretching all triangles across a
-/// wall.
+/// Distance of the seeds from the boundary over the spacing. At about half the height of a row the seeds next to the
+/// boundary stand, on average, one row away from it; a larger distance leaves too few of them, which relaxation makes
+/// up for by stretching all triangles across a wall.
 const MARGIN: f64 = 0.45;
 
 /// Sweeps of the default.
@@ -73,8 +74,8 @@ impl Mesher {
         self
     }
 
-    /// The same with the lattice of the seeds turned by `angle` (radians, 0 otherwise): a mesh of a straight wall that is not
-    /// a lattice itself, to see what the mesh does to a result.
+    /// The same with the lattice of the seeds turned by `angle` (radians, 0 otherwise): a mesh of a straight wall that
+    /// is not a lattice itself, to see what the mesh does to a result.
     ///
     /// # Errors
     /// An angle that is not finite.
@@ -88,8 +89,8 @@ impl Mesher {
         if let Method::Relaxed { angle, .. } = self.method { angle } else { 0.0 }
     }
 
-    /// The same by Delaunay refinement instead of seeds and relaxation: for odd shapes. Its edges are much less even. Not for
-    /// periodic regions.
+    /// The same by Delaunay refinement instead of seeds and relaxation: for odd shapes. Its edges are much less even.
+    /// Not for periodic regions.
     #[must_use]
     pub fn refinement(mut self) -> Self {
         self.method = Method::Refined;
@@ -99,8 +100,8 @@ impl Mesher {
     /// Meshes a region.
     ///
     /// # Errors
-    /// Outlines that cross or touch; a hole or part narrower than the spacing; a wall thinner than the spacing; a period shorter
-    /// than six spacings; more than 1e7 points; a triangulation that failed.
+    /// Outlines that cross or touch; a hole or part narrower than the spacing; a wall thinner than the spacing; a
+    /// period shorter than six spacings; more than 1e7 points; a triangulation that failed.
     pub fn mesh(&self, region: &Region) -> Result<TriangleMesh, SolidError> {
         let boundary = Boundary::new(region, self.spacing, matches!(self.method, Method::Relaxed { angle: 0.0, .. }))?;
         let mesh = match self.method {
@@ -173,7 +174,8 @@ impl Boundary {
         let start = region.outlines().iter().position(|outline| outline.period().is_some());
         let period = start.zip(region.period()).map(|(outline, period)| (outlines[outline][0].x, period));
         if period.is_some() {
-            // Every second row of the seeds stands half a spacing further right; let flat surfaces continue that lattice.
+            // Every second row of the seeds stands half a spacing further right; let flat surfaces continue that
+            // lattice.
             let rows = rows(high.y - low.y, spacing);
             for (points, outline) in outlines.iter_mut().zip(region.outlines()) {
                 let row = (rows * (points[0].y - low.y) / (high.y - low.y)).round();
@@ -195,6 +197,12 @@ impl Boundary {
         Ok(boundary)
     }
 
+    /// The image of a point in the first period.
+    fn home(&self, point: Vec2) -> Vec2 {
+        let periods = self.period.map_or(0.0, |(start, period)| period * ((point.x - start) / period).floor());
+        point - Vec2::new(periods, 0.0)
+    }
+
     /// No closed outline narrower than the spacing.
     fn check_widths(&self, region: &Region, spacing: f64) -> Result<(), SolidError> {
         for (number, (outline, points)) in region.outlines().iter().zip(&self.outlines).enumerate() {
@@ -204,7 +212,7 @@ impl Boundary {
             let width = width(&outline.resampled(0.1 * spacing)?);
             if width < spacing {
                 let [x, y] = points[0].into();
-                return Err(if self.segments.crossings_above(points[0], Some(number)) % 2 == 1 {
+                return Err(if self.segments.crossings_above(self.home(points[0]), Some(number)) % 2 == 1 {
                     SolidError::HoleTooSmall { x, y, width, spacing }
                 } else {
                     SolidError::WallTooThin { x, y, thickness: width, spacing }
@@ -219,6 +227,7 @@ impl Boundary {
         let reach = spacing * (1.0 - 1e-6);
         for (outline, points) in self.outlines.iter().enumerate() {
             for (index, &point) in points.iter().enumerate() {
+                let point = self.home(point);
                 let across = self.segments.nearest(point, reach, |other| {
                     let far = other.outline != outline
                         || self.segments.separation(outline, index, other.index).min(self.segments.separation(

@@ -49,8 +49,8 @@ impl Moduli {
         Self::new(shear, 2.0 * shear)
     }
 
-    /// Those that stand for the thesis' spring constant k: `mu = 3/16 h k` (thesis (4.18)), kappa = 2 mu, where h = 0.05 is the
-    /// lattice spacing of the thesis, whatever that of the run.
+    /// Those that stand for the thesis' spring constant k: `mu = 3/16 h k` (thesis (4.18)), kappa = 2 mu, where h =
+    /// 0.05 is the lattice spacing of the thesis, whatever that of the run.
     ///
     /// # Errors
     /// A spring constant that is not positive and finite.

@@ -9,9 +9,9 @@ use crate::{DeformationGradient, EnergyDensity, Mat2, Moduli, SolidError};
 /// I1 = tr(A A^T) + 1,   I2 = tr(A A^T) + J^2
 /// C1 = (1 - q) mu/2,   C2 = q mu/2,   K = kappa - mu/3
 /// ```
-/// with mu, kappa the shear and bulk modulus of the plane and q the part of mu that the second invariant carries.
-/// q = 0 is the neo-Hookean solid of three dimensions, which differs from [`NeoHookean`](crate::NeoHookean) in what out-of-plane stress
-/// does to a change of area.
+/// with mu, kappa the shear and bulk modulus of the plane and q the part of mu that the second invariant carries. q = 0
+/// is the neo-Hookean solid of three dimensions, which differs from [`NeoHookean`](crate::NeoHookean) in what
+/// out-of-plane stress does to a change of area.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MooneyRivlin {
     moduli: Moduli,
@@ -21,12 +21,12 @@ pub struct MooneyRivlin {
 }
 
 impl MooneyRivlin {
-    /// From shear modulus mu and bulk modulus kappa of the plane (force per length) and the fraction q of the second invariant
-    /// (0 to 1).
+    /// From shear modulus mu and bulk modulus kappa of the plane (force per length) and the fraction q of the second
+    /// invariant (0 to 1).
     ///
     /// # Errors
-    /// A modulus that is not positive and finite, a fraction out of its range, `kappa <= mu/3` (no bulk modulus left in three
-    /// dimensions).
+    /// A modulus that is not positive and finite, a fraction out of its range, `kappa <= mu/3` (no bulk modulus left in
+    /// three dimensions).
     pub fn new(shear: f64, bulk: f64, fraction: f64) -> Result<Self, SolidError> {
         let moduli = Moduli::new(shear, bulk)?;
         within("the fraction of the second invariant", fraction, 0.0, 1.0)?;

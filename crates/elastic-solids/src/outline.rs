@@ -15,9 +15,9 @@ use piece::{Piece, is_corner};
 
 /// A line that bounds a solid: closed, or repeating itself in x with a period (the surface of a channel wall).
 ///
-/// It is made of smooth pieces that join at corners. Meshing keeps the corners and puts points at equal spacing on the exact
-/// curve between them. The direction does not matter: what is solid follows from the number of outlines around a point
-/// ([`Region`](crate::Region)).
+/// It is made of smooth pieces that join at corners. Meshing keeps the corners and puts points at equal spacing on the
+/// exact curve between them. The direction does not matter: what is solid follows from the number of outlines around a
+/// point ([`Region`](crate::Region)).
 ///
 /// ```
 /// use elastic_solids::*;
@@ -77,7 +77,8 @@ impl Outline {
         })
     }
 
-    /// A post: a rectangle of `width` with a round tip, `height` high in all, standing on the middle of its foot (length).
+    /// A post: a rectangle of `width` with a round tip, `height` high in all, standing on the middle of its foot
+    /// (length).
     ///
     /// # Errors
     /// Sizes that are not positive, a foot that is not finite, a height that is not above half the width.
@@ -110,8 +111,8 @@ impl Outline {
         Self::from_pieces(vec![Piece::curve(Arc::new(curve), [0.0, 1.0])?], None)
     }
 
-    /// The closed curve `curve(t)` (length), t from 0 to 1, with corners at t = 0 and at the increasing parameters `corners` between 0
-    /// and 1.
+    /// The closed curve `curve(t)` (length), t from 0 to 1, with corners at t = 0 and at the increasing parameters
+    /// `corners` between 0 and 1.
     ///
     /// # Errors
     /// As [`Outline::closed`]; parameters that do not increase from above 0 to below 1.
@@ -122,7 +123,8 @@ impl Outline {
         Self::from_pieces(Piece::split(&(Arc::new(curve) as _), [0.0, 1.0], corners)?, None)
     }
 
-    /// The level line y = `height` (length) with the period `period` (length) from x = `start`: the flat surface of a channel wall.
+    /// The level line y = `height` (length) with the period `period` (length) from x = `start`: the flat surface of a
+    /// channel wall.
     ///
     /// # Errors
     /// A period that is not positive, a start or height that is not finite.
@@ -144,8 +146,8 @@ impl Outline {
         Self::profile_with_corners(start, period, &[], height)
     }
 
-    /// The piecewise smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated, with
-    /// corners at the increasing positions `corners` between them.
+    /// The piecewise smooth line y = `height(x)` (length) for x from `start` to `start + period` (length), repeated,
+    /// with corners at the increasing positions `corners` between them.
     ///
     /// # Errors
     /// As [`Outline::profile`]; corners that do not increase from above the start to below the end.
@@ -161,8 +163,8 @@ impl Outline {
         Self::from_pieces(Piece::split(&(Arc::new(curve) as _), [start, start + period], corners)?, Some(period))
     }
 
-    /// The line of straight pieces through `points` (length), repeated with `period` (length) so that the first point follows the
-    /// last one period further. It may overhang.
+    /// The line of straight pieces through `points` (length), repeated with `period` (length) so that the first point
+    /// follows the last one period further. It may overhang.
     ///
     /// # Errors
     /// No point, points that are not finite or coincide with the next, a period that is not positive.
@@ -269,8 +271,8 @@ impl Outline {
         Self::from_pieces(fillet::rounded(&self.pieces, radius)?, self.period)
     }
 
-    /// Points on the outline at about `spacing` (length), equally spaced between corners, corners among them; at least three on a
-    /// closed outline.
+    /// Points on the outline at about `spacing` (length), equally spaced between corners, corners among them; at least
+    /// three on a closed outline.
     ///
     /// # Errors
     /// A spacing that is not positive, or so small that there would be more than 1e7 points.
@@ -311,8 +313,8 @@ impl Outline {
         Ok(points)
     }
 
-    /// Runs of pieces that join smoothly, from corner to corner, each piece with what to add to its x. Without a corner the one run
-    /// starts at the first piece.
+    /// Runs of pieces that join smoothly, from corner to corner, each piece with what to add to its x. Without a corner
+    /// the one run starts at the first piece.
     fn chains(&self) -> Vec<Vec<(&Piece, f64)>> {
         let count = self.pieces.len();
         let corner = |k: usize| self.is_corner(k);

@@ -2,8 +2,9 @@
 
 use crate::{Mesher, Outline, SolidError, TriangleMesh};
 
-/// The solid between outlines: a point is solid where a line upwards from it crosses an odd number of them. One closed outline is
-/// a solid, a second one inside it a hole, one outside it another part; two periodic outlines, one above the other, are a wall.
+/// The solid between outlines: a point is solid where a line upwards from it crosses an odd number of them. One closed
+/// outline is a solid, a second one inside it a hole, one outside it another part; two periodic outlines, one above the
+/// other, are a wall.
 #[derive(Debug, Clone)]
 pub struct Region {
     outlines: Vec<Outline>,

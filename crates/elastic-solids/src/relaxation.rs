@@ -8,15 +8,15 @@ use crate::triangulation::{PointSet, triangulate};
 /// Sweeps between two triangulations.
 const SWEEPS_PER_TRIANGULATION: usize = 5;
 
-/// Rest length of the edges over the spacing. Edges that push without ever pulling much drive points away from their nearest
-/// neighbours: compared with 1 the smallest angles grow by 3 degrees, at the same scatter of the lengths.
+/// Rest length of the edges over the spacing. Edges that push without ever pulling much drive points away from their
+/// nearest neighbours: compared with 1 the smallest angles grow by 3 degrees, at the same scatter of the lengths.
 const REST_LENGTH: f64 = 1.25;
 
 /// Step over the force: of the six edges of a point at 1/3 or more it would overshoot.
 const STEP: f64 = 0.15;
 
-/// Moves the inner points towards equal edges and returns the triangles: every edge is a spring, and in every sweep each inner point moves
-/// along the force on it.
+/// Moves the inner points towards equal edges and returns the triangles: every edge is a spring, and in every sweep
+/// each inner point moves along the force on it.
 pub(crate) fn relax(set: &mut PointSet<'_>, sweeps: usize, spacing: f64) -> Result<Vec<[usize; 3]>, SolidError> {
     let mut triangles = triangulate(set, spacing)?;
     let mut forces = vec![Vec2::zeros(); set.points.len()];

@@ -8,8 +8,8 @@ use crate::{DeformationGradient, EnergyDensity, Mat2, Moduli, SolidError};
 /// W = (kappa - mu)/2 tr(E)^2 + mu tr(E^2)
 /// P = A ((kappa - mu) tr(E) 1 + 2 mu E)
 /// ```
-/// For large rotations with small strains. It softens under compression and does not resist being flattened: an energy for
-/// comparison, not for narrow channels.
+/// For large rotations with small strains. It softens under compression and does not resist being flattened: an energy
+/// for comparison, not for narrow channels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SaintVenantKirchhoff {
     moduli: Moduli,

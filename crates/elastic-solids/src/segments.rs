@@ -27,8 +27,8 @@ pub(crate) struct Segments {
 }
 
 impl Segments {
-    /// From the points of each outline in order. With a period, the images within `margin` of the x range from `start` are added, and
-    /// points may lie anywhere.
+    /// From the points of each outline in order. With a period, the images within `margin` of the x range from `start`
+    /// are added, and points may lie anywhere.
     pub(crate) fn new(outlines: &[Vec<Vec2>], period: Option<(f64, f64)>, margin: f64) -> Self {
         let mut segments = Vec::new();
         for (outline, points) in outlines.iter().enumerate() {

@@ -7,11 +7,11 @@ use crate::forces::fits;
 use crate::surface_correction::SurfaceCorrection;
 use crate::{ElasticForces, EnergyDensity, Hyperelastic, SolidError, Springs, TriangleMesh};
 
-/// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid and move with
-/// it. Use it as [`ElasticSolid`] or [`SpringLattice`].
+/// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid
+/// and move with it. Use it as [`ElasticSolid`] or [`SpringLattice`].
 ///
-/// Points may be pinned, that is, stay where they are and put no force on the fluid, or tethered to where they are in the reference
-/// state.
+/// Points may be pinned, that is, stay where they are and put no force on the fluid, or tethered to where they are in
+/// the reference state.
 #[derive(Debug, Clone)]
 pub struct Solid<F> {
     pub(crate) name: String,
@@ -111,8 +111,9 @@ impl SpringLattice {
         Ok(Self::at_rest(mesh, law))
     }
 
-    /// The same, where triangles may turn inside out, which springs do not resist: for comparison with work that lets them.
-    /// [`Solid::smallest_jacobian`] tells whether they have. Otherwise a step that turns one inside out is an error.
+    /// The same, where triangles may turn inside out, which springs do not resist: for comparison with work that lets
+    /// them. [`Solid::smallest_jacobian`] tells whether they have. Otherwise a step that turns one inside out is an
+    /// error.
     #[must_use]
     pub fn allow_inversion(mut self) -> Self {
         self.may_invert = true;
@@ -153,9 +154,9 @@ impl<F: ElasticForces> Solid<F> {
         self
     }
 
-    /// The same with the points pinned whose reference position (length) satisfies a condition, such as the outermost row of a wall on
-    /// the no-slip wall of the channel. Pinned points stay where they are, and their forces are not put on the fluid: whatever
-    /// holds them takes the forces up.
+    /// The same with the points pinned whose reference position (length) satisfies a condition, such as the outermost
+    /// row of a wall on the no-slip wall of the channel. Pinned points stay where they are, and their forces are not
+    /// put on the fluid: whatever holds them takes the forces up.
     ///
     /// # Errors
     /// No point left free.
@@ -169,8 +170,8 @@ impl<F: ElasticForces> Solid<F> {
         Ok(self)
     }
 
-    /// The same with springs of `stiffness` (force per length) from each point whose reference position (length) satisfies a condition to
-    /// that position.
+    /// The same with springs of `stiffness` (force per length) from each point whose reference position (length)
+    /// satisfies a condition to that position.
     ///
     /// # Errors
     /// A stiffness that is not positive and finite; no point that satisfies the condition.
@@ -185,14 +186,15 @@ impl<F: ElasticForces> Solid<F> {
 
     /// The same with the mobility correction of its surface, for the kernel by which markers and grid are coupled.
     ///
-    /// Each point within two grid spacings of the surface moves, besides with the fluid, with `(h/eta) phi(d/h) f_t` along the surface,
-    /// f_t being the tangential elastic force per length of the surface, d the distance from it in the reference state, and `phi(0)` the
-    /// deficit of a flat interface at long wavelengths. Measured with the default kernel: a stiff wall stops the fluid 0.31 to 0.44 h in
-    /// front of its surface, with the correction within 0.02 h of it; a sheared layer 17 h thick relaxes 2.5 % too slowly, with the
-    /// correction 0.07 %. Stable time steps stay the same.
+    /// Each point within two grid spacings of the surface moves, besides with the fluid, with `(h/eta) phi(d/h) f_t`
+    /// along the surface, f_t being the tangential elastic force per length of the surface, d the distance from it in
+    /// the reference state, and `phi(0)` the deficit of a flat interface at long wavelengths. Measured with the default
+    /// kernel: a stiff wall stops the fluid 0.31 to 0.44 h in front of its surface, with the correction within 0.02 h
+    /// of it; a sheared layer 17 h thick relaxes 2.5 % too slowly, with the correction 0.07 %. Stable time steps stay
+    /// the same.
     ///
-    /// Only the solid's own points are corrected, not markers of others that come within two grid spacings; surfaces closer than that
-    /// to each other or to a no-slip wall are corrected as if they stood alone.
+    /// Only the solid's own points are corrected, not markers of others that come within two grid spacings; surfaces
+    /// closer than that to each other or to a no-slip wall are corrected as if they stood alone.
     ///
     /// ```
     /// use elastic_solids::*;
@@ -221,7 +223,8 @@ impl<F: ElasticForces> Solid<F> {
         Ok(self)
     }
 
-    /// Puts all points, pinned ones too, elsewhere (length). Where they make a state that cannot be, the next step says so.
+    /// Puts all points, pinned ones too, elsewhere (length). Where they make a state that cannot be, the next step says
+    /// so.
     ///
     /// # Errors
     /// A list of the wrong length, positions that are not finite.

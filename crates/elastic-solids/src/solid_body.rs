@@ -10,10 +10,10 @@ impl From<SolidError> for BodyError {
     }
 }
 
-/// Part of the bulk modulus that adds to the stiffness of a mesh as coarse as the grid, growing with the square of the mesh spacing. The
-/// velocity of the fluid has no divergence, so that the bulk modulus only acts through the error of the linear interpolation
-/// in each triangle. Measured with the cubic and quadratic kernel, kappa = 20 mu: 0.003, 0.012, 0.02 and 0.05 at mesh spacings of 0.5, 1, 1.5 and 2
-/// grid spacings.
+/// Part of the bulk modulus that adds to the stiffness of a mesh as coarse as the grid, growing with the square of the
+/// mesh spacing. The velocity of the fluid has no divergence, so that the bulk modulus only acts through the error of
+/// the linear interpolation in each triangle. Measured with the cubic and quadratic kernel, kappa = 20 mu: 0.003,
+/// 0.012, 0.02 and 0.05 at mesh spacings of 0.5, 1, 1.5 and 2 grid spacings.
 const BULK_SHARE: f64 = 0.015;
 
 impl<F: ElasticForces> Body for Solid<F> {
@@ -79,8 +79,9 @@ impl<F: ElasticForces> Body for Solid<F> {
         if self.may_invert { Ok(()) } else { Ok(self.check_inversion()?) }
     }
 
-    /// `2 eta/(mu + 0.015 kappa (a/h)^2)` for the midpoint rule, a being the spacing of the mesh and h that of the grid; of the moduli the
-    /// largest in the solid. Tethers add to the sum what holding all of them together in the slowest flow of the domain takes.
+    /// `2 eta/(mu + 0.015 kappa (a/h)^2)` for the midpoint rule, a being the spacing of the mesh and h that of the
+    /// grid; of the moduli the largest in the solid. Tethers add to the sum what holding all of them together in the
+    /// slowest flow of the domain takes.
     fn step_limits(&self, medium: &Medium) -> Vec<StepLimit> {
         let moduli = self.law.stiffest();
         let coarseness = medium.spacing.map_or(0.0, |spacing| self.spacing / spacing);
@@ -95,11 +96,13 @@ impl<F: ElasticForces> Body for Solid<F> {
 }
 
 impl<F: ElasticForces> Solid<F> {
-    /// Viscosity times the fastest rate at which tethers relax (force per length), from above: all of them move together.
+    /// Viscosity times the fastest rate at which tethers relax (force per length), from above: all of them move
+    /// together.
     ///
-    /// A row of total stiffness k per length along a channel of height H relaxes at `k H/(4 eta)`, a layer that fills it at `k H/(pi^2 eta)`,
-    /// one of thickness t in the middle at `k (H/4 - 0.148 t)/eta` (to 4 per cent); without walls a row in a box of length L at
-    /// `k L/(12 eta)`. A group shorter than half of H or L moves no more easily than one of that length.
+    /// A row of total stiffness k per length along a channel of height H relaxes at `k H/(4 eta)`, a layer that fills
+    /// it at `k H/(pi^2 eta)`, one of thickness t in the middle at `k (H/4 - 0.148 t)/eta` (to 4 per cent); without
+    /// walls a row in a box of length L at `k L/(12 eta)`. A group shorter than half of H or L moves no more easily
+    /// than one of that length.
     fn tether_stiffness(&self, medium: &Medium) -> f64 {
         let anchors = || self.tethers.iter().map(|tether| tether.anchor);
         let first = self.tethers[0].anchor;

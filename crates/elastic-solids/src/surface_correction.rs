@@ -6,14 +6,15 @@ use crate::TriangleMesh;
 
 /// The mobility correction of a solid's surface.
 ///
-/// On the surface the elastic stress jumps by the traction, and with it the velocity gradient of the fluid. Spreading and interpolation smear
-/// that kink: where the traction is f_t per length along the surface, points at the distance d from it miss the velocity
+/// On the surface the elastic stress jumps by the traction, and with it the velocity gradient of the fluid. Spreading
+/// and interpolation smear that kink: where the traction is f_t per length along the surface, points at the distance d
+/// from it miss the velocity
 /// ```text
 /// (h/eta) phi(d/h) f_t,    phi(s) = 1/2 (E|s + Z| - |s|),    phi(0) = G_t(0)
 /// ```
-/// with a random number Z that stands for the kernels and the grid (a cubic B-spline for the default kernel, whose phi(0) is 7/30), and the deficit G_t of a flat
-/// interface ([`MobilityDeficit`]). Without it the velocity has an error of first order in h: a stiff wall stops the fluid about 0.3 to 0.6 h inside the
-/// channel.
+/// with a random number Z that stands for the kernels and the grid (a cubic B-spline for the default kernel, whose
+/// phi(0) is 7/30), and the deficit G_t of a flat interface ([`MobilityDeficit`]). Without it the velocity has an error
+/// of first order in h: a stiff wall stops the fluid about 0.3 to 0.6 h inside the channel.
 #[derive(Debug, Clone)]
 pub(crate) struct SurfaceCorrection {
     vertices: Vec<Vertex>,
@@ -58,9 +59,10 @@ struct Near {
     weight: f64,
 }
 
-/// How often tractions are averaged with those of their neighbours, (1, 2, 1)/4, where the points are one grid spacing apart. The deficit falls with the
-/// wave number q along the surface; four times make it `exp(-(q h)^2)`, which is near enough where it matters, for q h up to 0.5, and
-/// the least that does not make nearly incompressible solids (kappa = 20 mu) stiffer.
+/// How often tractions are averaged with those of their neighbours, (1, 2, 1)/4, where the points are one grid spacing
+/// apart. The deficit falls with the wave number q along the surface; four times make it `exp(-(q h)^2)`, which is near
+/// enough where it matters, for q h up to 0.5, and the least that does not make nearly incompressible solids (kappa =
+/// 20 mu) stiffer.
 const SMOOTHING: f64 = 4.0;
 
 /// phi(0) of the shape below.
@@ -186,8 +188,8 @@ impl SurfaceCorrection {
         (weight > 0.0).then_some(Near { marker, vertex, fraction, weight })
     }
 
-    /// Adds the missing velocities (length per time) to the rates of the free points, for the present positions (length) and forces (force) of all
-    /// points.
+    /// Adds the missing velocities (length per time) to the rates of the free points, for the present positions
+    /// (length) and forces (force) of all points.
     pub(crate) fn add(&mut self, positions: &[Vec2], forces: &[Vec2], rate: &mut [f64]) {
         if self.near.is_empty() {
             return;

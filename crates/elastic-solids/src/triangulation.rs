@@ -20,11 +20,12 @@ pub(crate) struct PointSet<'a> {
     pub(crate) period: Option<(f64, f64)>,
 }
 
-/// Width of the images beyond each end of a period, in spacings. Delaunay triangles of a set without gaps are smaller than two.
+/// Width of the images beyond each end of a period, in spacings. Delaunay triangles of a set without gaps are smaller
+/// than two.
 const IMAGES: f64 = 8.0;
 
-/// Displacement that decides between equally good diagonals, in spacings: an image of four points on a circle must not be cut
-/// otherwise than the four themselves.
+/// Displacement that decides between equally good diagonals, in spacings: an image of four points on a circle must not
+/// be cut otherwise than the four themselves.
 const TIE_BREAK: f64 = 1e-7;
 
 /// A triangle flatter than this, in spacings squared, between points of a straight side is no part of the solid.
@@ -106,7 +107,8 @@ pub(crate) fn refine(set: &PointSet<'_>, spacing: f64) -> Result<(Vec<Vec2>, Vec
 
 type Vertices = (Vec<Point2<f64>>, Vec<(usize, i8)>, Vec<[usize; 2]>);
 
-/// All points with their images near the ends, in units of the spacing, what each is an image of, and the boundary edges among them.
+/// All points with their images near the ends, in units of the spacing, what each is an image of, and the boundary
+/// edges among them.
 fn images(set: &PointSet<'_>, spacing: f64) -> Vertices {
     let near = |x: f64, image: i8| match (set.period, image) {
         (Some((start, period)), 1) => x < start + (IMAGES * spacing).min(period),

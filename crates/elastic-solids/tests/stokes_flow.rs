@@ -55,9 +55,9 @@ fn slide<F: ElasticForces>(solid: &Solid<F>) -> f64 {
 
 /// The rate, times eta/mu, at which a sheared layer relaxes below a fluid of the same viscosity.
 ///
-/// Under the shear gamma the stress is `eta dgamma/dt + mu gamma` in the layer (Kelvin-Voigt; exact at any shear for the
-/// neo-Hookean material), `eta du/dy` above, and the same everywhere; with both walls at rest, `a dgamma/dt + (H - a) du/dy = 0`. So gamma
-/// decays at the rate `mu/eta (1 - a/H)`.
+/// Under the shear gamma the stress is `eta dgamma/dt + mu gamma` in the layer (Kelvin-Voigt; exact at any shear for
+/// the neo-Hookean material), `eta du/dy` above, and the same everywhere; with both walls at rest, `a dgamma/dt + (H -
+/// a) du/dy = 0`. So gamma decays at the rate `mu/eta (1 - a/H)`.
 fn relaxation_rate<F: ElasticForces>(solid: Solid<F>, h: f64, amplitude: f64) -> f64 {
     let sheared = |s: Vec2| s + Vec2::new(amplitude * (s.y + 0.5 * HEIGHT), 0.0);
     let mut scene = channel(h);
@@ -115,8 +115,8 @@ fn the_surface_correction_takes_the_first_order_error_off() {
     }
 }
 
-/// Where stiff layers on both walls stop a flow driven by a pressure gradient, in front of their surface, in grid spacings: from the
-/// velocity in the middle, `G w^2/(8 eta)`.
+/// Where stiff layers on both walls stop a flow driven by a pressure gradient, in front of their surface, in grid
+/// spacings: from the velocity in the middle, `G w^2/(8 eta)`.
 fn offset(layer: impl Fn([f64; 2], f64) -> SpringLattice, thickness: f64, h: f64) -> f64 {
     let gradient = 0.1;
     let mut scene = driven_channel(h, gradient);

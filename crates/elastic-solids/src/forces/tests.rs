@@ -103,7 +103,8 @@ proptest! {
     }
 }
 
-/// The patch test. Springs pass it on the equilateral lattice only: on another mesh neighbouring triangles differ as materials.
+/// The patch test. Springs pass it on the equilateral lattice only: on another mesh neighbouring triangles differ as
+/// materials.
 #[test]
 fn a_uniform_deformation_gives_no_force_inside() {
     let deformation = Mat2::new(1.1, 0.2, -0.1, 0.9);

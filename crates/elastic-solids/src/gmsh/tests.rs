@@ -5,7 +5,8 @@ use proptest::prelude::*;
 use super::*;
 use crate::{Outline, Region, equilateral_strip};
 
-/// A square of two triangles as Gmsh writes it: with curves, parameters, two surfaces, and a section that is none of ours.
+/// A square of two triangles as Gmsh writes it: with curves, parameters, two surfaces, and a section that is none of
+/// ours.
 const SQUARE: &str = "$MeshFormat
 4.1 0 8
 $EndMeshFormat

@@ -73,6 +73,24 @@ fn several_parts_and_islands_in_holes() {
 }
 
 #[test]
+fn a_hole_in_a_periodic_wall_may_lie_anywhere() {
+    let flat = |y| Outline::flat(-1.5, 3.0, y).unwrap();
+    for x in [0.2, -1.5, 1.45, 31.4, -100.0] {
+        let hole = |radius: f64| Outline::circle(v(x, 0.55), radius).unwrap();
+        let mesh = Region::new([flat(0.0), flat(1.1), hole(0.3)]).unwrap().mesh(0.06).unwrap();
+        let mut advances: Vec<i32> = mesh.boundary_loops().iter().map(|l| l.periods).collect();
+        advances.sort_unstable();
+        assert_eq!(advances, [-1, 0, 1]);
+        let expected = 3.3 - std::f64::consts::PI * 0.09;
+        assert!((mesh.area() - expected).abs() < 5e-3, "at {x}: {}", mesh.area());
+        assert!(mesh.quality().smallest_angle > 28.0);
+        let refused = |radius: f64| Region::new([flat(0.0), flat(1.1), hole(radius)]).unwrap().mesh(0.06).unwrap_err();
+        assert!(matches!(refused(0.02), SolidError::HoleTooSmall { .. }));
+        assert!(matches!(refused(0.51), SolidError::WallTooThin { .. }));
+    }
+}
+
+#[test]
 fn outlines_that_make_no_mesh_are_refused() {
     let circle = |x: f64, radius: f64| Outline::circle(v(x, 0.0), radius).unwrap();
     let refused =

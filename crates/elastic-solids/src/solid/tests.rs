@@ -91,7 +91,8 @@ fn tethers_pull_back_to_their_anchors() {
     let mut forces = vec![Vec2::zeros(); solid.marker_count()];
     solid.write_forces(&medium(), &mut forces).unwrap();
     assert!((forces.iter().sum::<Vec2>() - Vec2::new(-9.0 * 0.3, 0.0)).norm() < 1e-12);
-    // Nine tethers over 1.6 + 0.2 in a channel of height 4, shorter than half of which they do not count: 27/2 (1 - 0.148 * 0.2).
+    // Nine tethers over 1.6 + 0.2 in a channel of height 4, shorter than half of which they do not count: 27/2 (1 -
+    // 0.148 * 0.2).
     let held = 13.5 * (1.0 - 0.148 * 0.2);
     let elastic = 1.0 + 0.015 * 2.0;
     assert!((solid.step_limits(&medium())[0].dt - 20.0 / (held + elastic)).abs() < 1e-12);
