@@ -21,10 +21,10 @@ fn scenes(c: &mut Criterion) {
             b.iter(|| (0..2).for_each(|_| drop(solver.solve(&force, &mut velocity))));
         });
         let swimmer = Swimmer { spacing, ..Swimmer::default() };
-        step(c, &format!("box, {cells} x {cells}"), swimmer.build().expect("a good swimmer").0);
+        step(c, &format!("box, {cells} x {cells}"), swimmer.build_on_grid().expect("a good swimmer").0);
     }
     let swimmer = Swimmer { lengths: [12.0, 2.0], ..Swimmer::default() };
-    step(c, "channel, 240 x 40", swimmer.build_in_channel(Drive::ZeroGradient).expect("a good swimmer").0);
+    step(c, "channel, 240 x 40", swimmer.build_on_grid_in_channel(Drive::ZeroGradient).expect("a good swimmer").0);
     step(c, "box without a grid, 64 nodes", Swimmer::default().build_without_grid().expect("a good swimmer").0);
     let thick = Swimmer { viscosity_inside: Some(1e4), ..Swimmer::default() };
     step(c, "the same at viscosity ratio 100", thick.build_without_grid().expect("a good swimmer").0);

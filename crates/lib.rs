@@ -9,8 +9,8 @@
 //! ```
 //! use motile::prelude::*;
 //!
-//! // viscosity 100, activity -2, a 6 x 6 box, 60 x 60 cells; R0 is the unit of length
-//! let swimmer = Swimmer { spacing: 0.1, ..Swimmer::default() };
+//! // viscosity 100, activity -2, a 6 x 6 box; R0 is the unit of length
+//! let swimmer = Swimmer { nodes: 48, concentration_cells: 192, ..Swimmer::default() };
 //! let (mut scene, droplet) = swimmer.build()?;
 //! scene.run(20.0).go()?;
 //!
@@ -39,16 +39,20 @@
 //! The library is free of units: give all quantities in one consistent system. Presets and examples use R0 = 10 um for length
 //! and gamma0/10 for tension; [`active_interface::Units`] converts to SI.
 
+mod method;
+mod setup_error;
 mod swimmer;
+mod swimmer_scenes;
 
-pub use swimmer::{
-    InitialState, IntegralBox, IntegralChannel, IntegralPlane, PeriodicBox, RigidChannel, SetupError, Swimmer,
-};
+pub use method::{ContrastMethod, Method};
+pub use setup_error::SetupError;
+pub use swimmer::{InitialState, Swimmer};
+pub use swimmer_scenes::{AnyFlow, Built, IntegralBox, IntegralChannel, IntegralPlane, PeriodicBox, RigidChannel};
 pub use {active_interface, boundary_integral, elastic_solids, ib_core, stokes_grid};
 
 /// What most programs need.
 pub mod prelude {
-    pub use crate::{InitialState, Swimmer};
+    pub use crate::{InitialState, Method, Swimmer};
     pub use active_interface::{ActiveDroplet, Convention, Curve, Flux, Motion, observe};
     pub use ib_core::{AnyKernel, Every, Hydrodynamics, ImmersedBoundary, Scene, StepSize, Vec2};
     pub use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StokesSolver};

@@ -5,39 +5,9 @@ use std::f64::consts::TAU;
 use active_interface::{
     ActiveDroplet, ContractileTension, Curve, Flux, InitialConcentration, InterfaceError, Motion, StepExcludedVolume,
 };
-use boundary_integral::{BoundaryIntegral, BoundaryIntegralError, Channel, FluidDomain, FreeSpace, Settings};
-use ib_core::{AnyKernel, FlowError, Handle, ImmersedBoundary, Scene, StepSize, Vec2};
-use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StokesError, StokesSolver};
+use ib_core::{AnyKernel, StepSize, Vec2};
 
-/// A scene that could not be set up.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SetupError {
-    /// The grid or the solver.
-    #[error(transparent)]
-    Stokes(#[from] StokesError),
-    /// The droplet.
-    #[error(transparent)]
-    Interface(#[from] InterfaceError),
-    /// The coupling.
-    #[error(transparent)]
-    Flow(#[from] FlowError),
-    /// The boundary integrals.
-    #[error(transparent)]
-    BoundaryIntegral(#[from] BoundaryIntegralError),
-    /// A box that does not hold a whole number of cells or is too small for the droplet.
-    #[error("a box of {lx} x {ly} with cells of {spacing} {problem}")]
-    Box {
-        /// Length in x.
-        lx: f64,
-        /// Length in y.
-        ly: f64,
-        /// Grid spacing.
-        spacing: f64,
-        /// What is wrong, and the remedy.
-        problem: &'static str,
-    },
-}
+use crate::{ContrastMethod, Method, SetupError};
 
 /// How the particles are spread over the interface at the start.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,8 +27,9 @@ pub enum InitialState {
 /// from a few numbers.
 ///
 /// The default is the accurate method; [`Swimmer::thesis`] is the thesis' own. [`Swimmer::build`] and
-/// [`Swimmer::build_in_channel`] use a grid, [`Swimmer::build_without_grid`], [`Swimmer::build_without_grid_in_channel`] and
-/// [`Swimmer::build_unbounded`] boundary integrals. Fields that a method has no use for are ignored.
+/// [`Swimmer::build_in_channel`] compute the flow as [`Swimmer::method`] says. For a type known at compile time there are
+/// [`Swimmer::build_on_grid`], [`Swimmer::build_on_grid_in_channel`], [`Swimmer::build_without_grid`],
+/// [`Swimmer::build_without_grid_in_channel`] and [`Swimmer::build_unbounded`]. Fields that a method has no use for are ignored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Swimmer {
     /// Activity zeta delta-mu (force times length), negative if contractile.
@@ -79,6 +50,10 @@ pub struct Swimmer {
     pub radius: f64,
     /// Box lengths; in a channel its period and its width (length).
     pub lengths: [f64; 2],
+    /// How the flow is computed.
+    pub method: Method,
+    /// How a grid treats a viscosity inside that differs from that of the surroundings.
+    pub contrast: ContrastMethod,
     /// Grid spacing h (length).
     pub spacing: f64,
     /// Marker spacing on a grid (length); `None` for h/2.
@@ -119,6 +94,8 @@ impl Default for Swimmer {
             bare_tension: 10.0,
             radius: 1.0,
             lengths: [6.0, 6.0],
+            method: Method::default(),
+            contrast: ContrastMethod::default(),
             spacing: 0.05,
             marker_spacing: None,
             nodes: 96,
@@ -136,28 +113,15 @@ impl Default for Swimmer {
     }
 }
 
-/// The hydrodynamics of a droplet in a periodic box.
-pub type PeriodicBox = ImmersedBoundary<PeriodicStokes, AnyKernel>;
-
-/// The hydrodynamics of a droplet in a channel with rigid walls.
-pub type RigidChannel = ImmersedBoundary<ChannelStokes, AnyKernel>;
-
-/// The hydrodynamics of a droplet in a periodic box, without a grid.
-pub type IntegralBox = BoundaryIntegral<boundary_integral::PeriodicBox>;
-
-/// The hydrodynamics of a droplet in a channel with rigid walls, without a grid.
-pub type IntegralChannel = BoundaryIntegral<Channel>;
-
-/// The hydrodynamics of a droplet in unbounded fluid, without a grid.
-pub type IntegralPlane = BoundaryIntegral<FreeSpace>;
-
 impl Swimmer {
     /// The thesis' method: Peskin's 4-point function, no mobility correction, markers that move with the fluid and are
-    /// inserted and removed, an area constraint, h = 0.05, markers h/2 apart, steps of 1e-3. What the thesis does not state is a
+    /// inserted and removed, a smooth viscosity field, an area constraint, h = 0.05, markers h/2 apart, steps of 1e-3. What the thesis does not state is a
     /// reading of it: a first-order upwind flux; diffusion is implicit as in the default.
     #[must_use]
     pub fn thesis() -> Self {
         Self {
+            method: Method::ImmersedBoundary,
+            contrast: ContrastMethod::Arithmetic,
             kernel: AnyKernel::Peskin4,
             corrected: false,
             motion: Motion::WithFluid,
@@ -169,7 +133,7 @@ impl Swimmer {
     }
 
     /// Cells that a length takes.
-    fn cells(&self, length: f64) -> Result<usize, SetupError> {
+    pub(crate) fn cells(&self, length: f64) -> Result<usize, SetupError> {
         let [lx, ly] = self.lengths;
         let cells = length / self.spacing;
         let whole = cells.round();
@@ -191,24 +155,29 @@ impl Swimmer {
         Ok(ContractileTension::thesis(self.bare_tension, self.activity, self.excluded_volume, self.mean_concentration)?)
     }
 
-    /// The droplet alone.
+    /// The droplet alone, as it is on a grid.
     ///
     /// # Errors
     /// Parameters out of their range.
     pub fn droplet(&self) -> Result<ActiveDroplet, SetupError> {
+        self.droplet_with(&self.circle_on_grid()?)
+    }
+
+    /// The markers of a circle on a grid.
+    pub(crate) fn circle_on_grid(&self) -> Result<Vec<Vec2>, SetupError> {
         let spacing = self.marker_spacing.unwrap_or(0.5 * self.spacing);
         if !(spacing.is_finite() && spacing > 0.0) {
             return Err(InterfaceError::NotPositive { name: "the marker spacing", value: spacing }.into());
         }
-        self.droplet_with(&self.circle()?.markers(fast_count(TAU * self.radius / spacing))?)
+        Ok(self.circle()?.markers(fast_count(TAU * self.radius / spacing))?)
     }
 
-    fn circle(&self) -> Result<Curve, SetupError> {
+    pub(crate) fn circle(&self) -> Result<Curve, SetupError> {
         let centre = Vec2::new(self.offset[0], self.offset[1]);
         Ok(Curve::circle(self.radius)?.rotated(self.angle).translated(centre))
     }
 
-    fn droplet_with(&self, markers: &[Vec2]) -> Result<ActiveDroplet, SetupError> {
+    pub(crate) fn droplet_with(&self, markers: &[Vec2]) -> Result<ActiveDroplet, SetupError> {
         let numbers = self.numbers(markers)?;
         let droplet = ActiveDroplet::new(markers, numbers, self.tension()?, self.diffusion)?
             .with_motion(self.motion)
@@ -227,115 +196,6 @@ impl Swimmer {
             InitialState::Perturbed { amplitude, seed } => InitialConcentration::perturbed(c0, amplitude, seed)?,
         };
         Ok(initial.particle_numbers(markers)?)
-    }
-
-    /// The scene and the droplet in it.
-    ///
-    /// # Errors
-    /// Parameters out of their range, a box that does not hold a whole number of cells.
-    pub fn build(&self) -> Result<(Scene<PeriodicBox>, Handle<ActiveDroplet>), SetupError> {
-        let droplet = self.droplet()?;
-        let mut scene = self.scene()?;
-        let droplet = scene.add(droplet);
-        Ok((scene, droplet))
-    }
-
-    /// The scene without a droplet, for droplets made otherwise.
-    ///
-    /// # Errors
-    /// Parameters out of their range, a box that does not hold a whole number of cells.
-    pub fn scene(&self) -> Result<Scene<PeriodicBox>, SetupError> {
-        let [lx, ly] = self.lengths;
-        if self.lengths.iter().any(|&l| l <= 2.0 * self.radius) {
-            let problem = "is too small for the droplet: give it more than two radii each way";
-            return Err(SetupError::Box { lx, ly, spacing: self.spacing, problem });
-        }
-        let grid = Grid::periodic(self.cells(lx)?, self.cells(ly)?, self.spacing)?;
-        Ok(Scene::new(self.couple(PeriodicStokes::new(grid, self.viscosity)?)).with_step_size(self.step))
-    }
-
-    /// The scene and the droplet in a channel with rigid no-slip walls at y = +-`lengths[1]`/2, periodic in x with the period
-    /// `lengths[0]` (thesis section 3.1). A channel as wide as the droplet (two radii) is the narrowest.
-    ///
-    /// # Errors
-    /// Parameters out of their range, lengths that do not hold a whole number of cells, a droplet beyond a wall.
-    pub fn build_in_channel(&self, drive: Drive) -> Result<(Scene<RigidChannel>, Handle<ActiveDroplet>), SetupError> {
-        let [lx, ly] = self.lengths;
-        let too_high = self.offset[1].abs() + self.radius > 0.5 * ly * (1.0 + 1e-12);
-        if too_high || lx <= 2.0 * self.radius {
-            let problem = "does not hold the droplet: move it to the centre line or make the channel wider or longer";
-            return Err(SetupError::Box { lx, ly, spacing: self.spacing, problem });
-        }
-        let droplet = self.droplet()?;
-        let grid = Grid::channel(self.cells(lx)?, self.cells(ly)?, self.spacing)?;
-        let mut solver = ChannelStokes::new(grid, self.viscosity)?;
-        solver.set_drive(drive)?;
-        let mut scene = Scene::new(self.couple(solver)).with_step_size(self.step);
-        let droplet = scene.add(droplet);
-        Ok((scene, droplet))
-    }
-
-    /// The scene and the droplet in a periodic box, without a grid: spectrally accurate, for scenes of interfaces only.
-    /// Grid and marker spacing and kernel do not matter.
-    ///
-    /// # Errors
-    /// Parameters out of their range.
-    pub fn build_without_grid(&self) -> Result<(Scene<IntegralBox>, Handle<ActiveDroplet>), SetupError> {
-        let [lx, ly] = self.lengths;
-        self.integrals(boundary_integral::PeriodicBox::new(lx, ly)?, &self.circle()?)
-    }
-
-    /// As [`Swimmer::build_without_grid`], in unbounded fluid.
-    ///
-    /// # Errors
-    /// Parameters out of their range.
-    pub fn build_unbounded(&self) -> Result<(Scene<IntegralPlane>, Handle<ActiveDroplet>), SetupError> {
-        self.integrals(FreeSpace, &self.circle()?)
-    }
-
-    /// As [`Swimmer::build_without_grid`], in a channel with rigid walls. A droplet that would start closer to a wall than a
-    /// twentieth of its radius is squeezed to an ellipse of the same area.
-    ///
-    /// # Errors
-    /// Parameters out of their range, a droplet beyond a wall.
-    pub fn build_without_grid_in_channel(
-        &self,
-        drive: Drive,
-    ) -> Result<(Scene<IntegralChannel>, Handle<ActiveDroplet>), SetupError> {
-        let [lx, ly] = self.lengths;
-        let domain = Channel::new(lx, ly)?.with_drive(drive)?;
-        let room = 0.5 * ly - self.offset[1].abs() - 0.05 * self.radius;
-        let curve = if room >= self.radius {
-            self.circle()?
-        } else if room > 0.5 * self.radius {
-            let along = self.radius * self.radius / room;
-            Curve::ellipse(along, room)?.translated(Vec2::new(self.offset[0], self.offset[1]))
-        } else {
-            let problem = "does not hold the droplet: move it to the centre line or make the channel wider or longer";
-            return Err(SetupError::Box { lx, ly, spacing: self.spacing, problem });
-        };
-        self.integrals(domain, &curve)
-    }
-
-    fn integrals<D: FluidDomain + 'static>(
-        &self,
-        domain: D,
-        curve: &Curve,
-    ) -> Result<(Scene<BoundaryIntegral<D>>, Handle<ActiveDroplet>), SetupError> {
-        let settings = Settings { nodes: self.nodes, reference_perimeter: TAU * self.radius, ..Settings::default() };
-        let flow = BoundaryIntegral::new(domain, self.viscosity, settings)?;
-        let droplet = self.droplet_with(&curve.markers(self.concentration_cells.max(self.nodes))?)?;
-        let mut scene = Scene::new(flow).with_step_size(self.step);
-        let droplet = scene.add(droplet);
-        Ok((scene, droplet))
-    }
-
-    fn couple<S: StokesSolver>(&self, solver: S) -> ImmersedBoundary<S, AnyKernel> {
-        if self.corrected {
-            ImmersedBoundary::new(solver, self.kernel)
-        } else {
-            ImmersedBoundary::uncorrected(solver, self.kernel)
-        }
     }
 }
 

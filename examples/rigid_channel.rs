@@ -32,7 +32,7 @@ fn main() -> ExitCode {
 fn swim(flags: &Flags) -> Result<()> {
     // The droplet, in the middle of its channel unless an offset is given, and the channel.
     let ChannelFlags { width, length, lateral_offset, drive } = flags.channel;
-    flags.channel.cells(&flags.method)?;
+    flags.channel.check(&flags.method)?;
     let swimmer =
         Swimmer { lengths: [length, width], offset: [0.0, lateral_offset], ..flags.droplet.swimmer(&flags.method) };
     let (mut scene, droplet) = swimmer.build_in_channel(drive.into())?;

@@ -36,7 +36,7 @@ fn main() -> ExitCode {
 
 fn swim(flags: &Flags) -> Result<()> {
     // The droplet, in the middle of its box unless an offset is given, and the box.
-    flags.region.cells(&flags.method)?;
+    flags.region.check(&flags.method)?;
     let side = flags.region.side;
     let swimmer =
         Swimmer { lengths: [side, side], offset: flags.region.offset, ..flags.droplet.swimmer(&flags.method) };

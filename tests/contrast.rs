@@ -175,7 +175,7 @@ fn a_stiff_droplet_of_little_activity_stops() {
         spacing: 0.1,
         ..reference_swimmer(&Swimmer::default(), -1.0, 0.1)
     };
-    let (mut scene, droplet) = swimmer.build().unwrap();
+    let (mut scene, droplet) = swimmer.build_on_grid().unwrap();
     let mut speeds = Vec::new();
     for time in [20.0, 40.0] {
         scene.run(time).step_size(swimmer.step).go().unwrap();
@@ -187,13 +187,13 @@ fn a_stiff_droplet_of_little_activity_stops() {
 #[test]
 fn work_is_counted_and_nothing_is_allocated() {
     let equal = Swimmer { spacing: 0.1, viscosity: 10.0, viscosity_inside: Some(10.0), ..Swimmer::default() };
-    let (mut scene, _) = equal.build().unwrap();
+    let (mut scene, _) = equal.build_on_grid().unwrap();
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     let work = scene.system().hydrodynamics().work();
     assert_eq!((work.iterations, work.stokes_solves, work.evaluations), (0, 6, 6));
 
     let thick = Swimmer { viscosity_inside: Some(1000.0), ..equal };
-    let (mut scene, _) = thick.build().unwrap();
+    let (mut scene, _) = thick.build_on_grid().unwrap();
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     let before = scene.system().hydrodynamics().work();
     assert_eq!((before.stokes_solves, before.evaluations), (6, 6));
@@ -206,7 +206,7 @@ fn work_is_counted_and_nothing_is_allocated() {
 #[test]
 fn viscosities_are_checked() {
     let swimmer = Swimmer { spacing: 0.1, viscosity_inside: Some(f64::NAN), ..Swimmer::default() };
-    assert!(swimmer.build().is_err());
+    assert!(swimmer.build_on_grid().is_err());
     let mut flow = ImmersedBoundary::new(
         PeriodicStokes::new(Grid::periodic(32, 32, 0.1).unwrap(), 1.0).unwrap(),
         CubicQuadratic::default(),

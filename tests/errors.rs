@@ -7,7 +7,7 @@ use motile::stokes_grid::Drive;
 #[test]
 fn wrong_numbers_are_refused() {
     let good = Swimmer { spacing: 0.2, ..Swimmer::default() };
-    assert!(good.build().is_ok());
+    assert!(good.build_on_grid().is_ok());
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0] {
         let named = [
             ("viscosity", Swimmer { viscosity: bad, ..good.clone() }),
@@ -19,8 +19,12 @@ fn wrong_numbers_are_refused() {
             ("excluded volume", Swimmer { excluded_volume: bad, ..good.clone() }),
         ];
         for (name, swimmer) in named {
-            let message = swimmer.build().expect_err(name).to_string();
+            let message = swimmer.build_on_grid().expect_err(name).to_string();
             assert!(message.contains(&format!("{bad}")), "{name}: {message}");
+            if name != "spacing" {
+                let message = swimmer.build().expect_err(name).to_string();
+                assert!(message.contains(&format!("{bad}")), "{name}: {message}");
+            }
         }
         let mut others = vec![
             Swimmer { lengths: [bad, 6.0], ..good.clone() },
@@ -33,18 +37,18 @@ fn wrong_numbers_are_refused() {
             others.push(Swimmer { offset: [0.0, bad], ..good.clone() });
         }
         for swimmer in others {
-            assert!(swimmer.build().is_err(), "{swimmer:?}");
-            assert!(swimmer.build_in_channel(Drive::ZeroFlux).is_err(), "{swimmer:?}");
+            assert!(swimmer.build_on_grid().is_err(), "{swimmer:?}");
+            assert!(swimmer.build_on_grid_in_channel(Drive::ZeroFlux).is_err(), "{swimmer:?}");
         }
     }
-    assert!(Swimmer { lengths: [6.03, 6.0], ..good.clone() }.build().is_err(), "no whole number of cells");
-    assert!(Swimmer { lengths: [1.6, 6.0], ..good.clone() }.build().is_err(), "a box smaller than the droplet");
-    assert!(Swimmer { lengths: [6.0, 1.6], ..good }.build_in_channel(Drive::ZeroFlux).is_err());
+    assert!(Swimmer { lengths: [6.03, 6.0], ..good.clone() }.build_on_grid().is_err(), "no whole number of cells");
+    assert!(Swimmer { lengths: [1.6, 6.0], ..good.clone() }.build_on_grid().is_err(), "a box smaller than the droplet");
+    assert!(Swimmer { lengths: [6.0, 1.6], ..good }.build_on_grid_in_channel(Drive::ZeroFlux).is_err());
 }
 
 #[test]
 fn a_step_above_the_limit_is_refused_before_any_work() {
-    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build().unwrap();
+    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build_on_grid().unwrap();
     let error = scene.run(1.0).step_size(StepSize::Fixed(5.0)).go().unwrap_err();
     assert!(matches!(error, SceneError::TimeStepTooLarge { .. }), "{error}");
     assert!(error.to_string().contains("time step 5 is above the stable"), "{error}");
@@ -58,7 +62,7 @@ fn a_step_above_the_limit_is_refused_before_any_work() {
 
 #[test]
 fn a_step_that_fails_is_taken_back() {
-    let (mut scene, droplet) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build().unwrap();
+    let (mut scene, droplet) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build_on_grid().unwrap();
     scene.step(0.01).unwrap();
     let before = scene.body(droplet).markers().to_vec();
     let error = (0..50).find_map(|_| scene.step(50.0).err()).expect("steps 500 times too large end in an error");
@@ -72,7 +76,7 @@ fn a_step_that_fails_is_taken_back() {
 #[test]
 fn markers_beyond_a_wall_are_named() {
     let swimmer = Swimmer { lengths: [6.0, 2.0], spacing: 0.1, ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient).unwrap();
+    let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient).unwrap();
     use motile::ib_core::Body;
     let body = scene.body_mut(droplet);
     let mut state = vec![0.0; body.state_len()];

@@ -44,7 +44,7 @@ fn swimmer_driven_into_a_wall() {
             offset: [0.0, 0.3],
             ..Swimmer::default()
         };
-        let (mut scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient).unwrap();
+        let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient).unwrap();
         let particles: f64 = scene.body(droplet).particle_numbers().iter().sum();
         let mut closest = f64::INFINITY;
         for step in 1..=100 {

@@ -30,7 +30,8 @@ fn both_methods_agree() {
     let exact = look(&mut scene, droplet).unwrap().aspect_ratio_moments;
     assert_eq!(scene.system().hydrodynamics().work().stokes_solves, 0);
     let differences = [0.2, 0.1].map(|spacing| {
-        let (mut scene, droplet) = Swimmer { spacing, marker_spacing: Some(0.025), ..swimmer.clone() }.build().unwrap();
+        let (mut scene, droplet) =
+            Swimmer { spacing, marker_spacing: Some(0.025), ..swimmer.clone() }.build_on_grid().unwrap();
         scene.run(10.0).go().unwrap();
         (look(&mut scene, droplet).unwrap().aspect_ratio_moments - exact).abs()
     });

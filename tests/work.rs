@@ -8,7 +8,7 @@ use motile::stokes_grid::{Drive, Grid, PeriodicStokes};
 
 #[test]
 fn a_step_is_two_solves_of_two_transforms() {
-    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build().unwrap();
+    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build_on_grid().unwrap();
     for _ in 0..5 {
         scene.step(0.01).unwrap();
     }
@@ -18,7 +18,7 @@ fn a_step_is_two_solves_of_two_transforms() {
         transforms: 20,
         markers_spread: 10 * 128,
         corrections: 10,
-        iterations: 0,
+        ..FlowWork::default()
     };
     assert_eq!(scene.system().hydrodynamics().work(), expected);
     // Looking at the present state is reused by the next step.
@@ -30,7 +30,7 @@ fn a_step_is_two_solves_of_two_transforms() {
 
 #[test]
 fn the_thesis_preset_is_not_corrected() {
-    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::thesis() }.build().unwrap();
+    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::thesis() }.build_on_grid().unwrap();
     scene.step(0.001).unwrap();
     assert_eq!(scene.system().hydrodynamics().work().corrections, 0);
 }
@@ -53,12 +53,12 @@ fn a_passive_droplet_has_no_transport() {
 #[test]
 fn steps_allocate_nothing() {
     let swimmer = Swimmer { spacing: 0.1, ..Swimmer::default() };
-    let (mut scene, _) = swimmer.build().unwrap();
+    let (mut scene, _) = swimmer.build_on_grid().unwrap();
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     assert_eq!(measure(|| (0..10).for_each(|_| scene.step(0.01).unwrap())).count_total, 0);
 
     let swimmer = Swimmer { lengths: [6.0, 3.0], ..swimmer };
-    let (mut scene, _) = swimmer.build_in_channel(Drive::ZeroGradient).unwrap();
+    let (mut scene, _) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient).unwrap();
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     assert_eq!(measure(|| (0..10).for_each(|_| scene.step(0.01).unwrap())).count_total, 0);
 }

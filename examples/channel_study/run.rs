@@ -92,10 +92,10 @@ impl Job {
             ..Swimmer::default()
         };
         if self.purpose == Purpose::Unconfined {
-            let (mut scene, droplet) = swimmer.build()?;
+            let (mut scene, droplet) = swimmer.build_on_grid()?;
             self.watch(&mut scene, droplet, &swimmer)
         } else {
-            let (mut scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient)?;
+            let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient)?;
             self.watch(&mut scene, droplet, &swimmer)
         }
     }

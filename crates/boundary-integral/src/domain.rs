@@ -93,7 +93,7 @@ impl Channel {
 /// A region for which [`crate::BoundaryIntegral`] knows the Green's function: [`FreeSpace`], [`PeriodicBox`] or
 /// [`Channel`].
 pub trait FluidDomain: sealed::Region + Copy + std::fmt::Debug + Send + 'static {
-    /// The region as bodies see it. Lengths that are periodic start at zero, a channel's heights at -width/2.
+    /// The region as bodies see it, with its middle at the origin.
     fn region(&self) -> Domain;
 }
 
@@ -105,14 +105,14 @@ impl FluidDomain for FreeSpace {
 
 impl FluidDomain for PeriodicBox {
     fn region(&self) -> Domain {
-        Domain { origin: [0.0; 2], periods: self.periods.map(Some), walls: None }
+        Domain { origin: self.periods.map(|period| -0.5 * period), periods: self.periods.map(Some), walls: None }
     }
 }
 
 impl FluidDomain for Channel {
     fn region(&self) -> Domain {
         let half = 0.5 * self.width;
-        Domain { origin: [0.0, -half], periods: [Some(self.period), None], walls: Some([-half, half]) }
+        Domain { origin: [-0.5 * self.period, -half], periods: [Some(self.period), None], walls: Some([-half, half]) }
     }
 }
 

@@ -231,6 +231,7 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
             );
             outcome = solved.inspect_err(|_| self.velocities.clear())?;
             self.work.iterations += outcome.iterations;
+            self.work.most_iterations = self.work.most_iterations.max(outcome.iterations);
         }
         self.store(markers)?;
         let velocities = NodeVelocities { values: &self.velocities, contrasts: &self.contrast.contrasts };

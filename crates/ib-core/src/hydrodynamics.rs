@@ -73,6 +73,8 @@ pub struct FlowWork {
     pub corrections: usize,
     /// Iterations of iterative solvers.
     pub iterations: usize,
+    /// The most iterations that one evaluation took.
+    pub most_iterations: usize,
 }
 
 /// Velocities at the markers of all bodies from the forces they put on the fluid, without inertia.
@@ -97,4 +99,23 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 
     /// Work done since the start.
     fn work(&self) -> FlowWork;
+}
+
+/// Hydrodynamics that were chosen at run time.
+impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
+    fn medium(&self) -> Medium {
+        self.as_ref().medium()
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+        self.as_mut().velocities(markers)
+    }
+
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        self.as_mut().sample(markers, points, out)
+    }
+
+    fn work(&self) -> FlowWork {
+        self.as_ref().work()
+    }
 }

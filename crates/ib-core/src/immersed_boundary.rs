@@ -159,7 +159,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let transforms = |work: stokes_grid::Work| work.forward_transforms + work.inverse_transforms;
         self.work.stokes_solves += after.solves - before.solves;
         self.work.transforms += transforms(after) - transforms(before);
-        self.work.iterations += after.iterations - before.iterations;
+        let iterations = after.iterations - before.iterations;
+        self.work.iterations += iterations;
+        self.work.most_iterations = self.work.most_iterations.max(iterations);
         self.work.markers_spread += positions.len();
         Ok(report)
     }
@@ -287,6 +289,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.work.evaluations += 1;
         let effort = flow.contrast.solve(markers, &flow.own)?;
         self.work.iterations += effort.iterations;
+        self.work.most_iterations = self.work.most_iterations.max(effort.iterations);
         gradient[0] += effort.pressure_gradient;
         Ok(FlowReport { iterations: effort.iterations, residual: effort.residual, mean_pressure_gradient: gradient })
     }

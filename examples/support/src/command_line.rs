@@ -31,7 +31,8 @@ const MISUSE: u8 = 2;
 /// }
 ///
 /// fn swim(flags: &Flags) -> anyhow::Result<()> {
-///     let cells = flags.region.cells(&flags.method)?;
+///     flags.region.check(&flags.method)?;
+///     let cells = flags.method.cells(flags.region.side, "box")?;
 ///     println!("{cells} x {cells} cells");
 ///     Ok(())
 /// }
@@ -117,7 +118,10 @@ fn one_line(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::{BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, MethodFlags, OutputFlags, Preset};
-    use motile::ib_core::{AnyKernel, StepSize};
+    use motile::{
+        Method,
+        ib_core::{AnyKernel, StepSize},
+    };
 
     #[derive(Debug, Parser)]
     struct Flags {
@@ -147,7 +151,7 @@ mod tests {
         assert_eq!((flags.droplet.angle, flags.droplet.initial, flags.droplet.seed), (-30.0, Initial::Perturbed, 7));
         assert_eq!((flags.region.side, flags.region.offset), (12.0, [-0.03, 0.01]));
         assert_eq!(
-            (flags.method.spacing, flags.method.time, flags.method.step()),
+            (flags.method.spacing(), flags.method.time, flags.method.step()),
             (0.1, 250.0, StepSize::OfLimit(0.5))
         );
         assert_eq!((flags.method.kernel, flags.method.preset), (Some(AnyKernel::Gaussian6), Preset::Thesis));
@@ -168,6 +172,40 @@ mod tests {
         assert_eq!((accurate.step, accurate.kernel), (StepSize::OfLimit(0.5), AnyKernel::BSpline4));
         let mixed = swimmer("--preset thesis --dt auto --kernel bspline5");
         assert_eq!((mixed.step, mixed.kernel), (StepSize::OfLimit(0.5), AnyKernel::BSpline5));
+    }
+
+    #[test]
+    fn the_method_follows_from_the_flags() {
+        let method = |line: &str| {
+            let flags = parse(line).unwrap();
+            flags.region.check(&flags.method).map(|()| flags.method.method()).map_err(|e| e.to_string())
+        };
+        for line in ["", "--nodes 64", "--spacing 0.1 --method boundary-integral", "--nodes 64 --spacing 0.1"] {
+            assert_eq!(method(line), Ok(Method::BoundaryIntegral), "{line}");
+        }
+        for line in ["--spacing 0.1", "--kernel roma3", "--preset thesis", "--contrast-method arithmetic"] {
+            assert_eq!(method(line), Ok(Method::ImmersedBoundary), "{line}");
+        }
+        for line in [
+            "--method immersed-boundary --nodes 64",
+            "--method boundary-integral --kernel roma3",
+            "--nodes 96 --concentration-cells 64",
+        ] {
+            assert!(method(line).is_err(), "{line}");
+        }
+    }
+
+    #[test]
+    fn viscosities_inside_and_outside() {
+        let viscosities = |line: &str| {
+            let flags = parse(line).unwrap();
+            let swimmer = flags.droplet.swimmer(&flags.method);
+            (swimmer.viscosity_inside.unwrap_or(swimmer.viscosity), swimmer.viscosity)
+        };
+        assert_eq!(viscosities("--viscosity 7"), (7.0, 7.0));
+        assert_eq!(viscosities("--viscosity-in 1000 --viscosity-out 10"), (1000.0, 10.0));
+        assert_eq!(viscosities("--viscosity-in 1000"), (1000.0, 100.0));
+        assert_eq!(viscosities("--viscosity-out 10"), (100.0, 10.0));
     }
 
     #[test]
@@ -206,10 +244,11 @@ mod tests {
     fn regions_that_do_not_fit_are_refused() {
         let cells = |line: &str| {
             let flags = parse(line).unwrap();
-            flags.region.cells(&flags.method).map_err(|e| e.to_string())
+            flags.region.check(&flags.method).map_err(|e| e.to_string())
         };
-        assert_eq!(cells("--box 6 --spacing 0.05"), Ok(120));
-        assert_eq!(cells("--box 6 --spacing 0.1"), Ok(60));
+        let side = |line: &str| parse(line).unwrap().method.cells(6.0, "box").map_err(|e| e.to_string());
+        assert_eq!(side("--spacing 0.05"), Ok(120));
+        assert_eq!(side("--spacing 0.1"), Ok(60));
         for line in
             ["--box 1.5", "--box 1e5", "--box 6 --spacing 1", "--box 6 --spacing 0.07", "--box 600 --spacing 0.01"]
         {
@@ -218,9 +257,9 @@ mod tests {
         assert!(cells("--time 1 --dt 2").is_err() && cells("--time 1e4 --dt 1e-9").is_err());
         let channel = |line: &str| {
             let flags = parse(line).unwrap();
-            flags.channel.cells(&flags.method).map_err(|e| e.to_string())
+            flags.channel.check(&flags.method).map_err(|e| e.to_string())
         };
-        assert_eq!(channel("--width 2 --length 12 --spacing 0.05"), Ok([240, 40]));
+        assert_eq!(channel("--width 2 --length 12 --spacing 0.05"), Ok(()));
         assert!(channel("--width 1.9").is_err() && channel("--width 3 --lateral-offset 0.6").is_err());
     }
 }

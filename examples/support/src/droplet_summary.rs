@@ -1,6 +1,6 @@
 //! The results of a run with a droplet.
 
-use motile::active_interface::Observables;
+use motile::{active_interface::Observables, ib_core::FlowWork};
 
 use crate::{Steadiness, Summary};
 
@@ -13,8 +13,8 @@ pub struct RunCost {
     pub steps: usize,
     /// Wall clock time (seconds).
     pub seconds: f64,
-    /// Stokes solves on the grid.
-    pub stokes_solves: usize,
+    /// Work for the flow.
+    pub work: FlowWork,
     /// Why the run broke off, if it did.
     pub failure: Option<String>,
 }
@@ -56,7 +56,11 @@ pub fn droplet_summary(
     summary.put("time", cost.time, "simulated");
     summary.put("steps", cost.steps, "");
     summary.put("dt", cost.time / cost.steps as f64, "mean time step");
-    summary.put("stokes_solves", cost.stokes_solves, "on the grid");
+    let work = cost.work;
+    summary.put("stokes_solves", work.stokes_solves, "on the grid");
+    let mean = work.iterations as f64 / work.evaluations.max(1) as f64;
+    summary.put("solver_iterations_mean", mean, "of an evaluation of the flow");
+    summary.put("solver_iterations_max", work.most_iterations, "");
     summary.put("seconds", cost.seconds, "of computation");
     summary.put("finished", cost.failure.is_none(), "");
     if let Some(failure) = &cost.failure {

@@ -7,18 +7,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
-use motile::{InitialState, Swimmer, ib_core::AnyKernel, ib_core::StepSize};
+use motile::{InitialState, Swimmer};
 
-use crate::parse::{TimeStep, activity, finite, kernel, not_negative, pair, positive, seed};
+use crate::MethodFlags;
+use crate::parse::{activity, finite, not_negative, pair, positive, seed};
 
 /// Radius of a droplet, the unit of length.
-const RADIUS: f64 = 1.0;
-/// Most cells of a grid in a direction.
-const MOST_CELLS: f64 = 4096.0;
+pub(crate) const RADIUS: f64 = 1.0;
 /// Longest box or channel (R0).
 const LONGEST: f64 = 1000.0;
-/// Automatic time steps, as a fraction of the stability limit.
-const STEP_OF_LIMIT: f64 = 0.5;
 /// Relative amplitude of the random perturbation.
 const PERTURBATION: f64 = 0.05;
 
@@ -29,15 +26,6 @@ pub enum Initial {
     Polarised,
     /// c0 with a small random perturbation.
     Perturbed,
-}
-
-/// Which numerical method.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Preset {
-    /// That of the thesis, to reproduce its results.
-    Thesis,
-    /// The accurate one.
-    Accurate,
 }
 
 /// What drives the flow along a channel.
@@ -67,9 +55,15 @@ pub struct DropletFlags {
     /// Strength A of the excluded volume tension
     #[arg(long, default_value_t = 10.0, value_parser = not_negative, allow_hyphen_values = true)]
     pub excluded_volume: f64,
-    /// Viscosity of the fluid
+    /// Viscosity of the fluids, where they have none of their own
     #[arg(long, default_value_t = 100.0, value_parser = positive, allow_hyphen_values = true)]
     pub viscosity: f64,
+    /// Viscosity of the droplet
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    pub viscosity_in: Option<f64>,
+    /// Viscosity of its surroundings
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    pub viscosity_out: Option<f64>,
     /// Initial direction of motion (degrees from the x axis)
     #[arg(long, default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true)]
     pub angle: f64,
@@ -85,87 +79,18 @@ impl DropletFlags {
     /// The droplet of these flags by that method, in a box and at a position that are still to be set.
     #[must_use]
     pub fn swimmer(&self, method: &MethodFlags) -> Swimmer {
-        let base = match method.preset {
-            Preset::Thesis => Swimmer::thesis(),
-            Preset::Accurate => Swimmer::default(),
-        };
         Swimmer {
             activity: self.activity,
             excluded_volume: self.excluded_volume,
-            viscosity: self.viscosity,
-            spacing: method.spacing,
-            kernel: method.kernel.unwrap_or(base.kernel),
+            viscosity: self.viscosity_out.unwrap_or(self.viscosity),
+            viscosity_inside: self.viscosity_in.or(self.viscosity_out.map(|_| self.viscosity)),
             angle: self.angle.to_radians(),
             initial: match self.initial {
                 Initial::Polarised => InitialState::Polarised,
                 Initial::Perturbed => InitialState::Perturbed { amplitude: PERTURBATION, seed: self.seed },
             },
-            step: method.step(),
-            ..base
+            ..method.swimmer()
         }
-    }
-}
-
-/// The numerical method.
-#[derive(Debug, Clone, PartialEq, Args)]
-pub struct MethodFlags {
-    /// Grid spacing h (R0)
-    #[arg(long, default_value_t = 0.05, value_parser = positive, allow_hyphen_values = true)]
-    pub spacing: f64,
-    /// Time step, or 'auto'; without it the preset's
-    #[arg(long, allow_hyphen_values = true)]
-    pub dt: Option<TimeStep>,
-    /// Time to be simulated
-    #[arg(long, default_value_t = 60.0, value_parser = positive, allow_hyphen_values = true)]
-    pub time: f64,
-    /// Regularised delta function (peskin4, roma3, gaussian6, bspline3 to bspline6); without it the preset's
-    #[arg(long, value_parser = kernel)]
-    pub kernel: Option<AnyKernel>,
-    /// Numerical method
-    #[arg(long, value_enum, default_value_t = Preset::Accurate)]
-    pub preset: Preset,
-}
-
-impl MethodFlags {
-    /// The time step asked for: by `--dt`, or else the preset's (1e-3 for the thesis').
-    #[must_use]
-    pub fn step(&self) -> StepSize {
-        match (self.dt, self.preset) {
-            (Some(TimeStep::Fixed(dt)), _) => StepSize::Fixed(dt),
-            (None, Preset::Thesis) => Swimmer::thesis().step,
-            (Some(TimeStep::Auto), _) | (None, Preset::Accurate) => StepSize::OfLimit(STEP_OF_LIMIT),
-        }
-    }
-
-    /// The number of cells over `length` (R0), the value of flag `flag`.
-    ///
-    /// # Errors
-    /// A spacing that does not divide the length, that is too coarse for a droplet (less than four cells a radius), or
-    /// that makes for more than 4096 cells.
-    pub fn cells(&self, length: f64, flag: &str) -> Result<usize> {
-        let h = self.spacing;
-        ensure!(h <= 0.25 * RADIUS, "--spacing {h} is too coarse for a droplet of radius 1: give at most 0.25");
-        let cells = length / h;
-        ensure!(
-            cells <= MOST_CELLS,
-            "--{flag} {length} at --spacing {h} makes {cells:.0} cells, more than {MOST_CELLS}: give a larger spacing"
-        );
-        let whole = cells.round();
-        let fitting = (whole * h * 1e9).round() / 1e9;
-        ensure!(
-            (cells - whole).abs() <= 1e-9 * whole,
-            "--{flag} {length} is {cells:.3} cells of --spacing {h}: give --{flag} {fitting} or a spacing that divides it"
-        );
-        Ok(whole as usize)
-    }
-
-    fn steps_are_bearable(&self) -> Result<()> {
-        if let StepSize::Fixed(dt) = self.step() {
-            let (time, steps) = (self.time, self.time / dt);
-            ensure!(dt <= time, "--dt {dt} is longer than --time {time}: give a smaller time step");
-            ensure!(steps <= 1e9, "--time {time} takes {steps:.1e} steps of --dt {dt}: give a larger time step");
-        }
-        Ok(())
     }
 }
 
@@ -181,17 +106,16 @@ pub struct BoxFlags {
 }
 
 impl BoxFlags {
-    /// The cells of a side of the box.
+    /// Refuses what does not fit together.
     ///
     /// # Errors
     /// A box that the droplet does not fit into, or is unreasonably large; a time step or spacing that does not fit
-    /// ([`MethodFlags::cells`]).
-    pub fn cells(&self, method: &MethodFlags) -> Result<usize> {
+    /// ([`MethodFlags::check`]).
+    pub fn check(&self, method: &MethodFlags) -> Result<()> {
         let side = self.side;
         ensure!(side > 2.0 * RADIUS, "--box {side} is too small for a droplet of diameter 2: give more than 2");
         ensure!(side <= LONGEST, "--box {side} is too large: give at most {LONGEST}");
-        method.steps_are_bearable()?;
-        method.cells(side, "box")
+        method.check(&[(side, "box")])
     }
 }
 
@@ -213,12 +137,12 @@ pub struct ChannelFlags {
 }
 
 impl ChannelFlags {
-    /// The cells along and across the channel.
+    /// Refuses what does not fit together.
     ///
     /// # Errors
     /// A droplet that does not fit between the walls or into the period; a time step or spacing that does not fit
-    /// ([`MethodFlags::cells`]).
-    pub fn cells(&self, method: &MethodFlags) -> Result<[usize; 2]> {
+    /// ([`MethodFlags::check`]).
+    pub fn check(&self, method: &MethodFlags) -> Result<()> {
         let (width, length, offset) = (self.width, self.length, self.lateral_offset);
         ensure!(width >= 2.0 * RADIUS, "--width {width} is too small for a droplet of diameter 2: give at least 2");
         ensure!(length > 2.0 * RADIUS, "--length {length} is too small for a droplet of diameter 2: give more than 2");
@@ -228,8 +152,7 @@ impl ChannelFlags {
             offset.abs() <= room,
             "--lateral-offset {offset} puts the droplet into a wall: give at most {room} for --width {width}"
         );
-        method.steps_are_bearable()?;
-        Ok([method.cells(length, "length")?, method.cells(width, "width")?])
+        method.check(&[(length, "length"), (width, "width")])
     }
 }
 

@@ -63,6 +63,17 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text, "must be a number above 0 and at most 1e6", |v| v > 0.0)
 }
 
+/// A count of nodes or cells.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub fn count(text: &str) -> Result<usize, String> {
+    match text.trim().parse::<usize>() {
+        Ok(count) if (16..=16384).contains(&count) => Ok(count),
+        _ => Err("must be a whole number from 16 to 16384".into()),
+    }
+}
+
 /// A number from zero to a million.
 ///
 /// # Errors

@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn a_snapshot_of_a_box_and_of_a_channel() {
         let swimmer = Swimmer { spacing: 0.25, lengths: [6.0, 4.0], offset: [1.0, 0.5], ..Swimmer::default() };
-        let (mut scene, _) = swimmer.build().unwrap();
+        let (mut scene, _) = swimmer.build_on_grid().unwrap();
         let domain = scene.system().hydrodynamics().medium().domain;
         let raster = domain_raster(&domain, 0.25, 100).unwrap();
         assert_eq!((raster.cells(), raster.periodic()), ([24, 16], [true, true]));
@@ -111,7 +111,7 @@ mod tests {
         assert!(at(1.0, 0.5).pressure > at(-2.0, -1.0).pressure);
         assert!(at(1.0, 0.5).velocity.x > 0.0);
 
-        let (scene, _) = swimmer.build_in_channel(motile::stokes_grid::Drive::ZeroGradient).unwrap();
+        let (scene, _) = swimmer.build_on_grid_in_channel(motile::stokes_grid::Drive::ZeroGradient).unwrap();
         let raster = domain_raster(&scene.system().hydrodynamics().medium().domain, 0.25, 100).unwrap();
         assert_eq!((raster.origin(), raster.size()), ([-3.0, -2.0], [6.0, 4.0]));
         assert_eq!(raster.periodic(), [true, false]);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use motile::{
-    Swimmer,
+    Method, Swimmer,
     active_interface::{ActiveDroplet, ConcentrationProfile, Frame, concentration_profile},
     ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, Vec2},
 };
@@ -22,6 +22,8 @@ const FRAME_INTERVAL: f64 = 1.2;
 const FRAMES: [f64; 2] = [50.0, 150.0];
 /// Most cells in a direction of the fields in pictures and files.
 const MOST_CELLS: usize = 512;
+/// Spacing of the fields over that of a grid where there is no grid: there each point costs a sum over the interface.
+const COARSER: f64 = 2.0;
 /// Distance of streamlines (R0).
 const STREAMLINES: f64 = 0.24;
 
@@ -61,6 +63,10 @@ impl WatchedRun {
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
         let domain = scene.system().hydrodynamics().medium().domain;
         let raster = domain_raster(&domain, swimmer.spacing, MOST_CELLS)?;
+        let watched = match swimmer.method {
+            Method::BoundaryIntegral => domain_raster(&domain, COARSER * swimmer.spacing, MOST_CELLS)?,
+            Method::ImmersedBoundary => raster,
+        };
 
         let directory = output.directory(name)?;
         let recorder = Recorder::create(&directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
@@ -69,7 +75,7 @@ impl WatchedRun {
         } else {
             let concentration = swimmer.mean_concentration;
             let look = Look { caption, concentration, walls: domain.walls, streamline_spacing: STREAMLINES };
-            Some((Film::new(look, &raster)?, VtkOutput::create(&directory.join("vtk"), raster, droplet)?))
+            Some((Film::new(look, &watched)?, VtkOutput::create(&directory.join("vtk"), watched, droplet)?))
         };
         Ok(Self {
             droplet,
@@ -104,7 +110,7 @@ impl WatchedRun {
             time: scene.time(),
             steps: scene.steps(),
             seconds: self.dial.finish(),
-            stokes_solves: scene.system().hydrodynamics().work().stokes_solves,
+            work: scene.system().hydrodynamics().work(),
             failure: outcome.as_ref().err().map(ToString::to_string),
         };
         self.recorder.finish(scene.system_mut())?;
@@ -131,13 +137,19 @@ impl WatchedRun {
         let (first, last) = self.recorder.first().zip(self.recorder.last()).context("nothing was measured")?;
         let speeds = self.recorder.table().curve("time", "speed")?;
         let steadiness = Steadiness::of(&speeds, self.swimmer.diffusion / self.swimmer.radius.powi(2));
-        Ok(droplet_summary(
+        let mut summary = droplet_summary(
             &first.observables,
             &last.observables,
             &steadiness,
             &self.cost,
             self.swimmer.mean_concentration,
-        ))
+        );
+        let method = match self.swimmer.method {
+            Method::BoundaryIntegral => "boundary-integral",
+            Method::ImmersedBoundary => "immersed-boundary",
+        };
+        summary.put("method", method, "for the flow");
+        Ok(summary)
     }
 
     /// Draws the final state (`final.png`), the run (`swim.gif`) and the plots, unless pictures are not wanted.
@@ -166,5 +178,9 @@ impl WatchedRun {
 #[must_use]
 pub fn caption(swimmer: &Swimmer) -> String {
     let Swimmer { activity, excluded_volume, viscosity, .. } = swimmer;
-    format!("ζΔμ = {activity},  A = {excluded_volume},  η = {viscosity}").replace('-', "−")
+    let viscosities = match swimmer.viscosity_inside {
+        Some(inside) => format!("η = {inside} in {viscosity}"),
+        None => format!("η = {viscosity}"),
+    };
+    format!("ζΔμ = {activity},  A = {excluded_volume},  {viscosities}").replace('-', "−")
 }

@@ -42,7 +42,8 @@ fn a_run_that_breaks_off_keeps_what_it_has() {
     // A step that is stable at the start, but not when the particles have gathered.
     let directory = directory("broken-run");
     let step = motile::ib_core::StepSize::Fixed(0.1);
-    let swimmer = Swimmer { spacing: 0.1, lengths: [4.0, 4.0], step, ..Swimmer::default() };
+    let method = motile::Method::ImmersedBoundary;
+    let swimmer = Swimmer { method, spacing: 0.1, lengths: [4.0, 4.0], step, ..Swimmer::default() };
     let (mut scene, droplet) = swimmer.build().unwrap();
     let flags = output(&directory, true);
     let mut run = WatchedRun::new(&mut scene, droplet, &swimmer, 100.0, &flags, "", String::new()).unwrap();

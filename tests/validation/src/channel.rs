@@ -152,7 +152,7 @@ pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SwimmerErrors, StudyError>
         .select("conv", "p0")
         .select("w", &format!("{width}"))
         .select("zeta_dmu", &format!("{:.1}", swimmer.activity));
-    let (mut scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient)?;
+    let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient)?;
     let particles: f64 = scene.body(droplet).particle_numbers().iter().sum();
     scene.run(time).go()?;
     let seen = look(&mut scene, droplet)?;
@@ -179,7 +179,7 @@ pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SwimmerErrors, StudyError>
 /// # Errors
 /// What a run can fail with.
 pub fn speed(swimmer: &Swimmer, drive: Drive, time: f64) -> Result<f64, StudyError> {
-    let (mut scene, droplet) = swimmer.build_in_channel(drive)?;
+    let (mut scene, droplet) = swimmer.build_on_grid_in_channel(drive)?;
     scene.run(time).go()?;
     Ok(look(&mut scene, droplet)?.speed())
 }

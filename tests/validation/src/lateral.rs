@@ -46,7 +46,7 @@ pub struct Track {
 pub fn track(swimmer: &Swimmer, method: Method, time: f64, every: f64) -> Result<Track, StudyError> {
     match method {
         Method::ImmersedBoundary => {
-            let (scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient)?;
+            let (scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient)?;
             follow(scene, droplet, time, every)
         }
         Method::BoundaryIntegral => {

@@ -28,7 +28,7 @@ pub struct Perturbed {
 pub fn perturbed(activity: f64, h: f64, time: f64) -> Result<Perturbed, StudyError> {
     let initial = InitialState::Perturbed { amplitude: 0.05, seed: 1 };
     let swimmer = Swimmer { activity, spacing: h, initial, ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build()?;
+    let (mut scene, droplet) = swimmer.build_on_grid()?;
     let mut largest_early_speed = 0.0_f64;
     for part in 0..=20 {
         if part > 0 {
@@ -58,7 +58,7 @@ pub struct MarkerSpacing {
 /// What a run can fail with.
 pub fn marker_spacing(ds: f64) -> Result<MarkerSpacing, StudyError> {
     let swimmer = Swimmer { viscosity: 10.0, spacing: 0.1, marker_spacing: Some(ds), ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build()?;
+    let (mut scene, droplet) = swimmer.build_on_grid()?;
     scene.run(3.0).step_size(StepSize::OfLimit(0.25)).go()?;
     let speed = look(&mut scene, droplet)?.speed();
     let body = scene.body(droplet);

@@ -68,7 +68,7 @@ pub fn reference_swimmer(base: &Swimmer, activity: f64, h: f64) -> Swimmer {
 /// # Errors
 /// An activity that is not in the table, and what a run can fail with.
 pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SteadyErrors, StudyError> {
-    let (scene, droplet) = swimmer.build()?;
+    let (scene, droplet) = swimmer.build_on_grid()?;
     compare(scene, droplet, swimmer, time)
 }
 
@@ -125,7 +125,7 @@ pub fn transient(base: &Swimmer, h: f64) -> Result<(f64, f64), StudyError> {
     let reference = Reference::read(ReferenceFile::Transient)?;
     let (times, speeds) = (reference.column("t")?, reference.column("speed")?);
     let swimmer = reference_swimmer(base, -1.0, h);
-    let (mut scene, droplet) = swimmer.build()?;
+    let (mut scene, droplet) = swimmer.build_on_grid()?;
     let mut worst = (0.0_f64, 0.0);
     for (&time, speed) in times.iter().zip(speeds) {
         if time > 0.0 {
@@ -163,7 +163,7 @@ pub struct LongRun {
 /// # Errors
 /// What a run can fail with.
 pub fn long_run(swimmer: &Swimmer, time: f64) -> Result<LongRun, StudyError> {
-    let (mut scene, droplet) = swimmer.build()?;
+    let (mut scene, droplet) = swimmer.build_on_grid()?;
     let mut records: Vec<(f64, Observables)> = Vec::new();
     let mut watch = |system: &mut motile::ib_core::System<motile::PeriodicBox>| -> Result<(), StudyError> {
         system.evaluate()?;

@@ -1,0 +1,36 @@
+//! What keeps a scene from being set up.
+
+use active_interface::InterfaceError;
+use boundary_integral::BoundaryIntegralError;
+use ib_core::FlowError;
+use stokes_grid::StokesError;
+
+/// A scene that could not be set up.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SetupError {
+    /// The grid or the solver.
+    #[error(transparent)]
+    Stokes(#[from] StokesError),
+    /// The droplet.
+    #[error(transparent)]
+    Interface(#[from] InterfaceError),
+    /// The coupling.
+    #[error(transparent)]
+    Flow(#[from] FlowError),
+    /// The boundary integrals.
+    #[error(transparent)]
+    BoundaryIntegral(#[from] BoundaryIntegralError),
+    /// A box that does not hold a whole number of cells or is too small for the droplet.
+    #[error("a box of {lx} x {ly} with cells of {spacing} {problem}")]
+    Box {
+        /// Length in x.
+        lx: f64,
+        /// Length in y.
+        ly: f64,
+        /// Grid spacing.
+        spacing: f64,
+        /// What is wrong, and the remedy.
+        problem: &'static str,
+    },
+}
