@@ -14,8 +14,8 @@
 //!   the place.
 //! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid, [`Solid::surface_corrected`] for a
 //!   surface that the flow knows to a few hundredths of a grid spacing instead of a third.
-//! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`width_between`] walls;
-//!   [`measured_moduli`] of a mesh.
+//! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`width_between`] walls; [`SurfaceGap`]
+//!   for distances from interfaces; [`measured_moduli`] of a mesh.
 //!
 //! # Conventions
 //!
@@ -72,6 +72,7 @@ mod solid;
 mod solid_body;
 mod springs;
 mod surface_correction;
+mod surface_gap;
 mod topology;
 mod triangulation;
 
@@ -96,5 +97,6 @@ pub use outline::Outline;
 pub use quality::MeshQuality;
 pub use region::Region;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
-pub use solid::{ElasticSolid, Solid, SpringLattice, Tether};
+pub use solid::{AnySolid, ElasticSolid, Solid, SpringLattice, Tether};
 pub use springs::Springs;
+pub use surface_gap::SurfaceGap;

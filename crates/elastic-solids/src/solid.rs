@@ -63,6 +63,20 @@ pub type ElasticSolid<E> = Solid<Hyperelastic<E>>;
 /// ```
 pub type SpringLattice = Solid<Springs>;
 
+/// A solid whose law is chosen at run time, for scenes that treat solids of different kinds alike.
+///
+/// ```
+/// use elastic_solids::*;
+/// use ib_core::Vec2;
+///
+/// let mesh = equilateral_strip(Vec2::zeros(), 20, 10, 0.1)?;
+/// let law: Box<dyn ElasticForces> = Box::new(Springs::new(&mesh, 100.0)?);
+/// let wall: AnySolid = Solid::with_forces(mesh, law)?.named("wall");
+/// assert!(wall.elastic_energy()? < 1e-20);
+/// # Ok::<(), SolidError>(())
+/// ```
+pub type AnySolid = Solid<Box<dyn ElasticForces>>;
+
 /// A spring from a point to a fixed place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tether {

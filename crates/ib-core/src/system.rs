@@ -2,7 +2,9 @@
 
 use std::any::Any;
 
-use crate::{Body, BodyError, FlowReport, FlowSample, Hydrodynamics, Markers, SceneError, StepLimit, Vec2, wall_gap};
+use crate::{
+    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, MarkerKind, Markers, SceneError, StepLimit, Vec2, wall_gap,
+};
 
 /// The bodies of a scene, the fluid between them, and the time.
 ///
@@ -125,13 +127,15 @@ impl<H: Hydrodynamics> System<H> {
         self.hydrodynamics.sample(&self.markers, points, out).map_err(|source| SceneError::Flow { time, source })
     }
 
-    /// The smallest distance of a marker to a wall at the present state (length; negative beyond a wall, see
-    /// [`wall_gap`]); `None` without walls or markers. Needs no evaluation.
+    /// The smallest distance of an interface to a rigid wall at the present state (length; negative beyond a wall, see
+    /// [`wall_gap`]); `None` without walls or interfaces. Solids ([`MarkerKind::Points`]) may stand on a wall and do not
+    /// count. Needs no evaluation.
     pub fn wall_gap(&mut self) -> Option<f64> {
         let walls = self.hydrodynamics.medium().domain.walls?;
-        self.positions.resize(self.bodies.iter().map(|body| body.marker_count()).sum(), Vec2::zeros());
+        let interfaces = || self.bodies.iter().filter(|body| body.kind() != MarkerKind::Points);
+        self.positions.resize(interfaces().map(|body| body.marker_count()).sum(), Vec2::zeros());
         let mut start = 0;
-        for body in &self.bodies {
+        for body in interfaces() {
             let end = start + body.marker_count();
             body.write_markers(&mut self.positions[start..end]);
             start = end;

@@ -44,11 +44,13 @@ struct Points {
     positions: Vec<Vec2>,
     floor: f64,
     turned: bool,
+    kind: MarkerKind,
 }
 
 impl Points {
     fn new(heights: &[f64], floor: f64) -> Self {
-        Self { positions: heights.iter().map(|&y| Vec2::new(0.0, y)).collect(), floor, turned: false }
+        let positions = heights.iter().map(|&y| Vec2::new(0.0, y)).collect();
+        Self { positions, floor, turned: false, kind: MarkerKind::UnevenInterface { viscosity_inside: None } }
     }
 }
 
@@ -57,7 +59,7 @@ impl Body for Points {
         "points"
     }
     fn kind(&self) -> MarkerKind {
-        MarkerKind::Points
+        self.kind
     }
     fn marker_count(&self) -> usize {
         self.positions.len()
@@ -102,6 +104,9 @@ impl Body for Points {
 fn present_and_least_gap() {
     let mut scene = Scene::new(Wind { velocity: Vec2::new(1.0, -0.5), walls: Some([-2.0, 2.0]) });
     assert_eq!(scene.system_mut().wall_gap(), None);
+    assert_eq!(scene.system().minimum_wall_gap(), None);
+    // A solid may stand on a wall.
+    scene.add(Points { kind: MarkerKind::Points, ..Points::new(&[-2.0, 2.0], f64::NEG_INFINITY) });
     assert_eq!(scene.system().minimum_wall_gap(), None);
     let low = scene.add(Points::new(&[0.0, -1.0], -1.4));
     assert_eq!(scene.system_mut().wall_gap(), Some(1.0));
