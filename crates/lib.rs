@@ -39,20 +39,24 @@
 //! The library is free of units: give all quantities in one consistent system. Presets and examples use R0 = 10 um for length
 //! and gamma0/10 for tension; [`active_interface::Units`] converts to SI.
 
+mod elastic_channel;
 mod method;
 mod setup_error;
+mod solid_gap;
 mod swimmer;
 mod swimmer_scenes;
 
+pub use elastic_channel::{BuiltElastic, ElasticChannel, WallMaterial, WallMesh};
 pub use method::{ContrastMethod, Method};
 pub use setup_error::SetupError;
+pub use solid_gap::{SolidEntered, SolidGap};
 pub use swimmer::{InitialState, Swimmer};
 pub use swimmer_scenes::{AnyFlow, Built, IntegralBox, IntegralChannel, IntegralPlane, PeriodicBox, RigidChannel};
 pub use {active_interface, boundary_integral, elastic_solids, ib_core, stokes_grid};
 
 /// What most programs need.
 pub mod prelude {
-    pub use crate::{InitialState, Method, Swimmer};
+    pub use crate::{ElasticChannel, InitialState, Method, Swimmer, WallMaterial, WallMesh};
     pub use active_interface::{ActiveDroplet, Convention, Curve, Flux, Motion, observe};
     pub use ib_core::{AnyKernel, Every, Hydrodynamics, ImmersedBoundary, Scene, StepSize, Vec2};
     pub use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StokesSolver};

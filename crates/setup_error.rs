@@ -2,6 +2,7 @@
 
 use active_interface::InterfaceError;
 use boundary_integral::BoundaryIntegralError;
+use elastic_solids::SolidError;
 use ib_core::FlowError;
 use stokes_grid::StokesError;
 
@@ -21,6 +22,19 @@ pub enum SetupError {
     /// The boundary integrals.
     #[error(transparent)]
     BoundaryIntegral(#[from] BoundaryIntegralError),
+    /// The elastic walls.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
+    /// A droplet that starts inside a wall.
+    #[error("the droplet reaches {depth} into a wall at ({x}, {y}): move it or make the channel wider there")]
+    Overlap {
+        /// Where, in x.
+        x: f64,
+        /// Where, in y.
+        y: f64,
+        /// How deep (length).
+        depth: f64,
+    },
     /// A box that does not hold a whole number of cells or is too small for the droplet.
     #[error("a box of {lx} x {ly} with cells of {spacing} {problem}")]
     Box {

@@ -165,11 +165,16 @@ impl Swimmer {
 
     /// The markers of a circle on a grid.
     pub(crate) fn circle_on_grid(&self) -> Result<Vec<Vec2>, SetupError> {
+        self.markers_along(&self.circle()?)
+    }
+
+    /// Markers along a curve at the spacing for a grid.
+    pub(crate) fn markers_along(&self, curve: &Curve) -> Result<Vec<Vec2>, SetupError> {
         let spacing = self.marker_spacing.unwrap_or(0.5 * self.spacing);
         if !(spacing.is_finite() && spacing > 0.0) {
             return Err(InterfaceError::NotPositive { name: "the marker spacing", value: spacing }.into());
         }
-        Ok(self.circle()?.markers(fast_count(TAU * self.radius / spacing))?)
+        Ok(curve.markers(fast_count(curve.perimeter() / spacing))?)
     }
 
     pub(crate) fn circle(&self) -> Result<Curve, SetupError> {

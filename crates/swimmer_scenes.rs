@@ -192,7 +192,7 @@ impl Swimmer {
         }
     }
 
-    fn any_grid<S: StokesSolver + 'static>(&self, solver: S) -> Result<AnyFlow, SetupError> {
+    pub(crate) fn any_grid<S: StokesSolver + 'static>(&self, solver: S) -> Result<AnyFlow, SetupError> {
         let differs = self.viscosity_inside.is_some_and(|inside| inside != self.viscosity);
         Ok(if differs && self.contrast == ContrastMethod::Arithmetic {
             Box::new(SmearedContrast::new(solver, self.kernel)?)

@@ -124,15 +124,6 @@ impl SpringLattice {
         let law = Springs::graded(&mesh, shear)?;
         Ok(Self::at_rest(mesh, law))
     }
-
-    /// The same, where triangles may turn inside out, which springs do not resist: for comparison with work that lets
-    /// them. [`Solid::smallest_jacobian`] tells whether they have. Otherwise a step that turns one inside out is an
-    /// error.
-    #[must_use]
-    pub fn allow_inversion(mut self) -> Self {
-        self.may_invert = true;
-        self
-    }
 }
 
 impl<F: ElasticForces> Solid<F> {
@@ -159,6 +150,15 @@ impl<F: ElasticForces> Solid<F> {
             surface: None,
             mesh,
         }
+    }
+
+    /// The same, where triangles may turn inside out, which springs do not resist: for comparison with work that lets
+    /// them. [`Solid::smallest_jacobian`] tells whether they have. Otherwise a step that turns one inside out is an
+    /// error, as it is always where the energy is not defined for it.
+    #[must_use]
+    pub fn allow_inversion(mut self) -> Self {
+        self.may_invert = true;
+        self
     }
 
     /// The same with a name for messages ("solid" otherwise).

@@ -1,0 +1,229 @@
+//! One active droplet between elastic walls, from a few numbers.
+
+use active_interface::{ActiveDroplet, Curve};
+use elastic_solids::{
+    AnySolid, Channel, ChannelWalls, ElasticForces, Hyperelastic, Mesher, Moduli, NeoHookean, Solid, SolidError,
+    Springs, StraightChannel, SurfaceGap, TriangleMesh,
+};
+use ib_core::{Handle, MobilityDeficit, Scene, Vec2};
+use stokes_grid::{ChannelStokes, Drive, Grid};
+
+use crate::{AnyFlow, SetupError, Swimmer};
+
+/// What elastic walls are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WallMaterial {
+    /// Springs along the edges of the mesh (thesis section 4.1), with the bulk modulus 2 mu.
+    Springs,
+    /// Generalised neo-Hookean material (thesis section 4.2).
+    NeoHookean,
+}
+
+/// How the points of elastic walls are arranged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WallMesh {
+    /// Equilateral triangles where the shape allows it, as in a straight wall.
+    Equilateral,
+    /// An even mesh that is no lattice.
+    Unstructured,
+}
+
+/// An active droplet in a channel between elastic walls (thesis chapter 4), in the thesis' units.
+///
+/// The flow is that of a channel with rigid walls, periodic in x, which is as high as the channel and both elastic walls;
+/// the outermost row of each elastic wall is held by the rigid one. [`Swimmer::lengths`] are the period and the width of
+/// the channel between the elastic walls.
+///
+/// ```
+/// use motile::elastic_solids::{Moduli, width_between};
+/// use motile::prelude::*;
+///
+/// // Soft walls, k = 1e4 in the thesis, and a coarse grid.
+/// let swimmer = Swimmer { activity: -4.0, lengths: [6.0, 2.0], spacing: 0.1, ..Swimmer::default() };
+/// let channel = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e4)?);
+/// let (mut scene, droplet, walls) = channel.build()?;
+/// scene.run(1.0).go()?;
+///
+/// let width = width_between(scene.body(walls[0]), scene.body(walls[1]))?;
+/// println!("width from {:.3} to {:.3}, {} markers", width.minimum, width.maximum, scene.body(droplet).markers().len());
+/// assert!(width.minimum < 1.99 && width.maximum > 2.01);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElasticChannel {
+    /// The droplet and the method; its lengths are the period and the width of the channel.
+    pub swimmer: Swimmer,
+    /// What the walls are made of.
+    pub material: WallMaterial,
+    /// Elastic moduli of small strains (force per length); springs take the shear modulus.
+    pub moduli: Moduli,
+    /// How the points of the walls are arranged.
+    pub mesh: WallMesh,
+    /// Spacing of the points (length); `None` for that of the grid.
+    pub mesh_spacing: Option<f64>,
+    /// Thickness of each wall beside the channel (length).
+    pub thickness: f64,
+    /// Whether the surfaces of the walls have the mobility correction ([`Solid::surface_corrected`]).
+    pub surface_corrected: bool,
+    /// Whether triangles of springs may turn inside out ([`Solid::allow_inversion`]).
+    pub may_invert: bool,
+    /// Force per displacement and area that holds islands in place ([`Solid::tethered`]; force per length cubed); `None`
+    /// for the shear modulus over the square of the droplet's radius.
+    pub hold: Option<f64>,
+    /// What drives the flow along the channel.
+    pub drive: Drive,
+}
+
+/// Angle by which the seeds of unstructured meshes are turned (radians).
+const TURN: f64 = 0.2;
+/// Film that is left beside a droplet squeezed to fit, over its radius.
+const FILM: f64 = 0.05;
+/// How deep the droplet may start inside a wall, over the grid spacing.
+const OVERLAP: f64 = 0.25;
+
+/// A scene, the droplet in it, and the elastic solids beside it (lower wall, upper wall, islands), or why there is none.
+pub type BuiltElastic = Result<(Scene<AnyFlow>, Handle<ActiveDroplet>, Vec<Handle<AnySolid>>), SetupError>;
+
+impl ElasticChannel {
+    /// Walls 1.5 R0 thick (the thesis') of springs on an equilateral lattice as fine as the grid.
+    #[must_use]
+    pub fn new(swimmer: Swimmer, moduli: Moduli) -> Self {
+        Self {
+            material: WallMaterial::Springs,
+            moduli,
+            mesh: WallMesh::Equilateral,
+            mesh_spacing: None,
+            thickness: 1.5 * swimmer.radius,
+            surface_corrected: true,
+            may_invert: false,
+            hold: None,
+            drive: Drive::ZeroGradient,
+            swimmer,
+        }
+    }
+
+    /// Walls by the method of the thesis (section 4.1): springs on an unstructured mesh, no correction of their surfaces,
+    /// and triangles may turn inside out. For a droplet by its method too, make the swimmer from [`Swimmer::thesis`].
+    #[must_use]
+    pub fn thesis(swimmer: Swimmer, moduli: Moduli) -> Self {
+        let mesh = WallMesh::Unstructured;
+        Self { mesh, surface_corrected: false, may_invert: true, ..Self::new(swimmer, moduli) }
+    }
+
+    /// The scene of a straight channel.
+    ///
+    /// # Errors
+    /// Parameters out of their range; lengths that do not hold a whole number of cells; a droplet that overlaps a wall.
+    pub fn build(&self) -> BuiltElastic {
+        let [period, width] = self.swimmer.lengths;
+        self.build_in(&StraightChannel { period, width }.channel()?)
+    }
+
+    /// The scene of a channel of another shape, centred on y = 0 and with the period of [`Swimmer::lengths`]. Its walls
+    /// reach [`ElasticChannel::thickness`] beyond the width of [`Swimmer::lengths`] on both sides.
+    ///
+    /// # Errors
+    /// As [`ElasticChannel::build`]; a shape that cannot be meshed.
+    pub fn build_in(&self, shape: &Channel) -> BuiltElastic {
+        self.build_graded(shape, |_| self.moduli)
+    }
+
+    /// The same with moduli that are a function of the reference position (length): gradients of stiffness, one wall
+    /// stiffer than the other.
+    ///
+    /// # Errors
+    /// As [`ElasticChannel::build_in`].
+    pub fn build_graded(&self, shape: &Channel, moduli: impl Fn(Vec2) -> Moduli) -> BuiltElastic {
+        let swimmer = &self.swimmer;
+        let [lx, ly] = swimmer.lengths;
+        if (shape.period() - lx).abs() > 1e-9 * lx {
+            return Err(SolidError::DifferentPeriods { first: lx, second: shape.period() }.into());
+        }
+        let height = ly + 2.0 * self.thickness;
+        let grid = Grid::channel(swimmer.cells(lx)?, swimmer.cells(height)?, swimmer.spacing)?;
+        let droplet = self.droplet()?;
+        let solids = self.solids(shape, moduli)?;
+
+        let mut gap = SurfaceGap::new(Some(lx));
+        solids.iter().try_for_each(|solid| gap.add(solid))?;
+        gap.sort();
+        let (depth, marker) = gap.smallest(droplet.markers())?;
+        if depth < -OVERLAP * swimmer.spacing {
+            let place = droplet.markers()[marker];
+            return Err(SetupError::Overlap { x: place.x, y: place.y, depth: -depth });
+        }
+
+        let mut solver = ChannelStokes::new(grid, swimmer.viscosity)?;
+        solver.set_drive(self.drive)?;
+        let mut scene = Scene::new(swimmer.any_grid(solver)?).with_step_size(swimmer.step);
+        let droplet = scene.add(droplet);
+        let solids = solids.into_iter().map(|solid| scene.add(solid)).collect();
+        Ok((scene, droplet, solids))
+    }
+
+    /// The solids of a channel without a scene: lower wall, upper wall, islands.
+    ///
+    /// # Errors
+    /// A shape that cannot be meshed.
+    pub fn solids(&self, shape: &Channel, moduli: impl Fn(Vec2) -> Moduli) -> Result<Vec<AnySolid>, SetupError> {
+        let half = 0.5 * self.swimmer.lengths[1] + self.thickness;
+        let mesher = Mesher::new(self.mesh_spacing.unwrap_or(self.swimmer.spacing))?;
+        let mesher = if self.mesh == WallMesh::Unstructured { mesher.turned(TURN)? } else { mesher };
+        let ChannelWalls { lower, upper, islands } = shape.walls(-half, half, &mesher)?;
+        let deficit = MobilityDeficit::new(&self.swimmer.kernel);
+        let finished = |solid: AnySolid| {
+            let solid = if self.may_invert { solid.allow_inversion() } else { solid };
+            if self.surface_corrected { solid.surface_corrected(&deficit) } else { solid }
+        };
+        let mut solids = Vec::new();
+        for (name, mesh) in [("lower wall", lower), ("upper wall", upper)] {
+            let wall = self.solid(mesh, &moduli)?.named(name);
+            solids.push(finished(wall.pinned(|s| s.y.abs() > half * (1.0 - 1e-9))?));
+        }
+        let radius = self.swimmer.radius;
+        for (number, mesh) in islands.into_iter().enumerate() {
+            let share = mesh.area() / mesh.points().len() as f64;
+            let hold = self.hold.unwrap_or(self.moduli.shear() / (radius * radius));
+            let island = self.solid(mesh, &moduli)?.named(&format!("island {}", number + 1));
+            solids.push(finished(island.tethered(hold * share, |_| true)?));
+        }
+        Ok(solids)
+    }
+
+    fn solid(&self, mesh: TriangleMesh, moduli: impl Fn(Vec2) -> Moduli) -> Result<AnySolid, SolidError> {
+        let law: Box<dyn ElasticForces> = match self.material {
+            WallMaterial::Springs => Box::new(Springs::graded(&mesh, |place| moduli(place).shear())?),
+            WallMaterial::NeoHookean => {
+                Box::new(Hyperelastic::graded(&mesh, |place| Ok(NeoHookean::from(moduli(place))))?)
+            }
+        };
+        Solid::with_forces(mesh, law)
+    }
+
+    /// The droplet: a circle, or where the channel is narrower a stadium of the same area that leaves a film beside it.
+    fn droplet(&self) -> Result<ActiveDroplet, SetupError> {
+        let swimmer = &self.swimmer;
+        let ([lx, ly], [x, y], radius) = (swimmer.lengths, swimmer.offset, swimmer.radius);
+        let room = 0.5 * ly - y.abs();
+        if room >= radius * (1.0 - 1e-12) {
+            return swimmer.droplet();
+        }
+        let half = room - FILM * radius;
+        let straight = 0.25 * std::f64::consts::PI * (radius * radius - half * half) / half;
+        if !(half > 0.1 * radius && 2.0 * (straight + half) < lx) {
+            let problem = "does not hold the droplet: move it to the centre line or make the channel wider or longer";
+            return Err(SetupError::Box { lx, ly, spacing: swimmer.spacing, problem });
+        }
+        let curve = stadium(straight, half)?.translated(Vec2::new(x, y));
+        swimmer.droplet_with(&swimmer.markers_along(&curve)?)
+    }
+}
+
+/// The stadium around the points (-s, 0) and (s, 0) at the distance r.
+fn stadium(s: f64, r: f64) -> Result<Curve, SetupError> {
+    let points: Vec<Vec2> = (0..720)
+        .map(|k| std::f64::consts::TAU * (f64::from(k) + 0.5) / 720.0)
+        .map(|angle| Vec2::new(r * angle.cos() + s * angle.cos().signum(), r * angle.sin()))
+        .collect();
+    Ok(Curve::polygon(&points)?)
+}

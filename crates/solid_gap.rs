@@ -1,0 +1,136 @@
+//! The gap between a droplet and elastic solids during a run.
+
+use active_interface::ActiveDroplet;
+use elastic_solids::{AnySolid, SolidError, SurfaceGap};
+use ib_core::{Hydrodynamics, Observer, System};
+use std::any::Any;
+
+/// Measures the gap between the first droplet of a system and all its solids of type [`AnySolid`], keeps the smallest
+/// one, and ends the run where the droplet enters a solid deeper than it may.
+///
+/// ```
+/// use motile::elastic_solids::Moduli;
+/// use motile::prelude::*;
+///
+/// let swimmer = Swimmer { lengths: [6.0, 2.4], spacing: 0.1, ..Swimmer::default() };
+/// let (mut scene, _, _) = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e5)?).build()?;
+/// let mut gap = motile::SolidGap::new(0.25 * 0.1);
+/// scene.run(0.5).observe(Every::Steps(1), &mut gap).go()?;
+/// let (least, time) = gap.smallest().expect("a droplet between walls");
+/// println!("smallest gap {least:.3} R0 at t = {time}");
+/// assert!((least - 0.2).abs() < 0.02);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SolidGap {
+    allowed: f64,
+    surfaces: Option<SurfaceGap>,
+    present: Option<f64>,
+    smallest: Option<(f64, f64)>,
+}
+
+/// A droplet that has entered a solid.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "marker {marker} of the droplet at ({x}, {y}) is {depth} inside a solid, more than {allowed}: use a smaller time \
+     step or a finer grid"
+)]
+pub struct SolidEntered {
+    /// Number of the marker.
+    pub marker: usize,
+    /// Its x coordinate (length).
+    pub x: f64,
+    /// Its y coordinate (length).
+    pub y: f64,
+    /// How deep it is (length).
+    pub depth: f64,
+    /// What is allowed (length).
+    pub allowed: f64,
+}
+
+impl SolidGap {
+    /// A watch that lets the droplet enter solids by `allowed` (length): the flow keeps surfaces apart to a quarter of a
+    /// grid spacing.
+    #[must_use]
+    pub fn new(allowed: f64) -> Self {
+        Self { allowed, surfaces: None, present: None, smallest: None }
+    }
+
+    /// The gap at the last look (length; negative inside a solid); `None` before the first and without solids.
+    #[must_use]
+    pub fn present(&self) -> Option<f64> {
+        self.present
+    }
+
+    /// The smallest gap so far (length) and when it was.
+    #[must_use]
+    pub fn smallest(&self) -> Option<(f64, f64)> {
+        self.smallest
+    }
+
+    /// The gap at the present state of a system (length) and the marker where it is; `None` without solids or droplet.
+    ///
+    /// # Errors
+    /// Positions that are not finite.
+    pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<Option<(f64, usize)>, SolidError> {
+        let period = system.hydrodynamics().medium().domain.periods[0];
+        let surfaces = self.surfaces.get_or_insert_with(|| SurfaceGap::new(period));
+        surfaces.clear();
+        let (mut any, mut droplet) = (false, None);
+        for body in system.bodies() {
+            let body: &dyn Any = body;
+            if let Some(solid) = body.downcast_ref::<AnySolid>() {
+                surfaces.add(solid)?;
+                any = true;
+            }
+            droplet = droplet.or(body.downcast_ref::<ActiveDroplet>());
+        }
+        let Some(droplet) = droplet.filter(|_| any) else { return Ok(None) };
+        surfaces.sort();
+        surfaces.smallest(droplet.markers()).map(Some)
+    }
+}
+
+impl<H: Hydrodynamics> Observer<H> for SolidGap {
+    /// # Errors
+    /// [`SolidEntered`].
+    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        let found = self.measure(system)?;
+        self.present = found.map(|(gap, _)| gap);
+        let Some((gap, marker)) = found else { return Ok(()) };
+        if self.smallest.is_none_or(|(least, _)| gap < least) {
+            self.smallest = Some((gap, system.time()));
+        }
+        if gap < -self.allowed
+            && let Some(droplet) = system.find::<ActiveDroplet>()
+        {
+            let place = droplet.markers()[marker];
+            let (x, y, allowed) = (place.x, place.y, self.allowed);
+            return Err(SolidEntered { marker, x, y, depth: -gap, allowed }.into());
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ElasticChannel, Swimmer};
+    use elastic_solids::{Moduli, Solid};
+
+    #[test]
+    fn a_droplet_inside_a_wall_is_an_error() {
+        let swimmer = Swimmer { lengths: [4.0, 2.2], spacing: 0.2, ..Swimmer::default() };
+        let (mut scene, _, walls) = ElasticChannel::new(swimmer, Moduli::new(1.0, 2.0).unwrap()).build().unwrap();
+        let mut gap = SolidGap::new(0.05);
+        gap.observe(scene.system_mut()).unwrap();
+        assert!((gap.present().unwrap() - 0.1).abs() < 2e-3, "{gap:?}");
+        let lower = scene.body_mut(walls[0]);
+        let raised: Vec<_> = lower.positions().iter().map(|p| p + ib_core::Vec2::new(0.0, 0.3)).collect();
+        Solid::set_positions(lower, &raised).unwrap();
+        let error = gap.observe(scene.system_mut()).unwrap_err();
+        let entered: &SolidEntered = error.downcast_ref().unwrap();
+        assert!((entered.depth - 0.2).abs() < 2e-3, "{entered}");
+        assert_eq!(gap.smallest(), Some((-entered.depth, 0.0)));
+    }
+}
