@@ -8,7 +8,7 @@ use elastic_solids::{
 use ib_core::{Handle, MobilityDeficit, Scene, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid};
 
-use crate::{AnyFlow, SetupError, Swimmer};
+use crate::{AnyFlow, Method, SetupError, Swimmer};
 
 /// What elastic walls are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -98,7 +98,7 @@ impl ElasticChannel {
             may_invert: false,
             hold: None,
             drive: Drive::ZeroGradient,
-            swimmer,
+            swimmer: Swimmer { method: Method::ImmersedBoundary, ..swimmer },
         }
     }
 

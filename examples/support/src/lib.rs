@@ -12,6 +12,7 @@
 //! | results | [`Summary`] (`summary.json` and a table), [`Trajectory`] (CSV) |
 //! | studies | [`RunPool`] (parallel, resumable), [`write_results`] (CSV) |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
+//! | elastic solids | [`SolidMeter`], [`SolidFiles`], [`outlines`] |
 //! | runs with a droplet | [`WatchedRun`] with the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`] |
 //!
 //! Pictures need no fonts of the system and no C libraries: lines, areas and letters are drawn by [`Canvas`] and
@@ -50,6 +51,7 @@ mod raster;
 mod recorder;
 mod run_pool;
 mod snapshot;
+mod solids;
 mod steady;
 mod streamlines;
 mod summary;
@@ -79,6 +81,7 @@ pub use raster::{Raster, ScalarSamples, VectorSamples};
 pub use recorder::{Dial, Recorder, check_run};
 pub use run_pool::RunPool;
 pub use snapshot::{Snapshot, at_markers, domain_raster};
+pub use solids::{SolidFiles, SolidMeter, outlines, put_solids, solids};
 pub use steady::Steadiness;
 pub use streamlines::streamlines;
 pub use summary::{Summary, make_directory, write_results};

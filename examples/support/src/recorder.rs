@@ -8,7 +8,7 @@ use motile::{
     ib_core::{Handle, Hydrodynamics, Observer, Scene, StepSize, System},
 };
 
-use crate::{Progress, Trajectory};
+use crate::{Progress, SolidMeter, Trajectory};
 
 type Outcome = Result<(), Box<dyn std::error::Error + Send + Sync>>;
 
@@ -37,8 +37,10 @@ pub fn check_run<H: Hydrodynamics>(scene: &mut Scene<H>, end: f64, step: StepSiz
     Ok(())
 }
 
-/// Columns that only channels have.
+/// Columns that only channels have, and of them those that elastic walls do not have: gap and flow beside the droplet
+/// are those up to rigid walls.
 const BETWEEN_WALLS: [&str; 4] = ["gap", "pressure_gradient", "net_flux", "retrograde_flow"];
+const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
 
 /// A [`TrajectoryRecorder`] that also writes what it sees to a CSV file.
 #[derive(Debug)]
@@ -46,11 +48,13 @@ pub struct Recorder {
     records: TrajectoryRecorder,
     table: Trajectory,
     columns: Vec<usize>,
+    solids: Option<SolidMeter>,
+    last_solids: Option<[f64; 8]>,
 }
 
 impl Recorder {
     /// A recorder of a droplet that writes to `path`; the columns are those of [`Record::entries`], without those about
-    /// walls where there are none.
+    /// walls where there are none, and where there are elastic solids those of [`SolidMeter::NAMES`].
     ///
     /// # Errors
     /// A file that cannot be written, a state that cannot be measured.
@@ -61,20 +65,32 @@ impl Recorder {
     ) -> Result<Self> {
         let walls = system.hydrodynamics().medium().domain.walls.is_some();
         let records = TrajectoryRecorder::new(droplet);
-        let records = if walls { records.with_gap_flow() } else { records };
+        let solids = SolidMeter::of(system);
+        let records = if walls && solids.is_none() { records.with_gap_flow() } else { records };
         let mut probe = records.clone();
         probe.observe(system).map_err(|error| anyhow!(error))?;
         let entries = probe.records()[0].entries();
-        let wanted = |k: &usize| walls || !BETWEEN_WALLS.contains(&entries[*k].0);
+        let wanted = |k: &usize| {
+            (walls || !BETWEEN_WALLS.contains(&entries[*k].0))
+                && (solids.is_none() || !BETWEEN_RIGID_WALLS.contains(&entries[*k].0))
+        };
         let columns: Vec<usize> = (0..entries.len()).filter(wanted).collect();
-        let names: Vec<&str> = columns.iter().map(|&k| entries[k].0).collect();
-        Ok(Self { records, table: Trajectory::create(path, &names)?, columns })
+        let mut names: Vec<&str> = columns.iter().map(|&k| entries[k].0).collect();
+        if solids.is_some() {
+            names.extend(SolidMeter::NAMES);
+        }
+        Ok(Self { records, table: Trajectory::create(path, &names)?, columns, solids, last_solids: None })
     }
 
     fn record<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<()> {
         self.records.observe(system).map_err(|error| anyhow!(error))?;
         let entries = self.last().map(Record::entries).unwrap_or_default();
-        let row: Vec<f64> = self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect();
+        let mut row: Vec<f64> = self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect();
+        if let Some(meter) = &mut self.solids {
+            let values = meter.measure(system)?;
+            row.extend(values);
+            self.last_solids = Some(values);
+        }
         self.table.push(&row)
     }
 
@@ -94,6 +110,12 @@ impl Recorder {
     #[must_use]
     pub fn first(&self) -> Option<&Record> {
         self.records.records().first()
+    }
+
+    /// What was last measured of the solids ([`SolidMeter::NAMES`]); `None` without solids.
+    #[must_use]
+    pub fn last_solids(&self) -> Option<&[f64; 8]> {
+        self.last_solids.as_ref()
     }
 
     /// What was measured last.

@@ -8,15 +8,17 @@ use motile::{
     ib_core::{Handle, Hydrodynamics, Observer, System},
 };
 
-use crate::{Raster, Snapshot, VtkFile, VtkSeries, at_markers};
+use crate::{Raster, Snapshot, SolidFiles, VtkFile, VtkSeries, at_markers};
 
-/// Writes the flow (`fields.pvd`) and the interface (`interface.pvd`) whenever it is called.
+/// Writes the flow (`fields.pvd`), the interface (`interface.pvd`) and, where there are some, elastic solids
+/// (`solids.pvd`) whenever it is called.
 #[derive(Debug)]
 pub struct VtkOutput {
     droplet: Handle<ActiveDroplet>,
     raster: Raster,
     fields: VtkSeries,
     interface: VtkSeries,
+    solids: SolidFiles,
 }
 
 impl VtkOutput {
@@ -26,7 +28,7 @@ impl VtkOutput {
     /// A directory that cannot be made.
     pub fn create(directory: &Path, raster: Raster, droplet: Handle<ActiveDroplet>) -> Result<Self> {
         let (fields, interface) = (VtkSeries::new(directory, "fields")?, VtkSeries::new(directory, "interface")?);
-        Ok(Self { droplet, raster, fields, interface })
+        Ok(Self { droplet, raster, fields, interface, solids: SolidFiles::create(directory)? })
     }
 
     /// Pressure (force per length), velocity (length per time) and vorticity (1/time) in the cells; concentration
@@ -48,7 +50,8 @@ impl VtkOutput {
             .point_scalars("tension", &tension)
             .point_vectors("velocity", state.velocities)
             .point_vectors("force", state.forces);
-        self.interface.push(seen.time, &file)
+        self.interface.push(seen.time, &file)?;
+        self.solids.write(system)
     }
 }
 

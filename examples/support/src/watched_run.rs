@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use motile::{
-    Method, Swimmer,
+    Method, SolidGap, Swimmer,
     active_interface::{ActiveDroplet, ConcentrationProfile, Frame, concentration_profile},
     ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, Vec2},
 };
 
 use crate::{
     Dial, Film, Look, OutputFlags, Raster, Recorder, RunCost, Snapshot, Steadiness, Summary, VtkOutput, check_run,
-    concentration_plot, domain_raster, droplet_summary, time_series,
+    concentration_plot, domain_raster, droplet_summary, put_solids, time_series,
 };
 
 /// Rows of the trajectory and files for ParaView in a run.
@@ -24,6 +24,8 @@ const FRAMES: [f64; 2] = [50.0, 150.0];
 const MOST_CELLS: usize = 512;
 /// Spacing of the fields over that of a grid where there is no grid: there each point costs a sum over the interface.
 const COARSER: f64 = 2.0;
+/// How deep a droplet may come into an elastic solid, in grid spacings, before its run ends with an error.
+const SOLID_OVERLAP: f64 = 0.25;
 /// Distance of streamlines (R0).
 const STREAMLINES: f64 = 0.24;
 
@@ -40,6 +42,7 @@ pub struct WatchedRun {
     dial: Dial,
     pictures: Option<(Film, VtkOutput)>,
     cost: RunCost,
+    gap: SolidGap,
 }
 
 impl WatchedRun {
@@ -88,6 +91,7 @@ impl WatchedRun {
             dial: Dial::new(end, output.quiet, droplet),
             pictures,
             cost: RunCost::default(),
+            gap: SolidGap::new(SOLID_OVERLAP * swimmer.spacing),
         })
     }
 
@@ -100,6 +104,7 @@ impl WatchedRun {
             .run(self.end)
             .step_size(self.swimmer.step)
             .observe(Every::Time(self.end / ROWS), &mut self.recorder)
+            .observe(Every::Steps(1), &mut self.gap)
             .observe(Every::Steps(1), &mut self.dial);
         if let Some((film, vtk)) = &mut self.pictures {
             let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
@@ -149,6 +154,11 @@ impl WatchedRun {
             Method::ImmersedBoundary => "immersed-boundary",
         };
         summary.put("method", method, "for the flow");
+        if let Some(values) = self.recorder.last_solids() {
+            put_solids(&mut summary, values);
+            let least = self.gap.smallest().map(|(gap, _)| gap);
+            summary.put("minimum_gap", least, "between droplet and walls, over the run (R0)");
+        }
         Ok(summary)
     }
 

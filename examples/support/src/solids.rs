@@ -1,0 +1,230 @@
+//! What is seen of the elastic solids of a scene.
+
+use std::{any::Any, collections::HashMap, path::Path};
+
+use anyhow::Result;
+use motile::{
+    SolidGap,
+    elastic_solids::{AnySolid, width_between},
+    ib_core::{Hydrodynamics, System},
+};
+
+use crate::{Summary, Vec2, VtkFile, VtkSeries};
+
+/// The solids of a system, in the order of addition.
+pub fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &AnySolid> {
+    system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
+}
+
+/// Closed outlines of a solid where it is now: the outer one, of a periodic wall over one period, and its holes.
+#[must_use]
+pub fn outlines(solid: &AnySolid) -> Vec<Vec<Vec2>> {
+    let mesh = solid.mesh();
+    let line = |periods: i32| {
+        let found = mesh.boundary_loops().iter().find(|boundary| boundary.periods == periods)?;
+        Some(mesh.boundary_polygon(found, solid.positions()))
+    };
+    let mut rings = Vec::new();
+    if let (Some(period), Some(mut ring), Some(back)) = (mesh.period(), line(1), line(-1)) {
+        // To the right along one side, back along the other; both sides are closed at the seam.
+        let step = Vec2::new(period, 0.0);
+        ring.push(ring[0] + step);
+        let shift = step * ((ring[ring.len() - 1].x - back[0].x) / period).round();
+        ring.extend(back.iter().map(|point| point + shift));
+        ring.push(back[0] + shift - step);
+        rings.push(ring);
+    }
+    let closed = mesh.boundary_loops().iter().filter(|boundary| boundary.periods == 0);
+    rings.extend(closed.map(|boundary| mesh.boundary_polygon(boundary, solid.positions())));
+    rings
+}
+
+/// Measures the solids of a system, for rows of a table.
+#[derive(Debug)]
+pub struct SolidMeter {
+    gap: SolidGap,
+}
+
+impl SolidMeter {
+    /// What is measured: smallest and largest width of the channel between the first two solids, gap between droplet
+    /// and solids, largest displacements in any direction and across a surface, the mean displacement of a solid that
+    /// is the largest along the channel (lengths), elastic energy, smallest ratio of deformed and reference area of a
+    /// triangle.
+    pub const NAMES: [&'static str; 8] = [
+        "channel_width_min",
+        "channel_width_max",
+        "droplet_gap",
+        "largest_displacement",
+        "largest_normal_displacement",
+        "wall_drift",
+        "elastic_energy",
+        "smallest_jacobian",
+    ];
+
+    /// A meter for a system with solids; `None` for one without.
+    #[must_use]
+    pub fn of<H: Hydrodynamics>(system: &System<H>) -> Option<Self> {
+        solids(system).next().map(|_| Self { gap: SolidGap::new(f64::INFINITY) })
+    }
+
+    /// The values of [`SolidMeter::NAMES`] at the present state; not a number where there is none.
+    ///
+    /// # Errors
+    /// A state that cannot be measured.
+    pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<[f64; 8]> {
+        let mut pair = solids(system);
+        let width = pair.next().zip(pair.next()).and_then(|(lower, upper)| width_between(lower, upper).ok());
+        let gap = self.gap.measure(system)?.map_or(f64::NAN, |(gap, _)| gap);
+        let (mut total, mut normal, mut drift, mut energy, mut jacobian) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0, f64::INFINITY);
+        for solid in solids(system) {
+            let largest = solid.largest_displacement();
+            total = total.max(largest.total);
+            normal = normal.max(largest.normal);
+            let mean = solid.drift().x;
+            drift = if mean.abs() > drift.abs() { mean } else { drift };
+            energy += solid.elastic_energy()?;
+            jacobian = jacobian.min(solid.smallest_jacobian().0);
+        }
+        let [narrowest, widest] = width.map_or([f64::NAN; 2], |width| [width.minimum, width.maximum]);
+        Ok([narrowest, widest, gap, total, normal, drift, energy, jacobian])
+    }
+}
+
+/// Puts the values of [`SolidMeter::measure`] into the results of a run.
+pub fn put_solids(summary: &mut Summary, values: &[f64; 8]) {
+    let about = [
+        "in the end (R0)",
+        "in the end (R0)",
+        "between droplet and walls, in the end (R0)",
+        "of the walls, in any direction (R0)",
+        "across their surface (R0)",
+        "mean displacement of a wall along the channel (R0)",
+        "of the walls",
+        "deformed over reference area of a triangle",
+    ];
+    for ((name, value), about) in SolidMeter::NAMES.iter().zip(values).zip(about) {
+        summary.put(name, *value, about);
+    }
+}
+
+/// Writes the solids of a system as triangles (`solids.pvd`).
+#[derive(Debug)]
+pub struct SolidFiles {
+    series: VtkSeries,
+}
+
+impl SolidFiles {
+    /// Files in `directory`.
+    ///
+    /// # Errors
+    /// A directory that cannot be made.
+    pub fn create(directory: &Path) -> Result<Self> {
+        Ok(Self { series: VtkSeries::new(directory, "solids")? })
+    }
+
+    /// Displacement at the points (length); deformed over reference area J, the components of the Cauchy stress, and its
+    /// deviator `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)` in the triangles (force per length); the number of the solid. Does
+    /// nothing for a system without solids.
+    ///
+    /// # Errors
+    /// Files that cannot be written.
+    pub fn write<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<()> {
+        let mut pieces = Pieces::default();
+        solids(system).enumerate().for_each(|(number, solid)| pieces.add(number, solid));
+        if pieces.points.is_empty() {
+            return Ok(());
+        }
+        let component = |k: usize| pieces.stress.iter().map(|s| s[k]).collect::<Vec<f64>>();
+        let [xx, xy, yy] = [0, 1, 2].map(component);
+        let deviator: Vec<f64> =
+            pieces.stress.iter().map(|[xx, xy, yy]| (0.5 * (xx - yy)).hypot(*xy)).collect();
+        let file = VtkFile::triangles(&pieces.points, &pieces.triangles)
+            .point_vectors("displacement", &pieces.displacement)
+            .cell_scalars("J", &pieces.jacobian)
+            .cell_scalars("stress_xx", &xx)
+            .cell_scalars("stress_xy", &xy)
+            .cell_scalars("stress_yy", &yy)
+            .cell_scalars("stress_deviator", &deviator)
+            .cell_scalars("solid", &pieces.solid);
+        self.series.push(system.time(), &file)
+    }
+}
+
+/// Triangles of all solids; those across the seam of a period have points of their own.
+#[derive(Debug, Default)]
+struct Pieces {
+    points: Vec<Vec2>,
+    displacement: Vec<Vec2>,
+    triangles: Vec<[usize; 3]>,
+    jacobian: Vec<f64>,
+    stress: Vec<[f64; 3]>,
+    solid: Vec<f64>,
+}
+
+impl Pieces {
+    fn add(&mut self, number: usize, solid: &AnySolid) {
+        let (mesh, start) = (solid.mesh(), self.points.len());
+        self.points.extend(solid.positions());
+        self.displacement.extend(solid.displacements());
+        let mut images: HashMap<(usize, bool), usize> = HashMap::new();
+        for (triangle, home) in mesh.triangles().iter().enumerate() {
+            let at = mesh.corners(triangle, solid.positions());
+            self.triangles.push([0, 1, 2].map(|k| {
+                let ahead = at[k].x - solid.positions()[home[k]].x;
+                if ahead == 0.0 {
+                    return start + home[k];
+                }
+                *images.entry((home[k], ahead > 0.0)).or_insert_with(|| {
+                    self.points.push(at[k]);
+                    self.displacement.push(self.displacement[start + home[k]]);
+                    self.points.len() - 1
+                })
+            }));
+        }
+        self.jacobian.extend(solid.jacobians());
+        match solid.stresses() {
+            Ok(stresses) => self.stress.extend(stresses.iter().map(|s| [s.m11, s.m12, s.m22])),
+            // With a triangle turned inside out there is none.
+            Err(_) => self.stress.resize(self.jacobian.len(), [f64::NAN; 3]),
+        }
+        self.solid.resize(self.jacobian.len(), number as f64);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motile::{ElasticChannel, Swimmer, elastic_solids::Moduli};
+
+    #[test]
+    fn walls_of_a_channel() {
+        let swimmer = Swimmer { lengths: [4.0, 2.4], spacing: 0.2, ..Swimmer::default() };
+        let (scene, _, _) = ElasticChannel::new(swimmer, Moduli::new(100.0, 200.0).unwrap()).build().unwrap();
+        let system = scene.system();
+        let area = |ring: &[Vec2]| {
+            let next = ring.iter().cycle().skip(1);
+            0.5 * ring.iter().zip(next).map(|(a, b)| a.perp(b)).sum::<f64>()
+        };
+        for solid in solids(system) {
+            let rings = outlines(solid);
+            assert_eq!(rings.len(), 1);
+            assert!((area(&rings[0]) - 4.0 * 1.5).abs() < 1e-9, "{}", area(&rings[0]));
+        }
+        let measured = SolidMeter::of(system).unwrap().measure(system).unwrap();
+        let value = |name: &str| measured[SolidMeter::NAMES.iter().position(|known| *known == name).unwrap()];
+        assert!((value("channel_width_min") - 2.4).abs() < 1e-12 && (value("channel_width_max") - 2.4).abs() < 1e-12);
+        assert!((value("droplet_gap") - 0.2).abs() < 5e-3 && value("elastic_energy") < 1e-18);
+        assert!((value("smallest_jacobian") - 1.0).abs() < 1e-12);
+
+        let mut pieces = Pieces::default();
+        solids(system).enumerate().for_each(|(number, solid)| pieces.add(number, solid));
+        let size = |t: &[usize; 3]| {
+            let [a, b, c] = t.map(|k| pieces.points[k]);
+            0.5 * (b - a).perp(&(c - a))
+        };
+        // None is stretched over the period, and together they are both walls.
+        assert!(pieces.triangles.iter().all(|t| size(t) > 0.0 && size(t) < 0.03));
+        assert!((pieces.triangles.iter().map(size).sum::<f64>() - 2.0 * 4.0 * 1.5).abs() < 1e-9);
+        assert!(pieces.stress.iter().flatten().all(|s| s.abs() < 1e-9));
+    }
+}
