@@ -5,6 +5,7 @@
 //! only that study; `--quick` leaves out the finest grids.
 
 mod channels;
+mod contrast;
 
 use clap::{Parser, ValueEnum};
 use motile::Swimmer;
@@ -34,6 +35,13 @@ enum Study {
     ChannelLength,
     Lateral,
     Regimes,
+    ContrastShapes,
+    ContrastTables,
+    ContrastClose,
+    ContrastField,
+    ContrastIterations,
+    ContrastDecay,
+    ContrastRuns,
 }
 
 /// Compares motile with exact and independently computed values.
@@ -54,7 +62,7 @@ type Run = fn(bool) -> Tables;
 
 fn main() -> anyhow::Result<()> {
     let flags = Flags::parse();
-    let studies: [(Study, Run); 15] = [
+    let studies: [(Study, Run); 22] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -70,6 +78,13 @@ fn main() -> anyhow::Result<()> {
         (Study::ChannelLength, channels::channel_length),
         (Study::Lateral, channels::sideways),
         (Study::Regimes, channels::regimes),
+        (Study::ContrastShapes, contrast::shapes),
+        (Study::ContrastTables, contrast::tables),
+        (Study::ContrastClose, contrast::close),
+        (Study::ContrastField, contrast::field),
+        (Study::ContrastIterations, contrast::iterations),
+        (Study::ContrastDecay, contrast::decay),
+        (Study::ContrastRuns, contrast::runs),
     ];
     for (study, run) in studies {
         if flags.study == Study::All || flags.study == study {

@@ -82,7 +82,7 @@ pub fn fixed_shape<K: Kernel>(
         Ok(case.select(Reference::read(file)?).select("conv", convention(drive)).select("y0", height))
     };
     let mut flow = couple(solver(6.0, 3.0, h, drive)?, kernel, corrected);
-    let mut shape = Shape::new(case, height, h)?;
+    let mut shape = Shape::new(case, height, h, None)?;
     let report = flow.velocities(&mut shape.markers)?;
     let velocities = rows(ReferenceFile::ChannelFixedShapes)?;
     let markers = shape.compare(&velocities.clone().select("kind", "marker"))?;

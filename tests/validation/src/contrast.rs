@@ -5,11 +5,23 @@ use std::f64::consts::TAU;
 use motile::active_interface::Curve;
 use motile::boundary_integral::{BoundaryIntegral, Channel, FluidDomain, PeriodicBox, Settings};
 use motile::ib_core::{
-    CubicQuadratic, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Peskin4, SmearedContrast, Vec2,
+    CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Peskin4, SmearedContrast, Vec2,
 };
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 
 use crate::StudyError;
+
+mod field;
+mod iterations;
+mod layer;
+mod runs;
+mod tables;
+
+pub use field::{FieldErrors, field_errors};
+pub use iterations::{Iterations, cold_iterations, iterations_in_a_run};
+pub use layer::{LayerErrors, layer_errors};
+pub use runs::{Way, growth};
+pub use tables::{RatioTen, ratio_ten};
 
 /// An ellipse with a tension along it and a viscosity inside, in surroundings of viscosity one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,8 +30,10 @@ pub struct Droplet {
     pub centre: [f64; 2],
     /// Half axes along x and y (length).
     pub axes: [f64; 2],
-    /// The tension is `1 + 0.5 cos(mode t)`, t the parameter.
+    /// The tension is `1 + 0.5 cos(mode t - phase)`, t the parameter.
     pub mode: u32,
+    /// The phase (radians).
+    pub phase: f64,
     /// Viscosity inside, that of the surroundings being one.
     pub ratio: f64,
 }
@@ -28,7 +42,7 @@ impl Droplet {
     /// The unit circle with the tension `1 + 0.5 cos(mode t)` at the origin.
     #[must_use]
     pub fn circle(mode: u32, ratio: f64) -> Self {
-        Self { centre: [0.0; 2], axes: [1.0; 2], mode, ratio }
+        Self { centre: [0.0; 2], axes: [1.0; 2], mode, phase: 0.0, ratio }
     }
 
     /// The ellipse (1.3 cos t, sin t/1.3) with the tension `1 + 0.5 cos t` at the origin.
@@ -41,6 +55,37 @@ impl Droplet {
     #[must_use]
     pub fn at(self, x: f64, y: f64) -> Self {
         Self { centre: [x, y], ..self }
+    }
+
+    /// The same with the phase of the tension.
+    #[must_use]
+    pub fn turned(self, phase: f64) -> Self {
+        Self { phase, ..self }
+    }
+
+    /// Scenes with gaps of 0.075, one and a half cells of 0.05: beside the wall of a channel, two droplets, and one beside a
+    /// passive interface. Tensions vary where the gap is.
+    #[must_use]
+    pub fn close_scenes() -> Vec<(&'static str, Region, Vec<Self>)> {
+        let (quarter, x) = (0.25 * TAU, 1.0 + 0.0375);
+        let height = 1.5 - 0.075 - 1.0 / 1.3;
+        let pair = |left: f64, right: f64| {
+            vec![
+                Self::circle(1, left).at(-x, 0.02).turned(quarter),
+                Self::circle(1, right).at(x, -0.01).turned(quarter),
+            ]
+        };
+        vec![
+            ("beside a wall, tension along it", Region::Channel(6.0, 3.0), vec![Self::ellipse(100.0).at(0.1, height)]),
+            (
+                "beside a wall, tension across",
+                Region::Channel(6.0, 3.0),
+                vec![Self::ellipse(100.0).at(0.1, height).turned(quarter)],
+            ),
+            ("off the centre, gap 0.3", Region::Channel(6.0, 3.0), vec![Self::circle(1, 100.0).at(0.1, 0.2)]),
+            ("two droplets", Region::Box(6.0), pair(10.0, 100.0)),
+            ("beside a passive interface", Region::Box(6.0), pair(100.0, 1.0)),
+        ]
     }
 
     fn kind(&self, even: bool) -> MarkerKind {
@@ -57,7 +102,7 @@ impl Droplet {
     }
 
     fn tension(&self, t: f64) -> f64 {
-        1.0 + 0.5 * (f64::from(self.mode) * t).cos()
+        1.0 + 0.5 * (f64::from(self.mode) * t - self.phase).cos()
     }
 
     /// Derivative of tension times tangent by the parameter.
@@ -68,7 +113,7 @@ impl Droplet {
         let speed = tangent.norm();
         let tau = tangent / speed;
         let mode = f64::from(self.mode);
-        let slope = -0.5 * mode * (mode * t).sin();
+        let slope = -0.5 * mode * (mode * t - self.phase).sin();
         slope * tau + self.tension(t) * a * b / (speed * speed) * Vec2::new(-tau.y, tau.x)
     }
 
@@ -176,6 +221,13 @@ impl Exact {
         self.centroids[droplet]
     }
 
+    /// Whether a droplet moves, so that the error of its velocity can be relative to that.
+    #[must_use]
+    pub fn moves(&self, droplet: usize) -> bool {
+        let largest = self.velocities[droplet].iter().map(Vec2::norm).fold(0.0, f64::max);
+        self.centroids[droplet].norm() > 1e-3 * largest
+    }
+
     /// The errors of the immersed boundary method with grid spacing `h` and markers h/2 apart, droplet by droplet.
     ///
     /// # Errors
@@ -189,18 +241,7 @@ impl Exact {
     /// # Errors
     /// As [`Exact::errors`].
     pub fn smeared_errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
-        let cells = |length: f64| (length / h).round() as usize;
-        let flow: Box<dyn Hydrodynamics> = match self.region {
-            Region::Box(side) => {
-                let grid = Grid::periodic(cells(side), cells(side), h)?;
-                Box::new(SmearedContrast::new(PeriodicStokes::new(grid, 1.0)?, Peskin4)?)
-            }
-            Region::Channel(length, width) => {
-                let grid = Grid::channel(cells(length), cells(width), h)?;
-                Box::new(SmearedContrast::new(ChannelStokes::new(grid, 1.0)?, Peskin4)?)
-            }
-        };
-        self.compare(flow, h)
+        self.compare(smeared(self.region, h, 1e-6)?, h)
     }
 
     fn compare(&self, mut flow: Box<dyn Hydrodynamics>, h: f64) -> Result<Vec<Errors>, StudyError> {
@@ -222,8 +263,7 @@ impl Exact {
                 maximum = maximum.max(error);
             }
             let difference = centroid_velocity(positions, velocities) - self.centroids[index];
-            let norm = self.centroids[index].norm();
-            let speed = difference.norm() / if norm > 1e-3 * largest { norm } else { largest };
+            let speed = difference.norm() / if self.moves(index) { self.centroids[index].norm() } else { largest };
             all.push(Errors { speed, rms: (sum / positions.len() as f64).sqrt(), maximum });
         }
         Ok(all)
@@ -243,6 +283,21 @@ fn coupled(region: Region, h: f64) -> Result<Box<dyn Hydrodynamics>, StudyError>
             let grid = Grid::channel(cells(length), cells(width), h)?;
             let grid = grid.with_origin([-0.5 * length, -0.5 * width])?;
             Box::new(ImmersedBoundary::new(ChannelStokes::new(grid, 1.0)?, kernel))
+        }
+    })
+}
+
+/// The thesis' way in a region, viscosity one.
+fn smeared(region: Region, h: f64, tolerance: f64) -> Result<Box<dyn Hydrodynamics>, StudyError> {
+    let cells = |length: f64| (length / h).round() as usize;
+    Ok(match region {
+        Region::Box(side) => {
+            let solver = PeriodicStokes::new(Grid::periodic(cells(side), cells(side), h)?, 1.0)?;
+            Box::new(SmearedContrast::with_tolerance(solver, Peskin4, tolerance)?)
+        }
+        Region::Channel(length, width) => {
+            let solver = ChannelStokes::new(Grid::channel(cells(length), cells(width), h)?, 1.0)?;
+            Box::new(SmearedContrast::with_tolerance(solver, Peskin4, tolerance)?)
         }
     })
 }
@@ -279,83 +334,4 @@ fn interpolate(values: &[Vec2], t: f64) -> Vec2 {
         sum += weight * value;
     }
     sum
-}
-
-/// Errors of the flow away from the markers of a single droplet.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct FieldErrors {
-    /// Velocity, relative to the fastest marker.
-    pub velocity: f64,
-    /// Velocity gradient, relative to the fastest marker over the unit of length.
-    pub gradient: f64,
-    /// Pressure, relative to the range of the sampled pressures.
-    pub pressure: f64,
-}
-
-/// Largest errors of sampled flows at points of a droplet's surroundings that are nearer to the interface than 3h, on the
-/// inside and on the outside, and farther away, inside and outside.
-///
-/// # Errors
-/// A spacing that does not divide the region; what the solvers can fail with.
-pub fn field_errors(region: Region, droplet: &Droplet, h: f64) -> Result<[FieldErrors; 4], StudyError> {
-    let mut points = Vec::new();
-    for k in 0..40 {
-        let t = TAU * (f64::from(k) + 0.37) / 40.0;
-        let [a, b] = droplet.axes;
-        let normal = Vec2::new(b * t.cos(), a * t.sin()).normalize();
-        // The golden ratio spreads the distances over both sides.
-        let fraction = (f64::from(k) * 0.618_033_988_75).fract();
-        let distance = if k % 2 == 0 { 3.0 * h * (2.0 * fraction - 1.0) } else { 1.1 * fraction - 0.5 };
-        points.push((droplet.point(t) + distance * normal, distance));
-    }
-    let places: Vec<Vec2> = points.iter().map(|(point, _)| *point).collect();
-    let (mut exact, mut found) = (vec![FlowSample::default(); 40], vec![FlowSample::default(); 40]);
-    let mut markers = Markers::new();
-    droplet.push_exact(256, &mut markers);
-    let settings = Settings { nodes: 256, tolerance: 1e-10, ..Settings::default() };
-    match region {
-        Region::Box(side) => sample(
-            &mut BoundaryIntegral::new(PeriodicBox::new(side, side)?, 1.0, settings)?,
-            &mut markers,
-            &places,
-            &mut exact,
-        )?,
-        Region::Channel(length, width) => sample(
-            &mut BoundaryIntegral::new(Channel::new(length, width)?, 1.0, settings)?,
-            &mut markers,
-            &places,
-            &mut exact,
-        )?,
-    }
-    let largest = markers.velocities.iter().map(Vec2::norm).fold(0.0, f64::max);
-    let mut markers = Markers::new();
-    droplet.push_even(0.5 * h, &mut markers)?;
-    sample(coupled(region, h)?.as_mut(), &mut markers, &places, &mut found)?;
-    // Pressures are known up to a constant.
-    let count = points.len() as f64;
-    let shift = found.iter().zip(&exact).map(|(a, b)| a.pressure - b.pressure).sum::<f64>() / count;
-    let pressures = exact.iter().map(|sample| sample.pressure);
-    let range = pressures.clone().fold(f64::MIN, f64::max) - pressures.fold(f64::MAX, f64::min);
-    let mut errors = [FieldErrors::default(); 4];
-    for (((_, distance), found), exact) in points.iter().zip(&found).zip(&exact) {
-        let class = usize::from(distance.abs() > 3.0 * h) * 2 + usize::from(*distance > 0.0);
-        let error = &mut errors[class];
-        error.velocity = error.velocity.max((found.velocity - exact.velocity).norm() / largest);
-        for (found, exact) in found.gradient.iter().flatten().zip(exact.gradient.iter().flatten()) {
-            error.gradient = error.gradient.max((found - exact).abs() / largest);
-        }
-        error.pressure = error.pressure.max((found.pressure - exact.pressure - shift).abs() / range);
-    }
-    Ok(errors)
-}
-
-fn sample<H: Hydrodynamics + ?Sized>(
-    flow: &mut H,
-    markers: &mut Markers,
-    points: &[Vec2],
-    out: &mut [FlowSample],
-) -> Result<(), StudyError> {
-    flow.velocities(markers)?;
-    flow.sample(markers, points, out)?;
-    Ok(())
 }

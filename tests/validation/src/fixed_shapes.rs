@@ -41,6 +41,12 @@ impl Case {
         if self == Self::EllipseUniform { 1.0 } else { 1.0 + 0.5 * t.cos() }
     }
 
+    /// Whether a point lies inside the shape centred on the origin.
+    pub(crate) fn contains(self, point: Vec2) -> bool {
+        let a = self.axis();
+        (point.x / a).hypot(point.y * a) < 1.0
+    }
+
     fn reference(self) -> Result<Reference, StudyError> {
         let all = Reference::read(ReferenceFile::FixedShapes)?;
         Ok(self.select(all).select("L", "6").select("kind", "marker"))
@@ -71,7 +77,7 @@ pub fn errors<K: Kernel>(kernel: &K, corrected: bool, h: f64, case: Case) -> Res
     let cells = (6.0 / h).round() as usize;
     let solver = PeriodicStokes::new(Grid::periodic(cells, cells, h)?, 1.0)?;
     let mut flow = couple(solver, kernel, corrected);
-    let mut shape = Shape::new(case, 0.0, h)?;
+    let mut shape = Shape::new(case, 0.0, h, None)?;
     flow.velocities(&mut shape.markers)?;
     shape.compare(&case.reference()?)
 }
@@ -93,15 +99,15 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// The shape with its centre at the height `height`, markers h/2 apart.
-    pub(crate) fn new(case: Case, height: f64, h: f64) -> Result<Self, StudyError> {
+    /// The shape with its centre at the height `height`, markers h/2 apart, another viscosity inside if there is one.
+    pub(crate) fn new(case: Case, height: f64, h: f64, viscosity_inside: Option<f64>) -> Result<Self, StudyError> {
         let a = case.axis();
         let curve = if case == Case::Circle { Curve::circle(1.0)? } else { Curve::ellipse(a, 1.0 / a)? };
         let curve = curve.translated(Vec2::new(0.0, height));
         // A multiple of eight puts markers on the reference points of the circle.
         let count = 8 * (curve.perimeter() / (4.0 * h)).round() as usize;
         let mut markers = Markers::new();
-        markers.push_group(count, MarkerKind::Interface { viscosity_inside: None });
+        markers.push_group(count, MarkerKind::Interface { viscosity_inside });
         markers.positions.copy_from_slice(&curve.markers(count)?);
         let mut shape = Self { markers, case, height };
         for k in 0..count {

@@ -37,7 +37,7 @@ impl Mode {
     /// Its growth rate (1/time) in free space: thesis (2.18), (2.19).
     #[must_use]
     pub fn theory(self, swimmer: &Swimmer) -> f64 {
-        let sum = 2.0 * swimmer.viscosity;
+        let sum = swimmer.viscosity + swimmer.viscosity_inside.unwrap_or(swimmer.viscosity);
         let (r, c0) = (swimmer.radius, swimmer.mean_concentration);
         match self {
             Self::Concentration(k) => {
@@ -61,6 +61,15 @@ pub fn rate_in_box(swimmer: &Swimmer, mode: Mode) -> Result<f64, StudyError> {
 
 /// Amplitudes of a mode at the start and at the end of a run.
 fn amplitudes(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<(f64, f64), StudyError> {
+    let mut scene = swimmer.scene()?;
+    let droplet: Handle<ActiveDroplet> = scene.add(perturbed(swimmer, mode, epsilon)?);
+    let start = amplitude(scene.body(droplet), mode)?;
+    scene.run(DURATION).step_size(StepSize::Fixed(DURATION / 20.0)).go()?;
+    Ok((start, amplitude(scene.body(droplet), mode)?))
+}
+
+/// A round droplet with a small perturbation.
+pub(crate) fn perturbed(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<ActiveDroplet, StudyError> {
     let r = swimmer.radius;
     let curve = match mode {
         Mode::Concentration(_) => Curve::circle(r)?,
@@ -90,11 +99,10 @@ fn amplitudes(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<(f64, f64),
         .with_motion(swimmer.motion)
         .with_flux(swimmer.flux)?
         .with_area_constraint(swimmer.area_constraint);
-    let mut scene = swimmer.scene()?;
-    let droplet: Handle<ActiveDroplet> = scene.add(droplet);
-    let start = amplitude(scene.body(droplet), mode)?;
-    scene.run(DURATION).step_size(StepSize::Fixed(DURATION / 20.0)).go()?;
-    Ok((start, amplitude(scene.body(droplet), mode)?))
+    Ok(match swimmer.viscosity_inside {
+        Some(inside) => droplet.with_viscosity_inside(inside)?,
+        None => droplet,
+    })
 }
 
 /// The growth rate without a box: from boxes of 6, 12 and 24 radii, whose effect is a series in 1/L^2.
@@ -114,7 +122,7 @@ pub fn rate(swimmer: &Swimmer, mode: Mode) -> Result<f64, StudyError> {
 }
 
 /// The cosine coefficient of the perturbed quantity, over the polar angle about the centroid.
-fn amplitude(droplet: &ActiveDroplet, mode: Mode) -> Result<f64, StudyError> {
+pub(crate) fn amplitude(droplet: &ActiveDroplet, mode: Mode) -> Result<f64, StudyError> {
     let markers = droplet.markers();
     let centre = polygon_moments(markers)?.centroid;
     let count = markers.len();

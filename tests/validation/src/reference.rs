@@ -9,6 +9,8 @@ pub enum ReferenceFile {
     FixedShapes,
     /// Velocities on fixed shapes, viscosity inside ten times that outside.
     FixedShapesRatio10,
+    /// Force moments of fixed shapes, viscosity inside ten times that outside.
+    MomentsRatio10,
     /// Relaxation of an ellipse.
     EllipseRelaxation,
     /// Steady swimmers in a box.
@@ -34,6 +36,7 @@ impl ReferenceFile {
         match self {
             Self::FixedShapes => include_str!("../reference/fixed_shape_velocities_equal_viscosity.csv"),
             Self::FixedShapesRatio10 => include_str!("../reference/fixed_shape_velocities_ratio_10.csv"),
+            Self::MomentsRatio10 => include_str!("../reference/fixed_shape_moments_ratio_10.csv"),
             Self::SteadySwimmerContrast => include_str!("../reference/steady_swimmer_contrast_box6.csv"),
             Self::EllipseRelaxation => include_str!("../reference/ellipse_relaxation_box6.csv"),
             Self::SteadySwimmers => include_str!("../reference/steady_swimmer_box6.csv"),
