@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ib_core::{BandLimit, Hydrodynamics, Medium, StepLimit, System, Vec2};
+use ib_core::{BandLimit, Hydrodynamics, Medium, StepCause, StepLimit, System, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::filter::WiggleFilter;
@@ -377,25 +377,26 @@ impl ActiveDroplet {
     pub(crate) fn limits(&self, medium: &Medium) -> Vec<StepLimit> {
         let viscosity = self.mean_viscosity(medium);
         let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
-        let mut limits = vec![StepLimit {
-            dt: 2.0 * viscosity / (medium.interface_stiffness * tension),
-            reason: "the surface tension",
-        }];
+        let stiffness = medium.interface_stiffness * tension;
+        let mut limits = vec![StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension")];
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
-            limits.push(StepLimit { dt: 2.0 / relaxation, reason: "the relaxation of the marker spacing" });
+            limits.push(StepLimit::decay(2.0 / relaxation, "the relaxation of the marker spacing"));
         }
         if self.transport.is_some() {
-            let scale = finest_response(medium);
             // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.
             let coupling = self.concentrations.iter().map(|&c| c * self.tension.slope(c).abs()).fold(0.0_f64, f64::max);
-            let remainder = if self.stabilised { 8.0 } else { 2.5 };
-            limits.push(StepLimit {
-                dt: remainder * scale * viscosity / coupling,
-                reason: "the coupling of concentration and tension",
-            });
+            let unit = finest_response(medium) * viscosity / coupling;
+            let (remainder, cause) = if self.stabilised {
+                (8.0, StepCause::Stabilised { bare: 2.5 * unit })
+            } else {
+                (2.5, StepCause::Decay)
+            };
+            let reason = "the coupling of concentration and tension";
+            limits.push(StepLimit { dt: remainder * unit, reason, cause });
             let slip = self.slip.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
             // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, holds up to about two segments a step.
-            limits.push(StepLimit { dt: 1.8 * self.geometry.mean_length() / slip, reason: "the particles' transport" });
+            let dt = 1.8 * self.geometry.mean_length() / slip;
+            limits.push(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
         }
         limits
     }

@@ -1,11 +1,13 @@
 //! The droplet as a body of a scene.
 
-use ib_core::{Body, BodyError, MarkerKind, Medium, StepLimit, Vec2};
+use std::f64::consts::PI;
+
+use ib_core::{Body, BodyError, MarkerKind, Medium, Record, StepInfo, StepLimit, Vec2};
 
 use crate::droplet::{MINIMUM_MARKERS, finest_response};
 use crate::geometry::{equidistribute, outward, signed_area};
 use crate::redistribution::redistribute;
-use crate::{ActiveDroplet, InterfaceError, Motion, Transport, repair_positivity};
+use crate::{ActiveDroplet, InterfaceError, Motion, Repair, Transport, repair_positivity};
 
 impl From<InterfaceError> for BodyError {
     fn from(error: InterfaceError) -> Self {
@@ -116,13 +118,13 @@ impl Body for ActiveDroplet {
         }
     }
 
-    fn begin_step(&mut self, medium: &Medium, _dt: f64) -> Result<(), BodyError> {
+    fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
         let count = self.markers.len();
         self.fit(medium)?;
         self.diffusivities.resize(count, 0.0);
         self.diffusivities.fill(self.diffusion);
         self.stabiliser.clear();
-        if self.transport.is_none() || !self.stabilised {
+        if self.transport.is_none() || !(self.stabilised && step.stabilised) {
             return Ok(());
         }
         self.stabiliser.resize(count, 0.0);
@@ -204,6 +206,48 @@ impl Body for ActiveDroplet {
 
     fn step_limits(&self, medium: &Medium) -> Vec<StepLimit> {
         self.limits(medium)
+    }
+
+    /// The radius of a circle of the same area for positions, the mean for particle numbers.
+    fn write_scales(&self, scales: &mut [f64]) {
+        let (positions, numbers) = scales.split_at_mut(2 * self.markers.len());
+        positions.fill((self.initial_area / PI).sqrt());
+        let mean = self.numbers.iter().sum::<f64>() / self.numbers.len().max(1) as f64;
+        numbers.fill(if mean > 0.0 { mean } else { 1.0 });
+    }
+
+    fn save(&self) -> Record {
+        let Self { target_spacing, initial_area, repair, redistributed, .. } = self;
+        let mut reals = vec![0.0; self.state_len()];
+        self.write_state(&mut reals);
+        reals.extend_from_slice(&self.slip);
+        reals.extend([*target_spacing, *initial_area, repair.moved]);
+        let counts = [self.markers.len(), repair.segments, repair.furthest, redistributed.0, redistributed.1];
+        Record { reals, counts: counts.map(|count| count as u64).to_vec() }
+    }
+
+    fn load(&mut self, medium: &Medium, record: &Record) -> Result<(), BodyError> {
+        let [count, segments, furthest, inserted, removed] = record.counts_of("an active droplet")?;
+        let per_marker = if self.transport.is_some() { 4 } else { 3 };
+        let found = record.reals.len();
+        let count = usize::try_from(count).unwrap_or(usize::MAX).min(found);
+        let expected = per_marker * count + 3;
+        if count < MINIMUM_MARKERS || expected != found {
+            return Err(BodyError::ForeignRecord { expected, found });
+        }
+        if let Some(index) = record.reals.iter().position(|value| !value.is_finite()) {
+            return Err(BodyError::NonFinite { what: "entry of the record", index, value: record.reals[index] });
+        }
+        let (state, rest) = record.reals.split_at((per_marker - 1) * count);
+        let (slip, numbers) = rest.split_at(count);
+        self.resize(count)?;
+        self.read_state(state)?;
+        self.fit(medium)?;
+        self.slip.copy_from_slice(slip);
+        (self.target_spacing, self.initial_area) = (numbers[0], numbers[1]);
+        self.repair = Repair { segments: segments as usize, moved: numbers[2], furthest: furthest as usize };
+        self.redistributed = (inserted as usize, removed as usize);
+        Ok(())
     }
 }
 

@@ -91,7 +91,7 @@ impl<F: ElasticForces> Body for Solid<F> {
         } else {
             (elastic + self.tether_stiffness(medium), "the elastic moduli and tethers")
         };
-        vec![StepLimit { dt: 2.0 * medium.viscosity / stiffness, reason }]
+        vec![StepLimit::decay(2.0 * medium.viscosity / stiffness, reason)]
     }
 }
 

@@ -2,7 +2,22 @@
 
 use std::any::Any;
 
-use crate::{BodyError, MarkerKind, Medium, Vec2};
+use crate::{BodyError, MarkerKind, Medium, Record, Vec2};
+
+/// What a bound on the time step comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepCause {
+    /// A mode that decays at the rate `2/dt`: an integrator with a longer interval of stability takes longer steps.
+    Decay,
+    /// A mode that a stabiliser ([`StepInfo::stabilised`]) has slowed down to what this bound allows, and that decays at the rate
+    /// `2/bare` without it.
+    Stabilised {
+        /// The bound without the stabiliser (time).
+        bare: f64,
+    },
+    /// Something that is carried along, which no integrator here allows longer steps for.
+    Transport,
+}
 
 /// A bound on the time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,6 +26,46 @@ pub struct StepLimit {
     pub dt: f64,
     /// What sets it, as it reads after "set by".
     pub reason: &'static str,
+    /// How it depends on the integrator.
+    pub cause: StepCause,
+}
+
+impl StepLimit {
+    /// The bound for a mode that decays at the rate `2/dt`.
+    #[must_use]
+    pub fn decay(dt: f64, reason: &'static str) -> Self {
+        Self { dt, reason, cause: StepCause::Decay }
+    }
+
+    /// The bound (time) for an integrator with that interval of stability, with or without the bodies' stabilisers.
+    #[must_use]
+    pub fn for_interval(&self, interval: f64, stabilised: bool) -> f64 {
+        match self.cause {
+            StepCause::Decay => 0.5 * interval * self.dt,
+            StepCause::Stabilised { bare } if !stabilised => 0.5 * interval * bare,
+            StepCause::Stabilised { .. } | StepCause::Transport => self.dt,
+        }
+    }
+
+    /// The rate of decay without a stabiliser (1/time); 0 for what does not decay.
+    #[must_use]
+    pub fn decay_rate(&self) -> f64 {
+        match self.cause {
+            StepCause::Decay => 2.0 / self.dt,
+            StepCause::Stabilised { bare } => 2.0 / bare,
+            StepCause::Transport => 0.0,
+        }
+    }
+}
+
+/// A step that is about to be taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepInfo {
+    /// Its length (time).
+    pub dt: f64,
+    /// Whether the body is to slow down its stiff couplings by adding a diffusion to its implicit part and taking it off the explicit
+    /// one.
+    pub stabilised: bool,
 }
 
 /// A body of a scene.
@@ -58,7 +113,7 @@ pub trait Body: Any + std::fmt::Debug + Send {
     ///
     /// # Errors
     /// A state from which no step can start.
-    fn begin_step(&mut self, _medium: &Medium, _dt: f64) -> Result<(), BodyError> {
+    fn begin_step(&mut self, _medium: &Medium, _step: StepInfo) -> Result<(), BodyError> {
         Ok(())
     }
 
@@ -80,4 +135,29 @@ pub trait Body: Any + std::fmt::Debug + Send {
 
     /// The largest stable time steps of the explicit midpoint rule at the present state, one for each reason there is.
     fn step_limits(&self, medium: &Medium) -> Vec<StepLimit>;
+
+    /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive): the radius of a
+    /// droplet for positions, say. By default all are one.
+    fn write_scales(&self, scales: &mut [f64]) {
+        scales.fill(1.0);
+    }
+
+    /// Everything from which [`Body::load`] makes the present state again, bit for bit: by default what [`Body::write_state`]
+    /// writes. A body whose next step depends on more must save that too.
+    fn save(&self) -> Record {
+        let mut reals = vec![0.0; self.state_len()];
+        self.write_state(&mut reals);
+        Record { reals, counts: Vec::new() }
+    }
+
+    /// Takes back what [`Body::save`] of a body made in the same way wrote.
+    ///
+    /// # Errors
+    /// A record of another body, or a state that cannot be.
+    fn load(&mut self, _medium: &Medium, record: &Record) -> Result<(), BodyError> {
+        if record.reals.len() != self.state_len() {
+            return Err(BodyError::ForeignRecord { expected: self.state_len(), found: record.reals.len() });
+        }
+        self.read_state(&record.reals)
+    }
 }

@@ -116,17 +116,29 @@ pub enum BodyError {
         /// What is allowed.
         bound: f64,
     },
+    /// A record of another body, or of one made otherwise.
+    #[error(
+        "a record of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
+    )]
+    ForeignRecord {
+        /// Numbers needed.
+        expected: usize,
+        /// Numbers found.
+        found: usize,
+    },
     /// An error of the body's own.
     #[error(transparent)]
     Other(Box<dyn std::error::Error + Send + Sync>),
 }
 
 /// A scene could not be made or advanced. After an error in a step the scene holds the state before that step.
+///
+/// Causes are in the chain of sources and not repeated in the text; [`SceneError::explanation`] tells all.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
     /// The flow could not be computed.
-    #[error("at time {time}: {source}")]
+    #[error("at time {time} the flow could not be computed")]
     Flow {
         /// Time at the start of the step.
         time: f64,
@@ -134,7 +146,7 @@ pub enum SceneError {
         source: FlowError,
     },
     /// A body went wrong.
-    #[error("at time {time}, {body}: {source}")]
+    #[error("at time {time} {body} went wrong")]
     Body {
         /// Time at the start of the step.
         time: f64,
@@ -142,6 +154,42 @@ pub enum SceneError {
         body: String,
         /// Why.
         source: BodyError,
+    },
+    /// Two interfaces, or one and its own image in a periodic domain, have come to overlap.
+    #[error(
+        "at time {time} marker {marker} of {body} is {depth:.3e} inside {other}, more than {allowed:.3e}: use a smaller time step, a finer \
+         grid or a repulsion between the interfaces"
+    )]
+    Crossing {
+        /// Time at the start of the step.
+        time: f64,
+        /// The body whose marker it is.
+        body: String,
+        /// Number of the marker in the body.
+        marker: usize,
+        /// The body that it is in.
+        other: String,
+        /// How deep (length).
+        depth: f64,
+        /// What is allowed (length).
+        allowed: f64,
+    },
+    /// A gap is narrower than the bound that was set.
+    #[error(
+        "at time {time} the gap between {body} and {other} is {gap:.3e}, below the bound of {bound:.3e}: use a finer grid, or a lower bound \
+         if the film between them does not matter"
+    )]
+    Gap {
+        /// Time at the start of the step.
+        time: f64,
+        /// One side of the gap.
+        body: String,
+        /// Its other side.
+        other: String,
+        /// The gap (length).
+        gap: f64,
+        /// The bound (length).
+        bound: f64,
     },
     /// A time step above the stable one.
     #[error("time step {dt} is above the stable {limit:.3e} set by {reason} of {body}: use a smaller one")]
@@ -155,6 +203,29 @@ pub enum SceneError {
         /// Which body.
         body: String,
     },
+    /// Adaptive steps have become shorter than the bound that was set.
+    #[error(
+        "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: the state cannot be followed any \
+         further with this tolerance and resolution; refine the grid and the markers, or look at the last state for what goes wrong"
+    )]
+    Stagnation {
+        /// When (time).
+        time: f64,
+        /// The step that would be needed (time).
+        dt: f64,
+        /// The bound (time).
+        least: f64,
+        /// What made the last step fail, unless it was its error alone.
+        source: Option<Box<SceneError>>,
+    },
+    /// A run has taken all the steps it was allowed.
+    #[error("at time {time} all {most} steps that the run was allowed are taken: allow more of them or longer ones")]
+    TooManySteps {
+        /// When (time).
+        time: f64,
+        /// The number allowed.
+        most: usize,
+    },
     /// A time or time step that makes no sense.
     #[error("{name} is {value}: give {remedy}")]
     Time {
@@ -165,12 +236,36 @@ pub enum SceneError {
         /// What to give.
         remedy: &'static str,
     },
+    /// A checkpoint that is not of this scene.
+    #[error("the checkpoint is of another scene: {problem}")]
+    ForeignCheckpoint {
+        /// How it differs.
+        problem: String,
+    },
     /// An observer failed.
-    #[error("an observer failed at time {time}: {source}")]
+    #[error("an observer failed at time {time}")]
     Observer {
         /// When.
         time: f64,
         /// Why.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+}
+
+impl SceneError {
+    /// The error and its causes in one sentence.
+    #[must_use]
+    pub fn explanation(&self) -> String {
+        let mut told = self.to_string();
+        let mut source = std::error::Error::source(self);
+        while let Some(cause) = source {
+            let text = cause.to_string();
+            // A transparent error says what its cause says.
+            if !told.ends_with(&text) {
+                told = format!("{told}: {text}");
+            }
+            source = cause.source();
+        }
+        told
+    }
 }

@@ -1,6 +1,24 @@
 //! Time steps.
 
-use crate::{Hydrodynamics, SceneError, System};
+mod chebyshev;
+mod midpoint;
+mod spectral_radius;
+
+pub use chebyshev::{RungeKuttaChebyshev, SpectralEstimate};
+pub use midpoint::Midpoint;
+
+use crate::{Hydrodynamics, Record, SceneError, System};
+
+/// Work of an integrator since the start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct IntegratorWork {
+    /// Stages of all steps, each with one evaluation of the flow.
+    pub stages: usize,
+    /// Most stages of a step.
+    pub most_stages: usize,
+    /// Evaluations spent on estimates of the spectral radius.
+    pub estimates: usize,
+}
 
 /// Advances the state of all bodies by one step.
 pub trait Integrator: std::fmt::Debug + Send {
@@ -15,41 +33,26 @@ pub trait Integrator: std::fmt::Debug + Send {
     /// Length of the interval of stability on the negative real axis: a mode that decays at the rate r is stable for
     /// `dt < interval / r`. No dimension; 2 for the midpoint rule, for which bodies estimate their limits.
     fn stability_interval(&self) -> f64;
-}
 
-/// The midpoint rule (thesis (2.37)), second order, two evaluations a step, with the bodies' implicit parts by backward
-/// Euler in the first half step and by the trapezoidal rule over the whole step:
-///
-/// `y_m = y + dt/2 (f(y) + L y_m)`, `y' = y + dt f(y_m) + dt/2 (L(y) y + L(y') y')`.
-#[derive(Debug, Clone, Default)]
-pub struct Midpoint {
-    start: Vec<f64>,
-    stage: Vec<f64>,
-    rate: Vec<f64>,
-}
-
-impl Integrator for Midpoint {
-    fn step<H: Hydrodynamics>(&mut self, system: &mut System<H>, dt: f64) -> Result<(), SceneError> {
-        system.write_state(&mut self.start);
-        self.rate.resize(self.start.len(), 0.0);
-        self.stage.resize(self.start.len(), 0.0);
-
-        system.present_rate(&mut self.rate)?;
-        for ((y, y0), f) in self.stage.iter_mut().zip(&self.start).zip(&self.rate) {
-            *y = y0 + 0.5 * dt * f;
-        }
-        system.solve_implicit(0.5 * dt, &mut self.stage);
-
-        system.rate(&self.stage, &mut self.rate)?;
-        for ((y, y0), f) in self.stage.iter_mut().zip(&self.start).zip(&self.rate) {
-            *y = y0 + dt * f;
-        }
-        system.add_implicit(&self.start, 0.5 * dt, &mut self.stage);
-        system.solve_implicit(0.5 * dt, &mut self.stage);
-        system.read_state(&self.stage)
+    /// Whether bodies are to make their stiff couplings implicit by adding and subtracting a diffusion
+    /// ([`crate::StepInfo::stabilised`]); an integrator with a long interval of stability does better without.
+    fn stabilised(&self) -> bool {
+        true
     }
 
-    fn stability_interval(&self) -> f64 {
-        2.0
+    /// Work since the start.
+    fn work(&self) -> IntegratorWork {
+        IntegratorWork::default()
+    }
+
+    /// Writes what it keeps from step to step, so that it can go on bit for bit; most keep nothing.
+    fn save(&self, _record: &mut Record) {}
+
+    /// Takes back what [`Integrator::save`] wrote.
+    ///
+    /// # Errors
+    /// A record that another kind of integrator wrote.
+    fn load(&mut self, _record: &Record) -> Result<(), SceneError> {
+        Ok(())
     }
 }

@@ -1,6 +1,6 @@
 //! Runs of many steps, watched by observers.
 
-use crate::{Hydrodynamics, Integrator, Scene, SceneError, System};
+use crate::{Hydrodynamics, Integrator, Scene, SceneError, StepSize, System};
 
 /// Looks on while a scene runs. Closures `FnMut(&mut System<H>) -> Result<(), E>` are observers.
 pub trait Observer<H> {
@@ -31,22 +31,6 @@ pub enum Every {
     Time(f64),
 }
 
-/// How long the steps of a run are.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StepSize {
-    /// All of this length (time); refused at the start if above the stability limit, and an error during the run if the
-    /// limit falls below it.
-    Fixed(f64),
-    /// This fraction of the stability limit at each step.
-    OfLimit(f64),
-}
-
-impl Default for StepSize {
-    fn default() -> Self {
-        Self::OfLimit(0.5)
-    }
-}
-
 struct Watch<'a, H> {
     every: Every,
     due: f64,
@@ -58,6 +42,8 @@ pub struct Run<'a, H, I> {
     scene: &'a mut Scene<H, I>,
     until: f64,
     step: StepSize,
+    least: Option<f64>,
+    most: usize,
     watches: Vec<Watch<'a, H>>,
 }
 
@@ -67,19 +53,38 @@ impl<H: std::fmt::Debug, I: std::fmt::Debug> std::fmt::Debug for Run<'_, H, I> {
     }
 }
 
-/// Steps between two checks of the stability limits during a run: the limits change with the state, slowly.
-const STEPS_PER_CHECK: usize = 20;
+/// Adaptive steps take at most this part of the stability limit.
+const OF_LIMIT: f64 = 0.9;
+/// The first adaptive step, as part of the stability limit.
+const FIRST: f64 = 0.05;
+/// The shortest step unless the run says otherwise, as part of the first limit.
+const LEAST: f64 = 1e-6;
 
 impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     pub(crate) fn new(scene: &'a mut Scene<H, I>, until: f64) -> Self {
         let step = scene.step_size();
-        Self { scene, until, step, watches: Vec::new() }
+        Self { scene, until, step, least: None, most: usize::MAX, watches: Vec::new() }
     }
 
     /// Sets the time step (default: the scene's, [`Scene::step_size`]).
     #[must_use]
     pub fn step_size(mut self, step: StepSize) -> Self {
         self.step = step;
+        self
+    }
+
+    /// Sets the shortest step (time) that automatic and adaptive steps may fall to; below it the run ends with
+    /// [`SceneError::Stagnation`]. By default a millionth of the stability limit at the start.
+    #[must_use]
+    pub fn least_step(mut self, least: f64) -> Self {
+        self.least = Some(least);
+        self
+    }
+
+    /// Sets the number of steps after which the run ends with [`SceneError::TooManySteps`]; by default there is none.
+    #[must_use]
+    pub fn most_steps(mut self, most: usize) -> Self {
+        self.most = most;
         self
     }
 
@@ -104,36 +109,91 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
             }
         }
         self.notify(true)?;
-        let mut taken = 0_usize;
+        let least = self.least.or_else(|| self.scene.step_limit().map(|(limit, ..)| LEAST * limit)).unwrap_or(0.0);
         // A remainder below this is round-off of the summed steps.
         let negligible = 1e-9 * self.until.abs().max(f64::MIN_POSITIVE);
+        let mut taken = 0_usize;
         while self.until - self.scene.time() > negligible {
-            let remaining = self.until - self.scene.time();
-            let dt = match self.step {
-                StepSize::Fixed(dt) => {
-                    if taken > 0 && taken.is_multiple_of(STEPS_PER_CHECK) {
-                        self.scene.check_step(dt)?;
-                    }
-                    dt
-                }
-                StepSize::OfLimit(fraction) => match self.scene.system().step_limit() {
-                    Some((limit, _)) if limit.dt.is_finite() => fraction * limit.dt,
-                    _ => remaining,
-                },
-            };
-            // The last two steps share what is left, so that none is tiny.
-            let dt = if remaining <= dt * (1.0 + 1e-9) {
-                remaining
-            } else if remaining < 2.0 * dt && matches!(self.step, StepSize::OfLimit(_)) {
-                0.5 * remaining
-            } else {
-                dt
-            };
-            self.scene.step(dt)?;
+            if taken >= self.most {
+                return Err(SceneError::TooManySteps { time: self.scene.time(), most: self.most });
+            }
+            self.advance(least)?;
             taken += 1;
             self.notify(false)?;
         }
         Ok(())
+    }
+
+    /// Takes one step, as often as it needs.
+    fn advance(&mut self, least: f64) -> Result<(), SceneError> {
+        let mut cause = None;
+        loop {
+            let (wanted, reason, body) = self.length()?;
+            let time = self.scene.time();
+            let remaining = self.until - time;
+            // The last two steps share what is left, so that none is tiny.
+            let dt = if remaining <= wanted * (1.0 + 1e-9) {
+                remaining
+            } else if remaining < 2.0 * wanted && !matches!(self.step, StepSize::Fixed(_)) {
+                0.5 * remaining
+            } else {
+                wanted
+            };
+            if !matches!(self.step, StepSize::Fixed(_)) && (wanted.is_nan() || wanted < least) {
+                return Err(SceneError::Stagnation { time, dt: wanted, least, source: cause.map(Box::new) });
+            }
+            let StepSize::Adaptive { tolerance } = self.step else {
+                self.scene.step(dt)?;
+                self.scene.report.count(dt, dt < wanted, reason, &body);
+                return Ok(());
+            };
+            match self.scene.attempt(dt, Some(tolerance)) {
+                Ok(error) => {
+                    let shortened = dt < wanted;
+                    let next = self.scene.control.next;
+                    if self.scene.control.judge(dt, error) {
+                        if shortened {
+                            // The end of the run says nothing about the steps that another run goes on with.
+                            self.scene.control.next = next.max(self.scene.control.next);
+                        }
+                        self.scene.report.count(dt, shortened, reason, &body);
+                        return Ok(());
+                    }
+                    self.scene.report.rejections += 1;
+                    cause = None;
+                }
+                Err(error @ (SceneError::Flow { .. } | SceneError::Body { .. } | SceneError::Crossing { .. })) => {
+                    self.scene.report.failures += 1;
+                    self.scene.control.retreat(dt);
+                    cause = Some(error);
+                }
+                Err(error) => return Err(error),
+            }
+        }
+    }
+
+    /// The length of the next step (time) but for the end of the run, what sets it, and of which body.
+    fn length(&mut self) -> Result<(f64, &'static str, String), SceneError> {
+        let remaining = self.until - self.scene.time();
+        let nothing = || (remaining, "the end of the run", String::new());
+        if let StepSize::Fixed(dt) = self.step {
+            self.scene.check_step(dt)?;
+            return Ok((dt, "the run", String::new()));
+        }
+        let limit = self.scene.step_limit().filter(|(dt, ..)| !dt.is_infinite());
+        let limit = limit.map(|(dt, reason, body)| (dt, reason, body.to_owned()));
+        let part = if let StepSize::OfLimit(fraction) = self.step { fraction } else { OF_LIMIT };
+        let stable = limit.map_or_else(nothing, |(dt, reason, body)| (part * dt, reason, body));
+        if matches!(self.step, StepSize::Adaptive { .. }) {
+            let control = &mut self.scene.control;
+            if control.next <= 0.0 {
+                control.next = FIRST * stable.0;
+            }
+            if control.next < stable.0 {
+                return Ok((control.next, "accuracy", String::new()));
+            }
+        }
+        Ok(stable)
     }
 
     fn check(&self) -> Result<(), SceneError> {
@@ -141,6 +201,15 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         if !(self.until.is_finite() && self.until >= time) {
             let remedy = "a finite time that is not in the past";
             return Err(SceneError::Time { name: "the end of the run", value: self.until, remedy });
+        }
+        if let Some(value) = self.least
+            && !(value.is_finite() && value >= 0.0)
+        {
+            return Err(SceneError::Time {
+                name: "the shortest step",
+                value,
+                remedy: "a finite number that is not negative",
+            });
         }
         for watch in &self.watches {
             if let Every::Time(value) = watch.every
@@ -156,7 +225,11 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
                 let remedy = "a number above 0 and at most 1";
                 Err(SceneError::Time { name: "the fraction of the stable step", value: fraction, remedy })
             }
-            StepSize::OfLimit(_) => Ok(()),
+            StepSize::Adaptive { tolerance } if !(tolerance > 0.0 && tolerance < 1.0) => {
+                let remedy = "a number above 0 and below 1";
+                Err(SceneError::Time { name: "the tolerance of the steps", value: tolerance, remedy })
+            }
+            StepSize::OfLimit(_) | StepSize::Adaptive { .. } => Ok(()),
         }
     }
 

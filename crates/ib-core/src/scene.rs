@@ -2,7 +2,10 @@
 
 use std::marker::PhantomData;
 
-use crate::{Body, Hydrodynamics, Integrator, Midpoint, Run, SceneError, StepSize, System};
+use crate::step_control::StepControl;
+use crate::{
+    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Run, SceneError, StepInfo, StepReport, StepSize, System,
+};
 
 /// Where a body of type B stands in its scene.
 pub struct Handle<B> {
@@ -37,9 +40,27 @@ pub struct Scene<H, I = Midpoint> {
     system: System<H>,
     integrator: I,
     step_size: StepSize,
+    pub(crate) control: StepControl,
+    pub(crate) report: StepReport,
     saved: Vec<f64>,
     saved_lengths: Vec<usize>,
+    error: ErrorEstimate,
 }
+
+/// What the error of a step is estimated from.
+#[derive(Debug, Default)]
+struct ErrorEstimate {
+    rate_before: Vec<f64>,
+    /// The state before anything is done at the end of the step, and the rate after.
+    after: Vec<f64>,
+    rate_after: Vec<f64>,
+    lengths_after: Vec<usize>,
+    scales: Vec<f64>,
+}
+
+/// The defect of the trapezoidal rule, twelvefold, is dt^3 times the third derivative; the integrators' errors are about this part
+/// of that.
+const DEFECT: f64 = 1.0 / 15.0;
 
 impl<H: Hydrodynamics> Scene<H> {
     /// A scene without bodies, advanced by the midpoint rule.
@@ -57,9 +78,20 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             system: System::new(hydrodynamics),
             integrator,
             step_size: StepSize::default(),
+            control: StepControl::default(),
+            report: StepReport::default(),
             saved: Vec::new(),
             saved_lengths: Vec::new(),
+            error: ErrorEstimate::default(),
         }
+    }
+
+    /// The same scene, from its present state on, advanced by another integrator. Handles stay valid.
+    #[must_use]
+    pub fn advanced_by<J: Integrator>(self, integrator: J) -> Scene<H, J> {
+        let Self { system, step_size, report, saved, saved_lengths, error, .. } = self;
+        let control = StepControl::default();
+        Scene { system, integrator, step_size, control, report, saved, saved_lengths, error }
     }
 
     /// Adds a body; the handle gives it back.
@@ -115,38 +147,101 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         if !(dt.is_finite() && dt > 0.0) {
             return Err(SceneError::Time { name: "the time step", value: dt, remedy: "a positive finite number" });
         }
-        // Bodies estimate for the midpoint rule, whose interval is 2.
-        let scale = self.integrator.stability_interval() / 2.0;
-        if let Some((limit, body)) = self.system.step_limit()
-            && dt > limit.dt * scale
+        if let Some((limit, reason, body)) = self.step_limit()
+            && dt > limit
         {
-            let body = body.to_owned();
-            return Err(SceneError::TimeStepTooLarge { dt, limit: limit.dt * scale, reason: limit.reason, body });
+            return Err(SceneError::TimeStepTooLarge { dt, limit, reason, body: body.to_owned() });
         }
         Ok(())
+    }
+
+    /// The largest stable step of the scene's integrator at the present state (time), what sets it, and of which body.
+    #[must_use]
+    pub fn step_limit(&self) -> Option<(f64, &'static str, &str)> {
+        let (interval, stabilised) = (self.integrator.stability_interval(), self.integrator.stabilised());
+        self.system
+            .limits()
+            .map(|(limit, body)| (limit.for_interval(interval, stabilised), limit.reason, body))
+            .min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Advances the scene by one step of `dt` (time). After an error the scene is in the state before the step. Stability limits are
     /// not looked at here but in [`Scene::check_step`], and during a [`Run`].
     ///
     /// # Errors
-    /// A time step that is not positive; those of the bodies and of the flow.
+    /// A time step that is not positive; those of the bodies and of the flow, also at the state that the step leads to.
     pub fn step(&mut self, dt: f64) -> Result<(), SceneError> {
+        self.attempt(dt, None).map(|_| ())
+    }
+
+    /// Takes a step, and estimates its error in units of `tolerance` where one is given; where the error is above it, or after an error,
+    /// the scene is in the state before the step.
+    pub(crate) fn attempt(&mut self, dt: f64, tolerance: Option<f64>) -> Result<f64, SceneError> {
         if !(dt.is_finite() && dt > 0.0) {
             return Err(SceneError::Time { name: "the time step", value: dt, remedy: "a positive finite number" });
         }
         self.system.write_state(&mut self.saved);
         self.system.write_lengths(&mut self.saved_lengths);
-        let system = &mut self.system;
-        let integrator = &mut self.integrator;
-        let outcome =
-            system.begin_step(dt).and_then(|()| integrator.step(system, dt)).and_then(|()| system.end_step(dt));
-        if let Err(error) = outcome {
-            self.system.restore(&self.saved_lengths, &self.saved)?;
-            return Err(error);
+        let outcome = self.advance(dt, tolerance);
+        if matches!(outcome, Ok(error) if error <= 1.0) {
+            self.system.commit(dt);
+            return outcome;
         }
-        self.system.advance_clock(dt);
-        Ok(())
+        self.system.restore(&self.saved_lengths, &self.saved)?;
+        // What the bodies keep of the flow is that of the present state again.
+        self.error.rate_before.resize(self.saved.len(), 0.0);
+        let known = self.system.present_rate(&mut self.error.rate_before);
+        outcome.and_then(|error| known.map(|()| error))
+    }
+
+    fn advance(&mut self, dt: f64, tolerance: Option<f64>) -> Result<f64, SceneError> {
+        let Self { system, integrator, error, saved, saved_lengths, .. } = self;
+        system.begin_step(StepInfo { dt, stabilised: integrator.stabilised() })?;
+        if tolerance.is_some() {
+            error.rate_before.resize(saved.len(), 0.0);
+            system.whole_rate(saved, &mut error.rate_before)?;
+            error.scales.resize(saved.len(), 1.0);
+            system.write_scales(&mut error.scales);
+        }
+        integrator.step(system, dt)?;
+        if tolerance.is_some() {
+            system.write_state(&mut error.after);
+        }
+        system.end_step(dt)?;
+        // The flow at the end of a step is that at the start of the next.
+        system.evaluate()?;
+        let Some(tolerance) = tolerance else { return Ok(0.0) };
+        system.write_lengths(&mut error.lengths_after);
+        error.rate_after.resize(system.state_len(), 0.0);
+        if error.lengths_after != *saved_lengths {
+            // Markers were inserted or removed: the states cannot be compared, and the next step is judged again.
+            system.present_rate(&mut error.rate_after)?;
+            return Ok(1.0);
+        }
+        system.whole_rate(&error.after, &mut error.rate_after)?;
+        let ErrorEstimate { rate_before, after, rate_after, scales, .. } = error;
+        for (((rate, before), y0), y1) in rate_after.iter_mut().zip(&*rate_before).zip(&*saved).zip(&*after) {
+            *rate = DEFECT * (12.0 * (y0 - y1) + 6.0 * dt * (before + *rate));
+        }
+        Ok(system.error_norm(rate_after, scales) / tolerance)
+    }
+
+    /// The steps of the runs of this scene.
+    #[must_use]
+    pub fn step_report(&self) -> &StepReport {
+        &self.report
+    }
+
+    /// Stages and estimates of the integrator since the start.
+    #[must_use]
+    pub fn integrator_work(&self) -> IntegratorWork {
+        self.integrator.work()
+    }
+
+    /// The integrator.
+    #[must_use]
+    pub fn integrator(&self) -> &I {
+        &self.integrator
     }
 
     /// How long the steps of runs are unless they are told otherwise.

@@ -3,7 +3,8 @@
 use std::any::Any;
 
 use crate::{
-    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, MarkerKind, Markers, SceneError, StepLimit, Vec2, wall_gap,
+    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, MarkerKind, Markers, SceneError, StepInfo, StepLimit, Vec2,
+    wall_gap,
 };
 
 /// The bodies of a scene, the fluid between them, and the time.
@@ -59,9 +60,11 @@ impl<H: Hydrodynamics> System<H> {
         self.steps
     }
 
-    pub(crate) fn advance_clock(&mut self, dt: f64) {
+    /// A step is over and stays.
+    pub(crate) fn commit(&mut self, dt: f64) {
         self.time += dt;
         self.steps += 1;
+        self.record_wall_gap();
     }
 
     /// What computes the flow.
@@ -156,14 +159,46 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
-    /// The smallest of the bodies' stable time steps at the present state, with the body's name.
+    /// The smallest of the bodies' stable time steps at the present state for the midpoint rule, with the body's name.
     #[must_use]
     pub fn step_limit(&self) -> Option<(StepLimit, &str)> {
+        self.limits().min_by(|a, b| a.0.dt.total_cmp(&b.0.dt))
+    }
+
+    /// All bounds on the time step at the present state, with the names of the bodies that set them.
+    pub fn limits(&self) -> impl Iterator<Item = (StepLimit, &str)> {
         let medium = self.hydrodynamics.medium();
-        self.bodies
-            .iter()
-            .flat_map(|body| body.step_limits(&medium).into_iter().map(|limit| (limit, body.name())))
-            .min_by(|a, b| a.0.dt.total_cmp(&b.0.dt))
+        self.bodies.iter().flat_map(move |body| body.step_limits(&medium).into_iter().map(|limit| (limit, body.name())))
+    }
+
+    /// The fastest decay that the bodies' limits tell of at the present state, without stabilisers (1/time).
+    #[must_use]
+    pub fn fastest_decay(&self) -> f64 {
+        self.limits().map(|(limit, _)| limit.decay_rate()).fold(0.0, f64::max)
+    }
+
+    /// Writes the sizes of all bodies' entries of the state; see [`Body::write_scales`].
+    pub fn write_scales(&self, scales: &mut [f64]) {
+        let mut start = 0;
+        for body in &self.bodies {
+            let end = start + body.state_len();
+            body.write_scales(&mut scales[start..end]);
+            start = end;
+        }
+    }
+
+    /// The largest over the bodies of the root mean square of `errors / scales`; both have the length of the state.
+    pub(crate) fn error_norm(&self, errors: &[f64], scales: &[f64]) -> f64 {
+        let (mut start, mut largest) = (0, 0.0_f64);
+        for body in &self.bodies {
+            let end = start + body.state_len();
+            let sum: f64 = errors[start..end].iter().zip(&scales[start..end]).map(|(e, s)| (e / s).powi(2)).sum();
+            let norm = (sum / (end - start).max(1) as f64).sqrt();
+            // Not a number counts as too large.
+            largest = if norm.is_nan() { f64::INFINITY } else { largest.max(norm) };
+            start = end;
+        }
+        largest
     }
 
     /// Makes the groups of markers fit the bodies, whose numbers of markers may have changed at the end of a step.
@@ -247,6 +282,14 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
+    /// The rate of change at the present state, the implicit part with it; `state` is that state or one that differs from it by what the
+    /// end of a step did.
+    pub(crate) fn whole_rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError> {
+        self.present_rate(rate)?;
+        self.add_implicit(state, 1.0, rate);
+        Ok(())
+    }
+
     fn rate_here(&mut self, rate: &mut [f64]) {
         let mut start = 0;
         for (body, group) in self.bodies.iter_mut().zip(self.markers.groups()) {
@@ -292,10 +335,10 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
-    pub(crate) fn begin_step(&mut self, dt: f64) -> Result<(), SceneError> {
+    pub(crate) fn begin_step(&mut self, step: StepInfo) -> Result<(), SceneError> {
         let (medium, time) = (self.hydrodynamics.medium(), self.time);
         for body in &mut self.bodies {
-            body.begin_step(&medium, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
+            body.begin_step(&medium, step).map_err(|source| body_error(time, body.as_ref(), source))?;
         }
         Ok(())
     }
@@ -306,7 +349,6 @@ impl<H: Hydrodynamics> System<H> {
         for body in &mut self.bodies {
             body.end_step(&medium, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
         }
-        self.record_wall_gap();
         Ok(())
     }
 }

@@ -5,7 +5,7 @@ use std::{mem::discriminant, path::Path};
 use anyhow::{Context, Result, anyhow, ensure};
 use motile::{
     active_interface::{ActiveDroplet, DropletWarning, Record, TrajectoryRecorder, centroid_velocity},
-    ib_core::{Handle, Hydrodynamics, Observer, Scene, StepSize, System},
+    ib_core::{Handle, Hydrodynamics, Integrator, Observer, Scene, StepSize, System},
 };
 
 use crate::{Progress, SolidMeter, Trajectory};
@@ -19,15 +19,14 @@ const MOST_STEPS: f64 = 1e9;
 ///
 /// # Errors
 /// A time step that is not stable, or one so short that the run would take more than 1e9 steps.
-pub fn check_run<H: Hydrodynamics>(scene: &mut Scene<H>, end: f64, step: StepSize) -> Result<()> {
+pub fn check_run<H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>, end: f64, step: StepSize) -> Result<()> {
     let dt = match step {
         StepSize::Fixed(dt) => {
             scene.check_step(dt)?;
             dt
         }
-        StepSize::OfLimit(fraction) => {
-            scene.system().step_limit().map_or(f64::INFINITY, |(limit, _)| fraction * limit.dt)
-        }
+        StepSize::OfLimit(fraction) => scene.step_limit().map_or(f64::INFINITY, |(limit, ..)| fraction * limit),
+        StepSize::Adaptive { .. } => f64::INFINITY,
     };
     ensure!(
         end / dt <= MOST_STEPS,

@@ -75,7 +75,8 @@ impl SolidMeter {
         let mut pair = solids(system);
         let width = pair.next().zip(pair.next()).and_then(|(lower, upper)| width_between(lower, upper).ok());
         let gap = self.gap.measure(system)?.map_or(f64::NAN, |(gap, _)| gap);
-        let (mut total, mut normal, mut drift, mut energy, mut jacobian) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0, f64::INFINITY);
+        let (mut total, mut normal, mut drift, mut energy, mut jacobian) =
+            (0.0_f64, 0.0_f64, 0.0_f64, 0.0, f64::INFINITY);
         for solid in solids(system) {
             let largest = solid.largest_displacement();
             total = total.max(largest.total);
@@ -136,8 +137,7 @@ impl SolidFiles {
         }
         let component = |k: usize| pieces.stress.iter().map(|s| s[k]).collect::<Vec<f64>>();
         let [xx, xy, yy] = [0, 1, 2].map(component);
-        let deviator: Vec<f64> =
-            pieces.stress.iter().map(|[xx, xy, yy]| (0.5 * (xx - yy)).hypot(*xy)).collect();
+        let deviator: Vec<f64> = pieces.stress.iter().map(|[xx, xy, yy]| (0.5 * (xx - yy)).hypot(*xy)).collect();
         let file = VtkFile::triangles(&pieces.points, &pieces.triangles)
             .point_vectors("displacement", &pieces.displacement)
             .cell_scalars("J", &pieces.jacobian)

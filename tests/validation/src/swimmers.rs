@@ -102,6 +102,7 @@ fn compare<H: Hydrodynamics>(
     let dt = match scene.step_size() {
         StepSize::Fixed(dt) => dt,
         StepSize::OfLimit(fraction) => scene.system().step_limit().map_or(f64::NAN, |(limit, _)| fraction * limit.dt),
+        StepSize::Adaptive { .. } => f64::NAN,
     };
     let c0 = swimmer.mean_concentration;
     Ok(SteadyErrors {

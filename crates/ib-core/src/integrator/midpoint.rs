@@ -1,0 +1,57 @@
+//! The midpoint rule.
+
+use super::{Integrator, IntegratorWork};
+use crate::{Hydrodynamics, Record, SceneError, System};
+
+/// The midpoint rule (thesis (2.37)), second order, two evaluations a step, with the bodies' implicit parts by backward
+/// Euler in the first half step and by the trapezoidal rule over the whole step:
+///
+/// `y_m = y + dt/2 (f(y) + L y_m)`, `y' = y + dt f(y_m) + dt/2 (L(y) y + L(y') y')`.
+#[derive(Debug, Clone, Default)]
+pub struct Midpoint {
+    start: Vec<f64>,
+    stage: Vec<f64>,
+    rate: Vec<f64>,
+    steps: usize,
+}
+
+impl Integrator for Midpoint {
+    fn step<H: Hydrodynamics>(&mut self, system: &mut System<H>, dt: f64) -> Result<(), SceneError> {
+        system.write_state(&mut self.start);
+        self.rate.resize(self.start.len(), 0.0);
+        self.stage.resize(self.start.len(), 0.0);
+        self.steps += 1;
+
+        system.present_rate(&mut self.rate)?;
+        for ((y, y0), f) in self.stage.iter_mut().zip(&self.start).zip(&self.rate) {
+            *y = y0 + 0.5 * dt * f;
+        }
+        system.solve_implicit(0.5 * dt, &mut self.stage);
+
+        system.rate(&self.stage, &mut self.rate)?;
+        for ((y, y0), f) in self.stage.iter_mut().zip(&self.start).zip(&self.rate) {
+            *y = y0 + dt * f;
+        }
+        system.add_implicit(&self.start, 0.5 * dt, &mut self.stage);
+        system.solve_implicit(0.5 * dt, &mut self.stage);
+        system.read_state(&self.stage)
+    }
+
+    fn stability_interval(&self) -> f64 {
+        2.0
+    }
+
+    fn work(&self) -> IntegratorWork {
+        IntegratorWork { stages: 2 * self.steps, most_stages: 2 * self.steps.min(1), estimates: 0 }
+    }
+
+    fn save(&self, record: &mut Record) {
+        record.counts.push(self.steps as u64);
+    }
+
+    fn load(&mut self, record: &Record) -> Result<(), SceneError> {
+        let [steps] = record.counts_of("the midpoint rule")?;
+        self.steps = steps as usize;
+        Ok(())
+    }
+}
