@@ -37,16 +37,23 @@ fn evaluation<D: FluidDomain>(c: &mut Criterion, name: &str, domain: D, nodes: u
     let inside = if ratio == 1.0 { None } else { Some(ratio) };
     let mut markers = markers(nodes, inside, droplets);
     let mut group = c.benchmark_group(format!("{name} droplets {droplets} ratio {ratio}"));
+    let (positions, forces) = (markers.positions.clone(), markers.forces.clone());
     let mut phase = 0.0f64;
     let mut iterations = (0u32, 0u32);
     group.bench_function(BenchmarkId::from_parameter(nodes), |b| {
         b.iter(|| {
-            // The forces change from step to step by some parts in a thousand, as they do in a run.
-            phase += 1.0;
-            let factor = 1.0 + 0.002 * phase.sin();
-            markers.forces.iter_mut().for_each(|force| force.x *= factor);
+            // Shapes and forces change from evaluation to evaluation by about a part in a thousand, as they do in a run.
+            phase += 0.5;
+            let stretch = [1.0 + 1e-3 * phase.sin(), 1.0 + 1e-3 * (1.7 * phase).cos()];
+            let pull = [1.0 + 2e-3 * (1.3 * phase).sin(), 1.0 + 2e-3 * (0.7 * phase).cos()];
+            for (all, base, factors) in
+                [(&mut markers.positions, &positions, stretch), (&mut markers.forces, &forces, pull)]
+            {
+                for (value, base) in all.iter_mut().zip(base) {
+                    *value = Vec2::new(factors[0] * base.x, factors[1] * base.y);
+                }
+            }
             let report = solver.velocities(black_box(&mut markers)).expect("a valid scene");
-            markers.forces.iter_mut().for_each(|force| force.x /= factor);
             iterations = (iterations.0 + report.iterations as u32, iterations.1 + 1);
             report
         });

@@ -104,6 +104,7 @@ impl Surroundings for BoxFlow {
         interfaces: &[Interface],
         dipoles: &[Dipoles],
         _velocities: NodeVelocities<'_>,
+        _accuracy: f64,
         _transforms: &mut Transforms,
         out: &mut [Vectors],
     ) {

@@ -54,7 +54,7 @@ impl ChannelFlow {
             half,
             drive: domain.drive(),
             tolerance,
-            modes: WallModes::new(period, half, zero_flux, tolerance),
+            modes: WallModes::new(period, half, zero_flux),
             nodes: WallPoints::default(),
             fine: WallPoints::default(),
             refined: false,
@@ -185,7 +185,7 @@ impl Surroundings for ChannelFlow {
         if interfaces.is_empty() {
             return;
         }
-        self.modes.begin(self.gap, self.gap);
+        self.modes.begin(self.gap, self.gap, self.tolerance);
         self.forces(interfaces, self.gap, self.refined);
         self.modes.solve();
         self.spread(out);
@@ -196,10 +196,11 @@ impl Surroundings for ChannelFlow {
         interfaces: &[Interface],
         dipoles: &[Dipoles],
         velocities: NodeVelocities<'_>,
+        accuracy: f64,
         transforms: &mut Transforms,
         out: &mut [Vectors],
     ) {
-        self.modes.begin(self.gap, self.gap);
+        self.modes.begin(self.gap, self.gap, accuracy);
         if self.refined {
             self.fine_dipoles(interfaces, velocities, transforms, self.gap, 1.0);
         } else {
@@ -264,11 +265,11 @@ impl Surroundings for ChannelFlow {
         }
         self.fill_fine(interfaces);
         if interfaces.is_empty() {
-            self.modes.begin(self.half, self.half);
+            self.modes.begin(self.half, self.half, self.tolerance);
         } else {
             let source_gap = self.fine.gap().max(0.02 * interfaces[0].spacing());
             let target_gap = self.points.gap().min(self.half);
-            self.modes.begin(source_gap, target_gap);
+            self.modes.begin(source_gap, target_gap, self.tolerance);
             self.forces(interfaces, target_gap, true);
             if velocities.contrasts.iter().any(|contrast| *contrast != 0.0) {
                 self.fine_dipoles(interfaces, velocities, transforms, target_gap, -1.0);

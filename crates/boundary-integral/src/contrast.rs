@@ -21,6 +21,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) near: &'a Near,
     pub(crate) surroundings: &'a mut dyn Surroundings,
     pub(crate) transforms: &'a mut Transforms,
+    /// How exactly the walls' part has to be known, relative to the velocities.
+    pub(crate) accuracy: f64,
 }
 
 /// Solves for the velocities at the nodes,
@@ -38,6 +40,11 @@ pub(crate) struct Contrast {
 }
 
 impl Contrast {
+    /// Forgets what earlier solutions left, so that the next one does not depend on them.
+    pub(crate) fn forget(&mut self) {
+        self.gmres.forget();
+    }
+
     /// Takes over the viscosities; whether any differs from that of the surroundings.
     pub(crate) fn load(&mut self, interfaces: &[Interface], viscosity: f64) -> bool {
         self.contrasts.clear();
@@ -82,7 +89,10 @@ impl Contrast {
         parts.layers.prepare_stress();
         let Self { gmres, contrasts, scales, right, normals, deflation } = self;
         let outcome = gmres.solve(
-            |v, out| product(&mut parts, contrasts, scales, normals, deflation, v, out),
+            |v, out, accuracy| {
+                parts.accuracy = accuracy.max(tolerance);
+                product(&mut parts, contrasts, scales, normals, deflation, v, out);
+            },
             right,
             velocities,
             goal.max(1e-15),
@@ -108,7 +118,7 @@ fn product(
     velocities: &[f64],
     out: &mut [f64],
 ) {
-    let Parts { interfaces, layers, far, near, surroundings, transforms } = parts;
+    let Parts { interfaces, layers, far, near, surroundings, transforms, accuracy } = parts;
     let nodes = interfaces[0].nodes();
     let all = NodeVelocities { values: velocities, contrasts };
     for (index, (interface, dipoles)) in interfaces.iter().zip(&mut layers.dipoles).enumerate() {
@@ -119,7 +129,7 @@ fn product(
     layers.add_dipoles(interfaces);
     let Layers { dipoles, out: sums, .. } = &mut **layers;
     far.add_dipoles(interfaces, dipoles, sums);
-    surroundings.add_dipoles(interfaces, dipoles, all, transforms, sums);
+    surroundings.add_dipoles(interfaces, dipoles, all, *accuracy, transforms, sums);
     near.add_dipoles(velocities, contrasts, nodes, sums);
     for (index, interface) in interfaces.iter().enumerate() {
         let range = 2 * nodes * index..2 * nodes * (index + 1);
@@ -188,6 +198,7 @@ mod tests {
             near: &near,
             surroundings: surroundings.as_mut(),
             transforms: &mut transforms,
+            accuracy: tolerance,
         };
         let mut apply = |v: &[f64]| {
             let mut out = vec![0.0; 4 * NODES];

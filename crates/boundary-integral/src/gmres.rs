@@ -1,7 +1,11 @@
 //! Generalised minimal residuals for dense well-conditioned systems.
 
+use crate::recycled::Recycled;
+
 /// Basis vectors before a restart.
 const BASIS: usize = 60;
+/// Products after which what earlier solutions left is taken for useless and forgotten.
+const PATIENCE: usize = 25;
 
 /// What an iteration did.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,14 +25,27 @@ pub(crate) struct Gmres {
     columns: Vec<f64>,
     rotations: Vec<(f64, f64)>,
     projected: Vec<f64>,
+    recycled: Recycled,
+    /// The basis times the preconditioner, and the products of that with the matrix.
+    directions: Vec<f64>,
+    images: Vec<f64>,
 }
 
 impl Gmres {
+    /// Forgets what earlier solutions left, so that the next one does not depend on them.
+    pub(crate) fn forget(&mut self) {
+        self.recycled.forget();
+    }
+
     /// Solves `A x = b`, x holding a guess on entry, until the residual is below `tolerance` of b or `most` products have
     /// been made.
+    ///
+    /// `product(x, out, accuracy)` may err by `accuracy` times the norm of x: the smaller the residual already is, the less
+    /// a new direction contributes to the solution and the less exactly its product need be known (Simoncini and Szyld,
+    /// SIAM J. Sci. Comput. 25, 454, 2003).
     pub(crate) fn solve(
         &mut self,
-        mut product: impl FnMut(&[f64], &mut [f64]),
+        mut product: impl FnMut(&[f64], &mut [f64], f64),
         b: &[f64],
         x: &mut [f64],
         tolerance: f64,
@@ -39,6 +56,9 @@ impl Gmres {
         self.columns.resize((BASIS + 1) * BASIS, 0.0);
         self.rotations.resize(BASIS, (1.0, 0.0));
         self.projected.resize(BASIS + 1, 0.0);
+        self.directions.resize(BASIS * len, 0.0);
+        self.images.resize(BASIS * len, 0.0);
+        self.recycled.fit(len);
         let scale = norm(b);
         if scale == 0.0 {
             x.fill(0.0);
@@ -48,7 +68,7 @@ impl Gmres {
         let mut iterations = 0;
         loop {
             let first = &mut self.basis[..len];
-            product(x, first);
+            product(x, first, tolerance);
             for (r, b) in first.iter_mut().zip(b) {
                 *r = b - *r;
             }
@@ -60,27 +80,36 @@ impl Gmres {
             first.iter_mut().for_each(|r| *r /= start);
             self.projected[0] = start;
             let mut size = 0;
-            while size < BASIS && iterations < most && self.projected[size].abs() > goal {
-                self.extend(&mut product, size, len);
+            let most_now = if self.recycled.is_empty() { BASIS } else { PATIENCE };
+            while size < most_now && iterations < most && self.projected[size].abs() > goal {
+                self.extend(&mut product, size, len, goal);
                 size += 1;
                 iterations += 1;
             }
             self.back_substitute(size);
             for j in 0..size {
-                axpy(self.projected[j], &self.basis[j * len..(j + 1) * len], x);
+                axpy(self.projected[j], &self.directions[j * len..(j + 1) * len], x);
             }
             let left = self.projected[size].abs();
+            if size == PATIENCE {
+                self.recycled.forget();
+            }
             if left <= goal {
+                self.recycled.renew(&self.directions[..size * len], &self.images[..size * len]);
                 return Outcome { iterations, residual: left / scale };
             }
         }
     }
 
     /// Adds a vector to the basis and a column to the triangular factor.
-    fn extend(&mut self, product: &mut impl FnMut(&[f64], &mut [f64]), size: usize, len: usize) {
+    fn extend(&mut self, product: &mut impl FnMut(&[f64], &mut [f64], f64), size: usize, len: usize, goal: f64) {
         let (done, free) = self.basis.split_at_mut((size + 1) * len);
         let next = &mut free[..len];
-        product(&done[size * len..], next);
+        let direction = &mut self.directions[size * len..(size + 1) * len];
+        self.recycled.apply(&done[size * len..], direction);
+        let accuracy = goal / (self.projected[size].abs() * norm(direction));
+        product(direction, next, accuracy);
+        self.images[size * len..(size + 1) * len].copy_from_slice(next);
         let column = &mut self.columns[size * (BASIS + 1)..(size + 1) * (BASIS + 1)];
         for (entry, vector) in column.iter_mut().zip(done.chunks_exact(len)) {
             *entry = dot(vector, next);
@@ -132,7 +161,7 @@ fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
-fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
+pub(crate) fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += factor * x;
     }
@@ -151,13 +180,13 @@ mod tests {
             expected in proptest::collection::vec(-1.0..1.0f64, 20),
             guess in proptest::collection::vec(-1.0..1.0f64, 20),
         ) {
-            let product = |x: &[f64], out: &mut [f64]| {
+            let product = |x: &[f64], out: &mut [f64], _: f64| {
                 for (i, out) in out.iter_mut().enumerate() {
                     *out = 22.0 * x[i] + dot(&entries[20 * i..20 * (i + 1)], x);
                 }
             };
             let mut b = vec![0.0; 20];
-            product(&expected, &mut b);
+            product(&expected, &mut b, 0.0);
             let mut x = guess;
             let outcome = Gmres::default().solve(product, &b, &mut x, 1e-13, 200);
             prop_assert!(outcome.residual <= 1e-13);
@@ -169,7 +198,7 @@ mod tests {
 
     #[test]
     fn ends_after_as_many_products_as_there_are_different_eigenvalues() {
-        let product = |x: &[f64], out: &mut [f64]| {
+        let product = |x: &[f64], out: &mut [f64], _: f64| {
             for (i, out) in out.iter_mut().enumerate() {
                 *out = [1.0, 2.0, 5.0][i % 3] * x[i];
             }
@@ -185,7 +214,7 @@ mod tests {
     #[test]
     fn tells_when_it_has_not_converged() {
         // A cyclic shift: the residual stays until the basis is complete.
-        let product = |x: &[f64], out: &mut [f64]| {
+        let product = |x: &[f64], out: &mut [f64], _: f64| {
             for (i, out) in out.iter_mut().enumerate() {
                 *out = x[(i + 1) % x.len()];
             }

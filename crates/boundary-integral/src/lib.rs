@@ -69,6 +69,7 @@ mod near;
 mod pair_kernel;
 mod pair_sums;
 mod planes;
+mod recycled;
 mod sampler;
 mod series;
 mod settings;

@@ -212,6 +212,9 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
             }
         }
         if contrast {
+            if cold {
+                self.contrast.forget();
+            }
             let parts = Parts {
                 interfaces: &self.interfaces,
                 layers: &mut self.layers,
@@ -219,6 +222,7 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
                 near: &self.near,
                 surroundings: self.surroundings.as_mut(),
                 transforms: &mut self.transforms,
+                accuracy: self.settings.tolerance,
             };
             let Settings { tolerance, most_iterations, .. } = self.settings;
             let solved = self.contrast.solve(

@@ -56,12 +56,13 @@ pub(crate) trait Surroundings: std::fmt::Debug + Send {
     /// Adds what sums over nodes and series lack of the single layer.
     fn add_forces(&mut self, interfaces: &[Interface], out: &mut [Vectors]);
 
-    /// Adds what sums over nodes and series lack of the double layer.
+    /// Adds what sums over nodes and series lack of the double layer, to an accuracy relative to the velocities.
     fn add_dipoles(
         &mut self,
         interfaces: &[Interface],
         dipoles: &[Dipoles],
         velocities: NodeVelocities<'_>,
+        accuracy: f64,
         transforms: &mut Transforms,
         out: &mut [Vectors],
     );
@@ -140,6 +141,7 @@ impl Surroundings for Unbounded {
         _interfaces: &[Interface],
         _dipoles: &[Dipoles],
         _velocities: NodeVelocities<'_>,
+        _accuracy: f64,
         _transforms: &mut Transforms,
         _out: &mut [Vectors],
     ) {

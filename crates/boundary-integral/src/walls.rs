@@ -64,12 +64,12 @@ pub(crate) struct WallModes {
 }
 
 impl WallModes {
-    pub(crate) fn new(period: f64, half: f64, zero_flux: bool, tolerance: f64) -> Self {
+    pub(crate) fn new(period: f64, half: f64, zero_flux: bool) -> Self {
         Self {
             k: TAU / period,
             half,
             zero_flux,
-            exponent: 4.0 - tolerance.ln(),
+            exponent: 0.0,
             factors: Vec::new(),
             sums: Default::default(),
             slips: Default::default(),
@@ -80,7 +80,8 @@ impl WallModes {
     }
 
     /// Clears the sources for targets no closer to a wall than `target_gap` and sources no closer than `source_gap`.
-    pub(crate) fn begin(&mut self, source_gap: f64, target_gap: f64) {
+    pub(crate) fn begin(&mut self, source_gap: f64, target_gap: f64, accuracy: f64) {
+        self.exponent = 4.0 - accuracy.ln();
         self.modes = self.count(source_gap + target_gap);
         let chunks = self.modes.div_ceil(LANES);
         while self.factors.len() < chunks * LANES {
@@ -305,7 +306,7 @@ mod tests {
         let (mut from, mut to) = (WallPoints::default(), WallPoints::default());
         from.push(modes, source[0], source[1]);
         to.push(modes, target[0], target[1]);
-        modes.begin(from.gap(), to.gap());
+        modes.begin(from.gap(), to.gap(), 1e-15);
         modes.add_forces(&from, to.gap(), |_| force);
         modes.solve();
         let walls = modes.flow(&to, 0);
@@ -369,7 +370,7 @@ mod tests {
             ),
         ];
         for (zero_flux, target, source, [xx, xy, yx, yy]) in table {
-            let mut modes = WallModes::new(4.0, 1.0, zero_flux, 1e-14);
+            let mut modes = WallModes::new(4.0, 1.0, zero_flux);
             let (x, _) = greens_function(&mut modes, target, source, Complex64::new(1.0, 0.0));
             let (y, _) = greens_function(&mut modes, target, source, I);
             let error = (x - Complex64::new(xx, yx)).norm().max((y - Complex64::new(xy, yy)).norm());
@@ -379,7 +380,7 @@ mod tests {
 
     #[test]
     fn gradient_and_pressure_satisfy_the_stokes_equations() {
-        let mut modes = WallModes::new(5.0, 1.2, true, 1e-15);
+        let mut modes = WallModes::new(5.0, 1.2, true);
         let (source, force) = ([0.3, 0.5], Complex64::new(0.6, -0.8));
         let step = 1e-4;
         let mut at = |dx: f64, dy: f64| greens_function(&mut modes, [0.9 + dx, -0.4 + dy], source, force).1;
