@@ -5,11 +5,11 @@ use num_complex::Complex64;
 use crate::walls::WallModes;
 
 /// Modes done at a time.
-pub(crate) const LANES: usize = 8;
+pub(crate) const LANES: usize = 4;
 
 pub(crate) type Lanes = [f64; LANES];
 
-/// `exp(-n k s) exp(i n k x)` for the first modes n = 1 .. 8 and the factor to the next eight, for one wall.
+/// `exp(-n k s) exp(i n k x)` for the first modes n = 1 .. 4 and the factor to the next four, for one wall.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Powers {
     /// Distance from the wall (length).

@@ -12,11 +12,20 @@ use crate::wall_points::{LANES, Lanes, WallPoints};
 /// No gap asks for more modes than this.
 const MOST_MODES: usize = 4096;
 
-/// Sums over sources for eight modes: real and imaginary parts of five moments.
+/// Sums over sources for some modes, real and imaginary parts: of e q and of e (p - k s q), with e = exp(-k s - i k x), q
+/// complex and p real.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
-    re: [Lanes; 5],
-    im: [Lanes; 5],
+    plain: [Lanes; 2],
+    mixed: [Lanes; 2],
+}
+
+impl Sums {
+    /// Both sums of one mode.
+    fn of(sums: &[Self], n: usize) -> [Complex64; 2] {
+        let (sum, lane) = (&sums[n / LANES], n % LANES);
+        [sum.plain, sum.mixed].map(|[re, im]| Complex64::new(re[lane], im[lane]))
+    }
 }
 
 /// Velocities that the sources alone would have at a wall, mode by mode.
@@ -26,7 +35,7 @@ struct Slip {
     v: Complex64,
 }
 
-/// Coefficients of eight modes near one wall: the streamfunction is `exp(-k s + i k x) (R - s B)`.
+/// Coefficients of some modes near one wall: the streamfunction is `exp(-k s + i k x) (R - s B)`.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Coefficients {
     /// k R + B.
@@ -100,28 +109,31 @@ impl WallModes {
         (needed.min(MOST_MODES as f64).ceil() as usize).max(1)
     }
 
-    fn moments<const N: usize>(
-        &mut self,
-        points: &WallPoints,
-        target_gap: f64,
-        columns: impl Fn(usize, f64) -> [f64; N],
-    ) {
+    /// Sums over points with q (for the upper wall; its conjugate for the lower one) and p.
+    fn moments(&mut self, points: &WallPoints, target_gap: f64, source: impl Fn(usize) -> (Complex64, f64)) {
         let (k, exponent, modes) = (self.k, self.exponent, self.modes);
-        for (side, sums) in points.sides.iter().zip(&mut self.sums) {
+        for ((side, sums), sign) in points.sides.iter().zip(&mut self.sums).zip([1.0, -1.0]) {
             sums.clear();
             sums.resize(modes.div_ceil(LANES), Sums::default());
             for (j, powers) in side.iter().enumerate() {
                 let needed = exponent / (k * (powers.distance + target_gap).max(1e-300));
                 let chunks = (needed.min(modes as f64) as usize / LANES + 1).min(sums.len());
-                let column = columns(j, powers.distance);
+                let (q, p) = source(j);
+                let (q_re, q_im) = (q.re, sign * q.im);
                 let mut powers = *powers;
+                let first = k * powers.distance;
+                let mut depth: Lanes = std::array::from_fn(|lane| first * (lane + 1) as f64);
                 for sum in &mut sums[..chunks] {
-                    for (c, value) in column.iter().enumerate() {
-                        for lane in 0..LANES {
-                            sum.re[c][lane] += value * powers.re[lane];
-                            // The phase of a source is the conjugate of that of a target.
-                            sum.im[c][lane] -= value * powers.im[lane];
-                        }
+                    let Sums { plain: [a_re, a_im], mixed: [b_re, b_im] } = sum;
+                    for lane in 0..LANES {
+                        // The phase of a source is the conjugate of that of a target.
+                        let (re, im) = (powers.re[lane], -powers.im[lane]);
+                        let (c_re, c_im) = (p - depth[lane] * q_re, -depth[lane] * q_im);
+                        a_re[lane] += re * q_re - im * q_im;
+                        a_im[lane] += re * q_im + im * q_re;
+                        b_re[lane] += re * c_re - im * c_im;
+                        b_im[lane] += re * c_im + im * c_re;
+                        depth[lane] += first * LANES as f64;
                     }
                     powers.advance();
                 }
@@ -131,17 +143,13 @@ impl WallModes {
 
     /// Adds forces (times weight) at points; `target_gap` as in [`WallModes::begin`].
     pub(crate) fn add_forces(&mut self, points: &WallPoints, target_gap: f64, forces: impl Fn(usize) -> Complex64) {
-        self.moments(points, target_gap, |j, s| {
-            let f = forces(j);
-            [f.re, f.im, s * f.re, s * f.im]
-        });
+        self.moments(points, target_gap, |j| (forces(j), forces(j).re));
         for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
             for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
-                let k = self.k * (n + 1) as f64;
-                let [fx, fy, gx, gy] = [0, 1, 2, 3].map(|c| moment(sums, n, c));
+                let [plain, mixed] = Sums::of(sums, n);
                 let inverse = 1.0 / (n + 1) as f64;
-                slip.u += (fx - gx * k - I * gy * (side * k)) * inverse;
-                slip.v += (fy + gy * k - I * gx * (side * k)) * inverse;
+                slip.u += mixed * inverse;
+                slip.v += I * (mixed - plain) * (side * inverse);
             }
         }
         let (c, h) = (self.k, self.half);
@@ -168,18 +176,15 @@ impl WallModes {
         dipoles: impl Fn(usize) -> [f64; 3],
         x: impl Fn(usize) -> f64,
     ) {
-        self.moments(points, target_gap, |j, s| {
+        self.moments(points, target_gap, |j| {
             let [xx, mixed, yy] = dipoles(j);
-            [xx, mixed, yy, s * (xx - yy), s * mixed]
+            (Complex64::new(xx - yy, mixed), xx + yy)
         });
         for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
             for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
-                let k = self.k * (n + 1) as f64;
-                let [xx, mixed, yy, s_difference, s_mixed] = [0, 1, 2, 3, 4].map(|c| moment(sums, n, c));
-                let (ax, ay) = (I * self.k, -side * self.k);
-                let (axx, axy) = (-side * self.k * k, I * (-self.k * k));
-                slip.u += xx * ax * -4.0 - mixed * (2.0 * ay) - axy * s_difference * 2.0 + s_mixed * (2.0 * axx);
-                slip.v += (xx + yy) * (-2.0 * ay) + s_difference * (2.0 * axx) + axy * s_mixed * 2.0;
+                let [plain, mixed] = Sums::of(sums, n);
+                slip.u -= I * (plain + mixed) * (2.0 * self.k);
+                slip.v += mixed * (2.0 * side * self.k);
             }
         }
         let (c, h) = (self.k, self.half);
@@ -232,19 +237,21 @@ impl WallModes {
                 let coefficients = &self.coefficients[side];
                 let needed = self.exponent / (self.k * (s + source_gap).max(1e-300));
                 let chunks = (needed.min(self.modes as f64) as usize / LANES + 1).min(coefficients.len());
-                let (mut along, mut across) = ([0.0; LANES], [0.0; LANES]);
+                let [mut sum, mut plain, mut linear_re, mut linear_im] = [[0.0; LANES]; 4];
                 for c in &coefficients[..chunks] {
                     for lane in 0..LANES {
                         let (re, im) = (powers.re[lane], powers.im[lane]);
-                        along[lane] += re * (c.sum[0][lane] - s * c.linear[0][lane])
-                            - im * (c.sum[1][lane] - s * c.linear[1][lane]);
-                        across[lane] += re * (c.plain[1][lane] - s * c.linear[1][lane])
-                            + im * (c.plain[0][lane] - s * c.linear[0][lane]);
+                        sum[lane] += re * c.sum[0][lane] - im * c.sum[1][lane];
+                        plain[lane] += re * c.plain[1][lane] + im * c.plain[0][lane];
+                        linear_re[lane] += re * c.linear[0][lane] - im * c.linear[1][lane];
+                        linear_im[lane] += re * c.linear[1][lane] + im * c.linear[0][lane];
                     }
                     powers.advance();
                 }
-                u += sign * along.iter().sum::<f64>();
-                v += across.iter().sum::<f64>();
+                let [sum, plain, linear_re, linear_im] =
+                    [sum, plain, linear_re, linear_im].map(|lanes| lanes.iter().sum::<f64>());
+                u += sign * (sum - s * linear_re);
+                v += plain - s * linear_im;
             }
             add(i, u, v);
         }
@@ -256,11 +263,6 @@ impl WallModes {
 }
 
 const I: Complex64 = Complex64::new(0.0, 1.0);
-
-fn moment(sums: &[Sums], n: usize, column: usize) -> Complex64 {
-    let sum = &sums[n / LANES];
-    Complex64::new(sum.re[column][n % LANES], sum.im[column][n % LANES])
-}
 
 /// Solution of the biharmonic equation between the walls for given values and slopes, split into even and odd parts and
 /// scaled by exp(-k half) to stay finite.
