@@ -1,14 +1,19 @@
-//! Time of one evaluation of the velocities, beside that of a pair of two-dimensional real transforms, which is what a
-//! solver on a grid spends at least.
+//! Time of one evaluation of the velocities, in units of a pair of two-dimensional real transforms, which is what a solver
+//! on a grid spends at least.
+//!
+//! `cargo bench -p boundary-integral` prints a table. All rows and the transforms are timed in turns, and the fastest of many
+//! turns counts, so that other work of the machine does not matter much.
 
-use std::{f64::consts::TAU, hint::black_box};
+use std::{cell::Cell, f64::consts::TAU, hint::black_box, rc::Rc, time::Instant};
 
 use boundary_integral::{
     BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, PeriodicCalculus, Settings, TensionPlacement,
 };
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 use realfft::RealFftPlanner;
+
+/// How often each row is timed.
+const TURNS: usize = 200;
 
 /// Droplets in rows of four with four markers a node and a tension that makes them swim.
 fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Markers {
@@ -31,53 +36,75 @@ fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Mark
     markers
 }
 
-fn evaluation<D: FluidDomain>(c: &mut Criterion, name: &str, domain: D, nodes: usize, ratio: f64, droplets: usize) {
+/// What is timed.
+struct Row {
+    name: String,
+    run: Box<dyn FnMut()>,
+    /// Iterations and evaluations.
+    work: Rc<Cell<[f64; 2]>>,
+    /// Fastest time (seconds).
+    best: f64,
+}
+
+impl Row {
+    fn new(name: String, work: Rc<Cell<[f64; 2]>>, run: impl FnMut() + 'static) -> Self {
+        Self { name, run: Box::new(run), work, best: f64::INFINITY }
+    }
+
+    /// Runs for about a millisecond.
+    fn time(&mut self) {
+        let clock = Instant::now();
+        let mut count = 0;
+        while count == 0 || clock.elapsed().as_secs_f64() < 1e-3 {
+            (self.run)();
+            count += 1;
+        }
+        self.best = self.best.min(clock.elapsed().as_secs_f64() / f64::from(count));
+    }
+}
+
+fn evaluation<D: FluidDomain + 'static>(name: &str, domain: D, nodes: usize, ratio: f64, droplets: usize) -> Row {
     let settings = Settings { nodes, ..Settings::default() };
     let mut solver = BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene");
     let inside = if ratio == 1.0 { None } else { Some(ratio) };
     let mut markers = markers(nodes, inside, droplets);
-    let mut group = c.benchmark_group(format!("{name} droplets {droplets} ratio {ratio}"));
     let (positions, forces) = (markers.positions.clone(), markers.forces.clone());
+    let work = Rc::new(Cell::new([0.0; 2]));
+    let counted = Rc::clone(&work);
     let mut phase = 0.0f64;
-    let mut iterations = (0u32, 0u32);
-    group.bench_function(BenchmarkId::from_parameter(nodes), |b| {
-        b.iter(|| {
-            // Shapes and forces change from evaluation to evaluation by about a part in a thousand, as they do in a run.
-            phase += 0.5;
-            let stretch = [1.0 + 1e-3 * phase.sin(), 1.0 + 1e-3 * (1.7 * phase).cos()];
-            let pull = [1.0 + 2e-3 * (1.3 * phase).sin(), 1.0 + 2e-3 * (0.7 * phase).cos()];
-            for (all, base, factors) in
-                [(&mut markers.positions, &positions, stretch), (&mut markers.forces, &forces, pull)]
-            {
-                for (value, base) in all.iter_mut().zip(base) {
-                    *value = Vec2::new(factors[0] * base.x, factors[1] * base.y);
-                }
+    Row::new(format!("{name} | {droplets} | {ratio} | {nodes}"), work, move || {
+        // Shapes and forces change from evaluation to evaluation by about a part in a thousand, as they do in a run.
+        phase += 0.5;
+        let stretch = [1.0 + 1e-3 * phase.sin(), 1.0 + 1e-3 * (1.7 * phase).cos()];
+        let pull = [1.0 + 2e-3 * (1.3 * phase).sin(), 1.0 + 2e-3 * (0.7 * phase).cos()];
+        for (all, base, factors) in
+            [(&mut markers.positions, &positions, stretch), (&mut markers.forces, &forces, pull)]
+        {
+            for (value, base) in all.iter_mut().zip(base) {
+                *value = Vec2::new(factors[0] * base.x, factors[1] * base.y);
             }
-            let report = solver.velocities(black_box(&mut markers)).expect("a valid scene");
-            iterations = (iterations.0 + report.iterations as u32, iterations.1 + 1);
-            report
-        });
-    });
-    if iterations.1 > 0 {
-        println!("iterations: {:.1}", f64::from(iterations.0) / f64::from(iterations.1));
-    }
+        }
+        let report = solver.velocities(black_box(&mut markers)).expect("a valid scene");
+        let [iterations, evaluations] = counted.get();
+        counted.set([iterations + report.iterations as f64, evaluations + 1.0]);
+    })
 }
 
-/// Time of a thousand samples on a square that holds the droplet.
-fn samples<D: FluidDomain>(c: &mut Criterion, name: &str, domain: D) {
+/// A thousand samples on a square that holds the droplet.
+fn samples<D: FluidDomain + 'static>(name: &str, domain: D) -> Row {
     let mut solver = BoundaryIntegral::new(domain, 1.0, Settings::default()).expect("a valid scene");
     let mut markers = markers(64, Some(100.0), 1);
     solver.velocities(&mut markers).expect("a valid scene");
     let points: Vec<Vec2> =
         (0..1000).map(|k| Vec2::new(0.08 * f64::from(k % 32) - 1.25, 0.08 * f64::from(k / 32) - 1.25)).collect();
     let mut out = vec![FlowSample::default(); points.len()];
-    c.bench_function(&format!("{name}: a thousand samples"), |b| {
-        b.iter(|| solver.sample(&markers, black_box(&points), &mut out).expect("a valid scene"));
-    });
+    Row::new(format!("{name}, a thousand samples | 1 | 100 | 64"), Rc::default(), move || {
+        solver.sample(&markers, black_box(&points), &mut out).expect("a valid scene");
+    })
 }
 
 /// Forward and inverse real transform of a square grid, rows and columns, with the transposes.
-fn transform_pair(c: &mut Criterion, n: usize) {
+fn transform_pair(n: usize) -> Row {
     let mut real = RealFftPlanner::<f64>::new();
     let (forward, inverse) = (real.plan_fft_forward(n), real.plan_fft_inverse(n));
     let mut complex = rustfft::FftPlanner::<f64>::new();
@@ -95,54 +122,57 @@ fn transform_pair(c: &mut Criterion, n: usize) {
                 }
             }
         };
-    c.bench_function(&format!("transform pair {n}"), |b| {
-        b.iter(|| {
-            for (row, out) in grid.chunks_exact_mut(n).zip(spectrum.chunks_exact_mut(half)) {
-                forward.process_with_scratch(row, out, &mut scratch).expect("a valid scene");
-            }
-            transpose(&spectrum, &mut turned, n, half);
-            down.process_with_scratch(&mut turned, &mut scratch);
-            up.process_with_scratch(&mut turned, &mut scratch);
-            transpose(&turned, &mut spectrum, half, n);
-            let factor = 1.0 / (n * n) as f64;
-            for (row, out) in spectrum.chunks_exact_mut(half).zip(grid.chunks_exact_mut(n)) {
-                row[0].im = 0.0;
-                row[half - 1].im = 0.0;
-                inverse.process_with_scratch(row, out, &mut scratch).expect("a valid scene");
-                out.iter_mut().for_each(|value| *value *= factor);
-            }
-            black_box(&grid);
-        });
-    });
+    Row::new(format!("transforms, {n} x {n} | | | "), Rc::default(), move || {
+        for (row, out) in grid.chunks_exact_mut(n).zip(spectrum.chunks_exact_mut(half)) {
+            forward.process_with_scratch(row, out, &mut scratch).expect("a valid scene");
+        }
+        transpose(&spectrum, &mut turned, n, half);
+        down.process_with_scratch(&mut turned, &mut scratch);
+        up.process_with_scratch(&mut turned, &mut scratch);
+        transpose(&turned, &mut spectrum, half, n);
+        let factor = 1.0 / (n * n) as f64;
+        for (row, out) in spectrum.chunks_exact_mut(half).zip(grid.chunks_exact_mut(n)) {
+            row[0].im = 0.0;
+            row[half - 1].im = 0.0;
+            inverse.process_with_scratch(row, out, &mut scratch).expect("a valid scene");
+            out.iter_mut().for_each(|value| *value *= factor);
+        }
+        black_box(&grid);
+    })
 }
 
-fn benches(c: &mut Criterion) {
-    for n in [120, 240] {
-        transform_pair(c, n);
-    }
+fn main() {
+    let square = |side| PeriodicBox::new(side, side).expect("a valid scene");
+    let channel = || Channel::new(12.0, 3.0).expect("a valid scene");
+    let mut rows = vec![transform_pair(120), transform_pair(240)];
     for nodes in [64, 128, 256] {
         for ratio in [1.0, 100.0] {
-            evaluation(c, "free space", FreeSpace, nodes, ratio, 1);
-            evaluation(c, "box 6", PeriodicBox::new(6.0, 6.0).expect("a valid scene"), nodes, ratio, 1);
-            evaluation(c, "channel 12 x 3", Channel::new(12.0, 3.0).expect("a valid scene"), nodes, ratio, 1);
+            rows.push(evaluation("free space", FreeSpace, nodes, ratio, 1));
+            rows.push(evaluation("box 6", square(6.0), nodes, ratio, 1));
+            rows.push(evaluation("channel 12 x 3", channel(), nodes, ratio, 1));
         }
     }
-    samples(c, "free space", FreeSpace);
-    samples(c, "box 6", PeriodicBox::new(6.0, 6.0).expect("a valid scene"));
-    samples(c, "channel 12 x 3", Channel::new(12.0, 3.0).expect("a valid scene"));
     for ratio in [1.0, 100.0] {
-        evaluation(c, "free space", FreeSpace, 64, ratio, 10);
-        evaluation(c, "box 10.4", PeriodicBox::new(10.4, 10.4).expect("a valid scene"), 64, ratio, 10);
+        rows.push(evaluation("free space", FreeSpace, 64, ratio, 10));
+        rows.push(evaluation("box 10.4", square(10.4), 64, ratio, 10));
+    }
+    rows.extend([
+        samples("free space", FreeSpace),
+        samples("box 6", square(6.0)),
+        samples("channel 12 x 3", channel()),
+    ]);
+    for _ in 0..TURNS {
+        rows.iter_mut().for_each(Row::time);
+    }
+    println!(
+        "| scene | droplets | ratio | nodes | microseconds | pairs at 120 x 120 | pairs at 240 x 240 | iterations |"
+    );
+    println!("|---|---|---|---|---|---|---|---|");
+    let pairs = [rows[0].best, rows[1].best];
+    for Row { name, work, best, .. } in &rows {
+        let [iterations, evaluations] = work.get();
+        let iterations = if iterations > 0.0 { format!("{:.1}", iterations / evaluations) } else { String::new() };
+        let [small, large] = pairs.map(|pair| best / pair);
+        println!("| {name} | {:.1} | {small:.2} | {large:.3} | {iterations} |", best * 1e6);
     }
 }
-
-fn config() -> Criterion {
-    Criterion::default()
-        .sample_size(20)
-        .warm_up_time(std::time::Duration::from_millis(200))
-        .measurement_time(std::time::Duration::from_millis(600))
-        .without_plots()
-}
-
-criterion_group! { name = all; config = config(); targets = benches }
-criterion_main!(all);

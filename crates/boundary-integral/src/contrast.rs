@@ -21,7 +21,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) near: &'a Near,
     pub(crate) surroundings: &'a mut dyn Surroundings,
     pub(crate) transforms: &'a mut Transforms,
-    /// How exactly the walls' part has to be known, relative to the velocities.
+    /// How exactly what walls and images add has to be known, relative to the velocities.
     pub(crate) accuracy: f64,
 }
 
@@ -128,7 +128,7 @@ fn product(
     layers.clear();
     layers.add_dipoles(interfaces);
     let Layers { dipoles, out: sums, .. } = &mut **layers;
-    far.add_dipoles(interfaces, dipoles, sums);
+    far.add_dipoles(interfaces, dipoles, *accuracy, sums);
     surroundings.add_dipoles(interfaces, dipoles, all, *accuracy, transforms, sums);
     near.add_dipoles(velocities, contrasts, nodes, sums);
     for (index, interface) in interfaces.iter().enumerate() {

@@ -11,6 +11,11 @@ use crate::{
     stress::Dipoles,
 };
 
+/// Fewest terms of a series.
+const LEAST_DEGREE: usize = 4;
+/// Safety factor of an accuracy that is asked for.
+const MARGIN: f64 = 0.02;
+
 /// The part of the Green's function between two interfaces that does not go by sums over nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Smooth {
@@ -130,7 +135,7 @@ impl Far {
         }
         let reach = interfaces[target].radius + interfaces[source].radius;
         let ratio = (reach / division.nearest).min(LARGEST_RATIO);
-        let degree = ((self.tolerance.ln() / ratio.ln()).ceil() as usize).clamp(4, MOST_DEGREES);
+        let degree = ((self.tolerance.ln() / ratio.ln()).ceil() as usize).clamp(LEAST_DEGREE, MOST_DEGREES);
         self.degree = self.degree.max(degree);
         let extent = Extent { reach, unit: self.unit, degree };
         let mut link = self.take(target, source);
@@ -180,16 +185,25 @@ impl Far {
             moments.clear(self.degree);
             self.expansion.forces(self.unit, &interface.position, &interface.force, moments);
         }
-        self.add_flow(interfaces, out);
+        self.add_flow(interfaces, self.degree, out);
     }
 
-    /// Adds the flow of the dipoles.
-    pub(crate) fn add_dipoles(&mut self, interfaces: &[Interface], dipoles: &[Dipoles], out: &mut [Vectors]) {
+    /// Adds the flow of the dipoles to an accuracy relative to them.
+    pub(crate) fn add_dipoles(
+        &mut self,
+        interfaces: &[Interface],
+        dipoles: &[Dipoles],
+        accuracy: f64,
+        out: &mut [Vectors],
+    ) {
         if self.used == 0 {
             return;
         }
+        // Terms fall off geometrically: a part of the digits needs that part of the terms.
+        let part = ((MARGIN * accuracy).ln() / self.tolerance.ln()).clamp(0.0, 1.0);
+        let degree = ((part * self.degree as f64).ceil() as usize).max(LEAST_DEGREE);
         for ((interface, dipoles), moments) in interfaces.iter().zip(dipoles).zip(&mut self.moments) {
-            moments.clear(self.degree);
+            moments.clear(degree);
             self.products.clear();
             self.fluxes.clear();
             for i in 0..interface.nodes() {
@@ -198,12 +212,12 @@ impl Far {
             }
             self.expansion.dipoles(self.unit, &interface.position, &self.products, &self.fluxes, moments);
         }
-        self.add_flow(interfaces, out);
+        self.add_flow(interfaces, degree, out);
     }
 
-    fn add_flow(&mut self, interfaces: &[Interface], out: &mut [Vectors]) {
+    fn add_flow(&mut self, interfaces: &[Interface], degree: usize, out: &mut [Vectors]) {
         for (target, (interface, out)) in interfaces.iter().zip(out).enumerate() {
-            self.expansion.begin(self.degree);
+            self.expansion.begin(degree);
             let mut any = false;
             for link in self.links[..self.used].iter().filter(|link| link.target == target) {
                 self.expansion.add(&link.series, &self.moments[link.source], self.unit);

@@ -4,8 +4,6 @@ use crate::recycled::Recycled;
 
 /// Basis vectors before a restart.
 const BASIS: usize = 60;
-/// Products after which what earlier solutions left is taken for useless and forgotten.
-const PATIENCE: usize = 25;
 
 /// What an iteration did.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,8 +78,7 @@ impl Gmres {
             first.iter_mut().for_each(|r| *r /= start);
             self.projected[0] = start;
             let mut size = 0;
-            let most_now = if self.recycled.is_empty() { BASIS } else { PATIENCE };
-            while size < most_now && iterations < most && self.projected[size].abs() > goal {
+            while size < BASIS && iterations < most && self.projected[size].abs() > goal {
                 self.extend(&mut product, size, len, goal);
                 size += 1;
                 iterations += 1;
@@ -91,11 +88,12 @@ impl Gmres {
                 axpy(self.projected[j], &self.directions[j * len..(j + 1) * len], x);
             }
             let left = self.projected[size].abs();
-            if size == PATIENCE {
+            if size == BASIS {
+                // What earlier solutions left is of no use.
                 self.recycled.forget();
             }
             if left <= goal {
-                self.recycled.renew(&self.directions[..size * len], &self.images[..size * len]);
+                self.recycled.renew(&mut self.directions[..size * len], &self.images[..size * len]);
                 return Outcome { iterations, residual: left / scale };
             }
         }

@@ -4,10 +4,14 @@ use crate::gmres::{axpy, dot};
 
 /// Directions that are kept.
 const MOST: usize = 20;
-/// What is left of an older direction beside newer ones must be more than this part of it.
+/// A solution that needed no more directions than this changes nothing: what there is serves.
+const FEW: usize = 3;
+/// What is left of an older image beside newer ones must be more than this part of it.
 const OLD: f64 = 0.1;
-/// The same for the directions of one solution.
+/// The same for the images of one solution.
 const NEW: f64 = 1e-6;
+/// Cosine below which two images count as orthogonal: most older ones still are.
+const ORTHOGONAL: f64 = 1e-4;
 
 /// Directions u with their images c = A u, orthonormal, from earlier solutions with matrices A that were nearly the same.
 ///
@@ -18,11 +22,16 @@ const NEW: f64 = 1e-6;
 #[derive(Debug, Default)]
 pub(crate) struct Recycled {
     len: usize,
+    now: Pairs,
+    before: Pairs,
+}
+
+/// Rows of images, orthonormal, and of directions minus images.
+#[derive(Debug, Default)]
+struct Pairs {
     size: usize,
-    directions: Vec<f64>,
+    differences: Vec<f64>,
     images: Vec<f64>,
-    old_directions: Vec<f64>,
-    old_images: Vec<f64>,
 }
 
 impl Recycled {
@@ -30,70 +39,73 @@ impl Recycled {
     pub(crate) fn fit(&mut self, len: usize) {
         if self.len != len {
             self.len = len;
-            self.size = 0;
-            for values in [&mut self.directions, &mut self.images, &mut self.old_directions, &mut self.old_images] {
-                values.clear();
-                values.resize(MOST * len, 0.0);
+            for pairs in [&mut self.now, &mut self.before] {
+                pairs.size = 0;
+                pairs.differences.resize(MOST * len, 0.0);
+                pairs.images.resize(MOST * len, 0.0);
             }
         }
     }
 
     pub(crate) fn forget(&mut self) {
-        self.size = 0;
+        self.now.size = 0;
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.size == 0
+        self.now.size == 0
     }
 
     /// `out = M v`.
     pub(crate) fn apply(&self, v: &[f64], out: &mut [f64]) {
         out.copy_from_slice(v);
-        let (directions, images) = (self.directions.chunks_exact(self.len), self.images.chunks_exact(self.len));
-        for (direction, image) in directions.zip(images).take(self.size) {
-            let part = dot(image, v);
-            for ((out, direction), image) in out.iter_mut().zip(direction).zip(image) {
-                *out += part * (direction - image);
-            }
+        let pairs = self.now.differences.chunks_exact(self.len).zip(self.now.images.chunks_exact(self.len));
+        for (difference, image) in pairs.take(self.now.size) {
+            axpy(dot(image, v), difference, out);
         }
     }
 
-    /// Takes over the directions of a solution with their images, row after row; the oldest ones give way.
-    pub(crate) fn renew(&mut self, directions: &[f64], images: &[f64]) {
-        let old = std::mem::take(&mut self.size);
-        std::mem::swap(&mut self.directions, &mut self.old_directions);
-        std::mem::swap(&mut self.images, &mut self.old_images);
+    /// Takes over the directions of a solution with their images, row after row. The newest come first, and older ones
+    /// only as far as they add something: so all images stay fresh.
+    pub(crate) fn renew(&mut self, directions: &mut [f64], images: &[f64]) {
         let len = self.len;
-        for (direction, image) in directions.chunks_exact(len).zip(images.chunks_exact(len)) {
-            self.add(direction, image, NEW);
+        if directions.len() <= FEW * len && !self.is_empty() {
+            return;
         }
-        let (old_directions, old_images) =
-            (std::mem::take(&mut self.old_directions), std::mem::take(&mut self.old_images));
-        for (direction, image) in old_directions.chunks_exact(len).zip(old_images.chunks_exact(len)).take(old) {
-            self.add(direction, image, OLD);
+        axpy(-1.0, images, directions);
+        std::mem::swap(&mut self.now, &mut self.before);
+        self.now.size = 0;
+        for (difference, image) in directions.chunks_exact(len).zip(images.chunks_exact(len)) {
+            self.now.add(difference, image, NEW);
         }
-        (self.old_directions, self.old_images) = (old_directions, old_images);
+        let old = self.before.differences.chunks_exact(len).zip(self.before.images.chunks_exact(len));
+        for (difference, image) in old.take(self.before.size) {
+            self.now.add(difference, image, OLD);
+        }
     }
+}
 
-    fn add(&mut self, direction: &[f64], image: &[f64], least: f64) {
+impl Pairs {
+    fn add(&mut self, difference: &[f64], image: &[f64], least: f64) {
         if self.size == MOST {
             return;
         }
-        let len = self.len;
-        let (directions, images) =
-            (self.directions.split_at_mut(self.size * len), self.images.split_at_mut(self.size * len));
-        let (new_direction, new_image) = (&mut directions.1[..len], &mut images.1[..len]);
-        new_direction.copy_from_slice(direction);
+        let len = image.len();
+        let (differences, own_differences) = self.differences.split_at_mut(self.size * len);
+        let (images, own_images) = self.images.split_at_mut(self.size * len);
+        let (new_difference, new_image) = (&mut own_differences[..len], &mut own_images[..len]);
+        new_difference.copy_from_slice(difference);
         new_image.copy_from_slice(image);
         let norm = dot(image, image).sqrt();
-        for (direction, image) in directions.0.chunks_exact(len).zip(images.0.chunks_exact(len)) {
-            let part = -dot(image, new_image);
-            axpy(part, direction, new_direction);
-            axpy(part, image, new_image);
+        for (difference, image) in differences.chunks_exact(len).zip(images.chunks_exact(len)) {
+            let part = dot(image, new_image);
+            if part.abs() > ORTHOGONAL * norm {
+                axpy(-part, difference, new_difference);
+                axpy(-part, image, new_image);
+            }
         }
         let left = dot(new_image, new_image).sqrt();
         if left > least * norm {
-            new_direction.iter_mut().for_each(|value| *value /= left);
+            new_difference.iter_mut().for_each(|value| *value /= left);
             new_image.iter_mut().for_each(|value| *value /= left);
             self.size += 1;
         }
