@@ -1,11 +1,10 @@
 //! Solvers of a channel, in units of one pass of real transforms in x there and back of the same size in the same run.
 
 use criterion::{BenchmarkId, Criterion};
+use motile_timing::{PlainPair, print_ratios};
 use stokes_grid::{ChannelStokes, Grid, ProjectionStokes};
 
-use crate::plain_pair::PlainPair;
 use crate::solve;
-use crate::timing::print_ratios;
 
 const SIZES: [(usize, usize); 4] = [(240, 40), (240, 100), (480, 80), (960, 400)];
 
@@ -22,8 +21,11 @@ pub(crate) fn benches(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("projection", &size), |b| b.iter(&mut projection));
         print_ratios(
             &size,
-            &mut ("x transforms", &mut || plain.rows()),
-            &mut [("streamfunction", &mut streamfunction), ("projection", &mut projection)],
+            &mut [
+                ("x transforms", &mut || plain.rows()),
+                ("streamfunction", &mut streamfunction),
+                ("projection", &mut projection),
+            ],
         );
     }
     group.finish();

@@ -2,12 +2,11 @@
 
 mod channel;
 mod periodic;
-mod plain_pair;
-mod timing;
 
 use std::hint::black_box;
+use std::time::Duration;
 
-use criterion::{criterion_group, criterion_main};
+use criterion::{Criterion, criterion_group, criterion_main};
 use stokes_grid::{Grid, StaggeredField, StokesSolver};
 
 /// A force with all wave numbers in it.
@@ -27,9 +26,15 @@ fn solve(mut solver: impl StokesSolver) -> impl FnMut() {
     }
 }
 
+/// Short runs: what matters are ratios, which are measured by turns.
+fn short() -> Criterion {
+    let time = Duration::from_millis(500);
+    Criterion::default().sample_size(20).warm_up_time(Duration::from_millis(100)).measurement_time(time)
+}
+
 criterion_group! {
     name = solvers;
-    config = timing::short();
+    config = short();
     targets = periodic::benches, channel::benches
 }
 criterion_main!(solvers);

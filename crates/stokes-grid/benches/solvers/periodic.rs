@@ -3,12 +3,11 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion};
+use motile_timing::{PlainPair, print_ratios};
 use num_complex::Complex64;
 use stokes_grid::{Grid, PeriodicStokes, ProjectionStokes, RealFft2};
 
-use crate::plain_pair::PlainPair;
 use crate::solve;
-use crate::timing::print_ratios;
 
 const SIZES: [usize; 7] = [120, 128, 240, 256, 480, 512, 1024];
 
@@ -40,8 +39,12 @@ pub(crate) fn benches(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("streamfunction", &size), |b| b.iter(&mut streamfunction));
         print_ratios(
             &size,
-            &mut ("plain pair", &mut || plain.run()),
-            &mut [("own pair", &mut own), ("streamfunction", &mut streamfunction), ("projection", &mut projection)],
+            &mut [
+                ("plain pair", &mut || plain.run()),
+                ("own pair", &mut own),
+                ("streamfunction", &mut streamfunction),
+                ("projection", &mut projection),
+            ],
         );
     }
     group.finish();

@@ -8,7 +8,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
 /// A real transform there and back as anyone would write it: realfft for the rows, a transposition, rustfft for the columns.
-pub(crate) struct PlainPair {
+pub struct PlainPair {
     nx: usize,
     ny: usize,
     r2c: Arc<dyn RealToComplex<f64>>,
@@ -21,8 +21,16 @@ pub(crate) struct PlainPair {
     scratch: Vec<Complex64>,
 }
 
+impl std::fmt::Debug for PlainPair {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("PlainPair").field("nx", &self.nx).field("ny", &self.ny).finish_non_exhaustive()
+    }
+}
+
 impl PlainPair {
-    pub(crate) fn new(nx: usize, ny: usize) -> Self {
+    /// A pair for `nx` x `ny` real values, both at least one.
+    #[must_use]
+    pub fn new(nx: usize, ny: usize) -> Self {
         let (mut real, mut complex) = (RealFftPlanner::new(), FftPlanner::new());
         let (r2c, c2r) = (real.plan_fft_forward(nx), real.plan_fft_inverse(nx));
         let (forward, inverse) = (complex.plan_fft_forward(ny), complex.plan_fft_inverse(ny));
@@ -49,14 +57,20 @@ impl PlainPair {
     }
 
     /// Both passes over the rows only.
-    pub(crate) fn rows(&mut self) {
+    ///
+    /// # Panics
+    /// Never: the lengths are right.
+    pub fn rows(&mut self) {
         self.forward_rows();
         self.inverse_rows();
         black_box(&self.space);
     }
 
     /// The whole pair.
-    pub(crate) fn run(&mut self) {
+    ///
+    /// # Panics
+    /// Never: the lengths are right.
+    pub fn run(&mut self) {
         let width = self.nx / 2 + 1;
         self.forward_rows();
         transpose(&self.rows, width, self.ny, &mut self.columns);
