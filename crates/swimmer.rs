@@ -1,7 +1,5 @@
 //! One active droplet in a box, from a few numbers.
 
-use std::f64::consts::TAU;
-
 use active_interface::{
     ActiveDroplet, ContractileTension, Curve, Flux, InitialConcentration, InterfaceError, Motion, StepExcludedVolume,
 };
