@@ -12,7 +12,7 @@
 //! | results | [`Summary`] (`summary.json` and a table), [`Trajectory`] (CSV) |
 //! | studies | [`RunPool`] (parallel, resumable), [`write_results`] (CSV) |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
-//! | elastic solids | [`SolidMeter`], [`SolidFiles`], [`solid_shape`] |
+//! | elastic solids | [`Passage`], [`SolidMeter`], [`SolidFiles`], [`solid_shape`] |
 //! | runs with a droplet | [`WatchedRun`] with the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`] |
 //!
 //! Pictures need no fonts of the system and no C libraries: lines, areas and letters are drawn by [`Canvas`] and
@@ -42,6 +42,7 @@ mod font;
 mod method_flags;
 mod palette;
 mod parse;
+mod passage;
 mod picture;
 mod picture_paint;
 mod plot;
@@ -75,6 +76,7 @@ pub use film::{Film, Look};
 pub use flags::{BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, OutputFlags};
 pub use method_flags::{Contrast, FlowMethod, MethodFlags, Preset};
 pub use parse::{TimeStep, activity, count, finite, kernel, not_negative, pair, positive, seed};
+pub use passage::{Decided, Passage, Verdict};
 pub use picture::{Format, Picture, SolidShape};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::Progress;
