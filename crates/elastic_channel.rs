@@ -87,7 +87,8 @@ pub type BuiltElastic = Result<(Scene<AnyFlow>, Handle<ActiveDroplet>, Vec<Handl
 impl ElasticChannel {
     /// Walls 1.5 R0 thick (the thesis') of springs on an equilateral lattice as fine as the grid.
     #[must_use]
-    pub fn new(swimmer: Swimmer, moduli: Moduli) -> Self {
+    pub fn new(mut swimmer: Swimmer, moduli: Moduli) -> Self {
+        swimmer.method = Method::ImmersedBoundary;
         Self {
             material: WallMaterial::Springs,
             moduli,
@@ -98,7 +99,7 @@ impl ElasticChannel {
             may_invert: false,
             hold: None,
             drive: Drive::ZeroGradient,
-            swimmer: Swimmer { method: Method::ImmersedBoundary, ..swimmer },
+            swimmer,
         }
     }
 

@@ -55,7 +55,7 @@ impl Look {
             .interface_scale(scales.concentration, "concentration c/c_{0}")
             .track(track)
             .interface(&seen.markers, &concentration)?;
-        let picture = seen.solids.iter().fold(picture, |picture, solid| picture.solid(solid));
+        let picture = seen.solids.iter().fold(picture, Picture::solid_shape);
         Ok(match self.walls {
             Some([below, above]) => picture.walls(below, above),
             None => picture,

@@ -12,7 +12,7 @@
 //! | results | [`Summary`] (`summary.json` and a table), [`Trajectory`] (CSV) |
 //! | studies | [`RunPool`] (parallel, resumable), [`write_results`] (CSV) |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
-//! | elastic solids | [`SolidMeter`], [`SolidFiles`], [`outlines`] |
+//! | elastic solids | [`Passage`], [`SolidMeter`], [`SolidFiles`], [`solid_shape`] |
 //! | runs with a droplet | [`WatchedRun`] with the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`] |
 //!
 //! Pictures need no fonts of the system and no C libraries: lines, areas and letters are drawn by [`Canvas`] and
@@ -42,6 +42,7 @@ mod font;
 mod method_flags;
 mod palette;
 mod parse;
+mod passage;
 mod picture;
 mod picture_paint;
 mod plot;
@@ -61,6 +62,7 @@ mod ticks;
 mod trajectory;
 mod vtk;
 mod vtk_output;
+mod wall_flags;
 mod watched_run;
 
 pub use animation::Animation;
@@ -74,14 +76,15 @@ pub use film::{Film, Look};
 pub use flags::{BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, OutputFlags};
 pub use method_flags::{Contrast, FlowMethod, MethodFlags, Preset};
 pub use parse::{TimeStep, activity, count, finite, kernel, not_negative, pair, positive, seed};
-pub use picture::{Format, Picture};
+pub use passage::{Decided, Passage, Verdict};
+pub use picture::{Format, Picture, SolidShape};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::Progress;
 pub use raster::{Raster, ScalarSamples, VectorSamples};
 pub use recorder::{Dial, Recorder, check_run};
 pub use run_pool::RunPool;
 pub use snapshot::{Snapshot, at_markers, domain_raster};
-pub use solids::{SolidFiles, SolidMeter, outlines, put_solids, solids};
+pub use solids::{SolidFiles, SolidMeter, put_solids, solid_shape, solids};
 pub use steady::Steadiness;
 pub use streamlines::streamlines;
 pub use summary::{Summary, make_directory, write_results};
@@ -90,6 +93,7 @@ pub use svg::Svg;
 pub use trajectory::Trajectory;
 pub use vtk::{VtkFile, VtkSeries};
 pub use vtk_output::VtkOutput;
+pub use wall_flags::{ElasticFlags, Material, Mesh, wall_caption};
 pub use watched_run::{WatchedRun, caption};
 
 /// A point or vector in the plane.

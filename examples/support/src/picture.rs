@@ -77,12 +77,21 @@ pub struct Picture {
     pub(crate) flow: Option<Flow>,
     pub(crate) view: [[f64; 2]; 2],
     pub(crate) walls: Option<[f64; 2]>,
-    pub(crate) solids: Vec<Vec<Vec<Vec2>>>,
+    pub(crate) solids: Vec<SolidShape>,
     pub(crate) tracks: Vec<Vec<Vec2>>,
     pub(crate) arrows: Vec<[Vec2; 2]>,
     pub(crate) interfaces: Vec<ColouredCurve>,
     pub(crate) interface_legend: Option<Legend>,
     pub(crate) length_unit: String,
+}
+
+/// A solid as it is drawn.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SolidShape {
+    /// Closed outlines of what is filled (length), one within another for a hole.
+    pub area: Vec<Vec<Vec2>>,
+    /// Lines that are drawn as its surface (length).
+    pub edges: Vec<Vec<Vec2>>,
 }
 
 /// The velocity whose streamlines are drawn.
@@ -197,8 +206,15 @@ impl Picture {
 
     /// Draws a solid: closed outlines, of which one within another is a hole.
     #[must_use]
-    pub fn solid(mut self, outlines: &[Vec<Vec2>]) -> Self {
-        self.solids.push(outlines.to_vec());
+    pub fn solid(self, outlines: &[Vec<Vec2>]) -> Self {
+        let closed = |ring: &Vec<Vec2>| ring.iter().chain(ring.first()).copied().collect();
+        self.solid_shape(&SolidShape { area: outlines.to_vec(), edges: outlines.iter().map(closed).collect() })
+    }
+
+    /// Draws a solid whose edges are not all of its outline, such as one period of a wall.
+    #[must_use]
+    pub fn solid_shape(mut self, shape: &SolidShape) -> Self {
+        self.solids.push(shape.clone());
         self
     }
 

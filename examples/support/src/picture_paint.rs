@@ -189,14 +189,14 @@ impl Painter<'_> {
     fn solids(&mut self) {
         let picture = self.picture;
         let pen = Pen::new(SOLID_EDGE, (0.1 * self.layout.unit).max(1.0));
-        for outlines in &picture.solids {
-            let all: Vec<Vec2> = outlines.iter().flatten().copied().collect();
+        for solid in &picture.solids {
+            let all: Vec<Vec2> = solid.area.iter().flatten().copied().collect();
             for shift in self.images(&all) {
-                let mut rings: Vec<Vec<Pixel>> = outlines.iter().map(|o| self.path(o, shift)).collect();
+                let rings: Vec<Vec<Pixel>> = solid.area.iter().map(|ring| self.path(ring, shift)).collect();
                 self.canvas.fill(&rings, SOLID, 1.0);
-                for ring in &mut rings {
-                    ring.extend(ring.first().copied());
-                    self.canvas.stroke(ring, &pen);
+                for line in &solid.edges {
+                    let line = self.path(line, shift);
+                    self.canvas.stroke(&line, &pen);
                 }
             }
         }

@@ -6,7 +6,7 @@ use motile::{
     ib_core::{Domain, FlowSample, Hydrodynamics, System},
 };
 
-use crate::{Raster, Vec2, outlines, solids};
+use crate::{Raster, SolidShape, Vec2, solid_shape, solids};
 
 /// The cells of a domain that is bounded by walls or periodic, those of a grid of spacing `spacing` (length) if they are
 /// no more than `most` in a direction, and larger ones otherwise.
@@ -47,8 +47,8 @@ pub struct Snapshot {
     pub concentration: Vec<f64>,
     /// Centroid (length).
     pub centroid: Vec2,
-    /// Outlines of each elastic solid (length).
-    pub solids: Vec<Vec<Vec<Vec2>>>,
+    /// Elastic solids.
+    pub solids: Vec<SolidShape>,
 }
 
 impl Snapshot {
@@ -67,7 +67,7 @@ impl Snapshot {
             markers: droplet.markers().to_vec(),
             concentration: at_markers(droplet.concentrations()),
             centroid: polygon_moments(droplet.markers())?.centroid,
-            solids: solids(system).map(outlines).collect(),
+            solids: solids(system).map(solid_shape).collect(),
         })
     }
 

@@ -9,34 +9,37 @@ use motile::{
     ib_core::{Hydrodynamics, System},
 };
 
-use crate::{Summary, Vec2, VtkFile, VtkSeries};
+use crate::{SolidShape, Summary, Vec2, VtkFile, VtkSeries};
 
 /// The solids of a system, in the order of addition.
 pub fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &AnySolid> {
     system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
 }
 
-/// Closed outlines of a solid where it is now: the outer one, of a periodic wall over one period, and its holes.
+/// A solid where it is now; of a periodic wall one period.
 #[must_use]
-pub fn outlines(solid: &AnySolid) -> Vec<Vec<Vec2>> {
+pub fn solid_shape(solid: &AnySolid) -> SolidShape {
     let mesh = solid.mesh();
-    let line = |periods: i32| {
-        let found = mesh.boundary_loops().iter().find(|boundary| boundary.periods == periods)?;
-        Some(mesh.boundary_polygon(found, solid.positions()))
-    };
-    let mut rings = Vec::new();
-    if let (Some(period), Some(mut ring), Some(back)) = (mesh.period(), line(1), line(-1)) {
-        // To the right along one side, back along the other; both sides are closed at the seam.
-        let step = Vec2::new(period, 0.0);
-        ring.push(ring[0] + step);
-        let shift = step * ((ring[ring.len() - 1].x - back[0].x) / period).round();
-        ring.extend(back.iter().map(|point| point + shift));
-        ring.push(back[0] + shift - step);
-        rings.push(ring);
+    let mut shape = SolidShape::default();
+    // Lines around the period: to the right and to the left, with the solid on their left.
+    let (mut there, mut back) = (None, None);
+    for boundary in mesh.boundary_loops() {
+        let mut line = mesh.boundary_polygon(boundary, solid.positions());
+        let advance = f64::from(boundary.periods) * mesh.period().unwrap_or(0.0);
+        line.push(line[0] + Vec2::new(advance, 0.0));
+        match boundary.periods {
+            1 => there = Some(line.clone()),
+            -1 => back = Some(line.clone()),
+            _ => shape.area.push(line.clone()),
+        }
+        shape.edges.push(line);
     }
-    let closed = mesh.boundary_loops().iter().filter(|boundary| boundary.periods == 0);
-    rings.extend(closed.map(|boundary| mesh.boundary_polygon(boundary, solid.positions())));
-    rings
+    if let (Some(period), Some(there), Some(back)) = (mesh.period(), there, back) {
+        let end = there[there.len() - 1];
+        let shift = Vec2::new(period * ((end.x - back[0].x) / period).round(), 0.0);
+        shape.area.push(there.into_iter().chain(back.into_iter().map(|point| point + shift)).collect());
+    }
+    shape
 }
 
 /// Measures the solids of a system, for rows of a table.
@@ -206,9 +209,9 @@ mod tests {
             0.5 * ring.iter().zip(next).map(|(a, b)| a.perp(b)).sum::<f64>()
         };
         for solid in solids(system) {
-            let rings = outlines(solid);
-            assert_eq!(rings.len(), 1);
-            assert!((area(&rings[0]) - 4.0 * 1.5).abs() < 1e-9, "{}", area(&rings[0]));
+            let shape = solid_shape(solid);
+            assert_eq!((shape.area.len(), shape.edges.len()), (1, 2));
+            assert!((area(&shape.area[0]) - 4.0 * 1.5).abs() < 1e-9, "{}", area(&shape.area[0]));
         }
         let measured = SolidMeter::of(system).unwrap().measure(system).unwrap();
         let value = |name: &str| measured[SolidMeter::NAMES.iter().position(|known| *known == name).unwrap()];

@@ -6,12 +6,12 @@ use anyhow::{Context, Result};
 use motile::{
     Method, SolidGap, Swimmer,
     active_interface::{ActiveDroplet, ConcentrationProfile, Frame, concentration_profile},
-    ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, Vec2},
+    ib_core::{Every, Handle, Hydrodynamics, Observer, Scene, SceneError, System, Vec2},
 };
 
 use crate::{
-    Dial, Film, Look, OutputFlags, Raster, Recorder, RunCost, Snapshot, Steadiness, Summary, VtkOutput, check_run,
-    concentration_plot, domain_raster, droplet_summary, put_solids, time_series,
+    Decided, Dial, Film, Look, OutputFlags, Raster, Recorder, RunCost, Snapshot, Steadiness, Summary, VtkOutput,
+    check_run, concentration_plot, domain_raster, droplet_summary, put_solids, time_series,
 };
 
 /// Rows of the trajectory and files for ParaView in a run.
@@ -100,17 +100,33 @@ impl WatchedRun {
     /// # Errors
     /// What made the run break off, as the inner result; files that cannot be written.
     pub fn go<H: Hydrodynamics>(&mut self, scene: &mut Scene<H>) -> Result<Result<(), SceneError>> {
+        self.go_until(scene, &mut |_: &mut System<H>| Ok::<(), std::convert::Infallible>(()))
+    }
+
+    /// Runs until an observer, which looks at every step, ends the run by the error [`Decided`].
+    ///
+    /// # Errors
+    /// As [`WatchedRun::go`].
+    pub fn go_until<H: Hydrodynamics>(
+        &mut self,
+        scene: &mut Scene<H>,
+        end: &mut dyn Observer<H>,
+    ) -> Result<Result<(), SceneError>> {
         let mut run = scene
             .run(self.end)
             .step_size(self.swimmer.step)
             .observe(Every::Time(self.end / ROWS), &mut self.recorder)
             .observe(Every::Steps(1), &mut self.gap)
+            .observe(Every::Steps(1), end)
             .observe(Every::Steps(1), &mut self.dial);
         if let Some((film, vtk)) = &mut self.pictures {
             let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
             run = run.observe(Every::Time(self.end / frames), film).observe(Every::Time(self.end / FILES), vtk);
         }
-        let outcome = run.go();
+        let outcome = match run.go() {
+            Err(SceneError::Observer { source, .. }) if source.is::<Decided>() => Ok(()),
+            outcome => outcome,
+        };
         self.cost = RunCost {
             time: scene.time(),
             steps: scene.steps(),

@@ -1,0 +1,72 @@
+//! An active droplet meets a constriction between elastic walls (thesis, section 4.1.3).
+//!
+//! `cargo run --release --example constriction` simulates it until it is clear what becomes of the droplet, prints that
+//! and what was measured, and writes to `out/constriction/` what the example `elastic_channel` writes. The channel is
+//! that of thesis figure 4.18, the droplet starts in the middle of its wide part; `--width`, `--throat` and
+//! `--throat-length` change it. `--help` lists the flags.
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use clap::Parser;
+use motile::elastic_solids::Constriction;
+use support::{
+    DropletFlags, ElasticFlags, MethodFlags, OutputFlags, Passage, WatchedRun, caption, positive, say, wall_caption,
+};
+
+/// An active droplet meets a constriction between elastic walls.
+#[derive(Debug, Parser)]
+struct Flags {
+    /// Width of the throat (R0)
+    #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]
+    throat: f64,
+    /// Length of the throat (R0)
+    #[arg(long, default_value_t = 4.0, value_parser = positive, allow_hyphen_values = true)]
+    throat_length: f64,
+    /// Length of the ramps on both sides of it (R0)
+    #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]
+    ramp: f64,
+    /// Time after which a droplet that is still on its way is called undecided; takes the place of --time
+    #[arg(long, default_value_t = 400.0, value_parser = positive, allow_hyphen_values = true)]
+    patience: f64,
+    #[command(flatten)]
+    droplet: DropletFlags,
+    #[command(flatten)]
+    walls: ElasticFlags,
+    #[command(flatten)]
+    method: MethodFlags,
+    #[command(flatten)]
+    output: OutputFlags,
+}
+
+fn main() -> ExitCode {
+    support::run(meet)
+}
+
+fn meet(flags: &Flags) -> Result<()> {
+    // The channel, and the droplet half a period away from the middle of the throat.
+    let &Flags { throat, throat_length, ramp, patience, .. } = flags;
+    let method = MethodFlags { time: patience, ..flags.method.clone() };
+    let channel = flags.walls.channel(&flags.droplet, &method, -0.5 * flags.walls.length)?;
+    let swimmer = &channel.swimmer;
+    let [period, width] = swimmer.lengths;
+    let shape = Constriction { period, width, throat, throat_length, ramp, centre: 0.0 };
+    let (mut scene, droplet, _) = channel.build_in(&shape.channel()?)?;
+
+    // The run, with all that watches it, until the verdict.
+    let title = format!("{},  {}", caption(swimmer), wall_caption(&channel));
+    let mut run = WatchedRun::new(&mut scene, droplet, swimmer, patience, &flags.output, "constriction", title)?;
+    let mut passage = Passage::new(0.5 * throat_length + ramp);
+    let outcome = run.go_until(&mut scene, &mut passage)?;
+
+    // The results, also of a run that broke off.
+    let mut summary = run.summary()?;
+    passage.put(&mut summary);
+    summary.put("throat", throat, "(R0)");
+    summary.put("throat_length", throat_length, "(R0)");
+    summary.write(&run.directory().join("summary.json"))?;
+    say(summary.table().trim_end());
+    run.write_pictures(&mut scene)?;
+    say(format_args!("results in {}", run.directory().display()));
+    Ok(outcome?)
+}

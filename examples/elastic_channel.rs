@@ -1,0 +1,63 @@
+//! An active droplet swims between elastic walls (thesis, chapter 4).
+//!
+//! `cargo run --release --example elastic_channel` simulates it, prints what was measured, and writes to
+//! `out/elastic_channel/` what the example `rigid_channel` writes, with the walls in the pictures, in the table and for
+//! ParaView (displacement, stress). `--help` lists the flags.
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use clap::Parser;
+use motile::{
+    active_interface::{Evidence, RegimeCriteria},
+    ib_core::Body,
+};
+use support::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
+
+/// An active droplet swims between elastic walls.
+#[derive(Debug, Parser)]
+struct Flags {
+    #[command(flatten)]
+    droplet: DropletFlags,
+    #[command(flatten)]
+    walls: ElasticFlags,
+    #[command(flatten)]
+    method: MethodFlags,
+    #[command(flatten)]
+    output: OutputFlags,
+}
+
+fn main() -> ExitCode {
+    support::run(swim)
+}
+
+fn swim(flags: &Flags) -> Result<()> {
+    // The droplet and the walls.
+    let channel = flags.walls.channel(&flags.droplet, &flags.method, 0.0)?;
+    let swimmer = &channel.swimmer;
+    let (mut scene, droplet, walls) = channel.build()?;
+    for wall in &walls {
+        say(format_args!("{}: {}", scene.body(*wall).name(), scene.body(*wall).mesh().quality()));
+    }
+
+    // The run, with all that watches it.
+    let title = format!("{},  {}", caption(swimmer), wall_caption(&channel));
+    let end = flags.method.time;
+    let mut run = WatchedRun::new(&mut scene, droplet, swimmer, end, &flags.output, "elastic_channel", title)?;
+    let outcome = run.go(&mut scene)?;
+
+    // The results, also of a run that broke off.
+    let mut summary = run.summary()?;
+    let report = run.recorder().records().regime(&RegimeCriteria::default())?;
+    let Evidence { amplitude, .. } = report.evidence;
+    summary.put("regime", report.regime.to_string(), "across the channel");
+    summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
+    if let Some(last) = run.recorder().last() {
+        summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
+    }
+    summary.write(&run.directory().join("summary.json"))?;
+    say(summary.table().trim_end());
+    run.write_pictures(&mut scene)?;
+    say(format_args!("results in {}", run.directory().display()));
+    Ok(outcome?)
+}
