@@ -2,8 +2,8 @@
 
 use motile::Swimmer;
 use motile_validation::contrast::{
-    Droplet, Errors, Exact, Region, Way, cold_iterations, field_errors, growth, iterations_in_a_run, layer_errors,
-    ratio_ten,
+    CostScene, Droplet, Errors, Exact, Region, Way, cold_iterations, field_errors, growth, iterations_in_a_run,
+    layer_errors, ratio_ten,
 };
 use motile_validation::growth::Mode;
 use motile_validation::swimmers::{long_run, reference_swimmer, steady};
@@ -257,6 +257,36 @@ pub(crate) fn runs(quick: bool) -> Tables {
             format!("{:.1e}", run.speed_spread),
             format!("{:.1e}", run.area_change),
         ]);
+    }
+    Ok(vec![table])
+}
+
+pub(crate) fn cost(quick: bool) -> Tables {
+    let mut table = Table::new(
+        "Cost of an evaluation of a droplet that moves by 0.002 between evaluations: time, in units of a forward and an inverse real transform of the grid, solves on the grid, iterations",
+        &["scene", "h", "ratio", "way", "ms", "transform pairs", "solves", "iterations"],
+    );
+    for &h in if quick { &[0.05][..] } else { &[0.1, 0.05, 0.025][..] } {
+        for solid_points in [0, 17_000] {
+            for (ratio, smeared) in
+                [(1.0, false), (10.0, false), (100.0, false), (1000.0, false), (10.0, true), (100.0, true)]
+            {
+                if solid_points > 0 && (smeared || h != 0.05) {
+                    continue;
+                }
+                let cost = CostScene { h, ratio, smeared, solid_points }.cost()?;
+                table.push([
+                    if solid_points > 0 { "channel 12 x 6, 17 000 solid points" } else { "box 6 x 6" }.to_owned(),
+                    h.to_string(),
+                    ratio.to_string(),
+                    if smeared { "arithmetic, 1e-4" } else { "sharp" }.to_owned(),
+                    format!("{:.2}", 1e3 * cost.seconds),
+                    format!("{:.1}", cost.pairs),
+                    format!("{:.1}", cost.solves),
+                    format!("{:.1}", cost.iterations),
+                ]);
+            }
+        }
     }
     Ok(vec![table])
 }

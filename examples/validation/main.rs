@@ -42,6 +42,7 @@ enum Study {
     ContrastIterations,
     ContrastDecay,
     ContrastRuns,
+    ContrastCost,
 }
 
 /// Compares motile with exact and independently computed values.
@@ -62,7 +63,7 @@ type Run = fn(bool) -> Tables;
 
 fn main() -> anyhow::Result<()> {
     let flags = Flags::parse();
-    let studies: [(Study, Run); 22] = [
+    let studies: [(Study, Run); 23] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -85,6 +86,7 @@ fn main() -> anyhow::Result<()> {
         (Study::ContrastIterations, contrast::iterations),
         (Study::ContrastDecay, contrast::decay),
         (Study::ContrastRuns, contrast::runs),
+        (Study::ContrastCost, contrast::cost),
     ];
     for (study, run) in studies {
         if flags.study == Study::All || flags.study == study {

@@ -2,6 +2,7 @@
 
 mod double_layer;
 mod droplet;
+mod equivalent;
 mod field;
 mod gmres;
 mod images;
@@ -15,8 +16,11 @@ mod walls;
 use crate::{FlowError, MarkerKind, Markers, Vec2};
 
 use double_layer::DoubleLayer;
-use droplet::Droplet;
-use gmres::{Gmres, Outcome, dot};
+pub(crate) use droplet::Droplet;
+pub(crate) use equivalent::EquivalentForces;
+pub(crate) use field::Nearby;
+pub(crate) use gmres::Outcome;
+use gmres::{Gmres, dot};
 pub(crate) use images::Images;
 use rigid::RigidModes;
 pub(crate) use rigid_walls::RigidWalls;
@@ -101,8 +105,18 @@ impl Contrast {
         }
     }
 
+    /// The droplets of another viscosity.
+    pub(crate) fn droplets(&self) -> &[Droplet] {
+        &self.droplets[..self.count]
+    }
+
+    /// The markers that are not on them.
+    pub(crate) fn others(&self) -> &[usize] {
+        &self.targets
+    }
+
     /// Takes over the shapes of the droplets.
-    fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+    pub(crate) fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         let (mut count, mut nodes) = (0, 0);
         self.targets.clear();
         for group in markers.groups() {
@@ -118,6 +132,7 @@ impl Contrast {
             droplet.first = nodes;
             droplet.viscosity = viscosity;
             droplet.contrast = viscosity - self.viscosity;
+            droplet.even = matches!(group.kind, MarkerKind::Interface { .. });
             droplet.load(self.layer.kernel(), &markers.positions[group.range.clone()])?;
             count += 1;
             nodes += group.range.len();
@@ -131,26 +146,22 @@ impl Contrast {
         Ok(())
     }
 
-    /// Replaces `markers.velocities`, which hold the one-viscosity velocities of all forces, by the velocities with the
-    /// contrast; `own` holds those of the droplets' own forces alone, for all markers.
-    pub(crate) fn solve(&mut self, markers: &mut Markers, own: &[Vec2]) -> Result<Effort, FlowError> {
-        self.load(markers)?;
+    /// Fills `velocities` at the nodes of the loaded droplets from the one-viscosity velocities there: `own` those of the droplets'
+    /// forces, `other` those of all other forces.
+    pub(crate) fn solve(&mut self, own: &[Vec2], other: &[Vec2], velocities: &mut [Vec2]) -> Result<Effort, FlowError> {
         let len = 2 * self.nodes;
         for array in [&mut self.own, &mut self.other, &mut self.right] {
             array.resize(len, 0.0);
         }
-        for droplet in &self.droplets[..self.count] {
-            for (k, marker) in droplet.markers.clone().enumerate() {
-                let (x, y) = (droplet.first + k, self.nodes + droplet.first + k);
-                let (total, own) = (self.viscosity * markers.velocities[marker], self.viscosity * own[marker]);
-                (self.own[x], self.own[y]) = (own.x, own.y);
-                (self.other[x], self.other[y]) = (total.x - own.x, total.y - own.y);
+        for (stresses, velocities) in [(&mut self.own, own), (&mut self.other, other)] {
+            let (x, y) = stresses.split_at_mut(self.nodes);
+            for ((x, y), velocity) in x.iter_mut().zip(y).zip(velocities) {
+                (*x, *y) = (self.viscosity * velocity.x, self.viscosity * velocity.y);
             }
         }
         self.layer.build(&self.droplets[..self.count]);
         self.rigid.fill(&self.droplets[..self.count], self.nodes);
-        let outcome = self.solve_nodes();
-        let outcome = match outcome {
+        let outcome = match self.solve_nodes() {
             Ok(outcome) => outcome,
             Err(error) => {
                 self.left.clear();
@@ -158,8 +169,11 @@ impl Contrast {
                 return Err(error);
             }
         };
-        self.store(markers);
-        let pressure_gradient = self.layer.pressure_gradient();
+        let (x, y) = self.velocities.split_at(self.nodes);
+        for ((velocity, x), y) in velocities.iter_mut().zip(x).zip(y) {
+            *velocity = Vec2::new(*x, *y);
+        }
+        let pressure_gradient = self.layer.pressure_gradient(&self.droplets[..self.count], &self.velocities);
         Ok(Effort { iterations: outcome.iterations, residual: outcome.residual, pressure_gradient })
     }
 
@@ -236,26 +250,6 @@ impl Contrast {
             }
         }
         Ok(Outcome { iterations: iterations + outcome.iterations, residual: outcome.residual })
-    }
-
-    /// Writes the velocities to the droplets' markers and what the double layer adds to all others.
-    fn store(&mut self, markers: &mut Markers) {
-        for droplet in &self.droplets[..self.count] {
-            for (k, marker) in droplet.markers.clone().enumerate() {
-                let i = droplet.first + k;
-                markers.velocities[marker] = Vec2::new(self.velocities[i], self.velocities[self.nodes + i]);
-            }
-        }
-        let mean = self.layer.begin_field(&self.droplets[..self.count], &self.velocities);
-        if self.targets.is_empty() {
-            return;
-        }
-        self.layer.begin_walls(self.targets.iter().map(|&marker| markers.positions[marker]));
-        for index in 0..self.targets.len() {
-            let marker = self.targets[index];
-            let stress = self.viscosity * markers.velocities[marker];
-            markers.velocities[marker] = self.flow_at(markers.positions[marker], index, stress, mean).velocity;
-        }
     }
 }
 

@@ -1,17 +1,18 @@
 //! The immersed boundary method: a grid between markers.
 
+mod contrast_flow;
+
 use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, StokesSolver};
 
-use crate::contrast::{Contrast, Images, RigidWalls, other_viscosity};
-use crate::correction::{MobilityCorrection, Setting};
+use crate::contrast::other_viscosity;
+use crate::correction::MobilityCorrection;
 use crate::sampling;
 use crate::{
     Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, Kernel, MarkerKind, Markers, Medium,
     MobilityDeficit, Transfer, Vec2,
 };
+use contrast_flow::ContrastFlow;
 
-/// Distance from an interface, in grid spacings, within which the flow on the grid is smeared.
-const SMEARED: f64 = 4.0;
 /// How far beyond a wall a marker may lie, in grid spacings.
 const WALL_TOLERANCE: f64 = 0.25;
 
@@ -40,22 +41,10 @@ pub struct ImmersedBoundary<S, K> {
     correction: Option<MobilityCorrection>,
     stiffness: f64,
     variance: f64,
-    contrast: Option<ContrastFlow>,
+    contrast: Option<ContrastFlow<K>>,
     /// Whether the solver itself knows the viscosities inside interfaces.
     varying: bool,
     work: FlowWork,
-}
-
-/// What interfaces to other viscosities need beside the grid.
-#[derive(Debug)]
-struct ContrastFlow {
-    contrast: Contrast,
-    /// The flow without forces (imposed fluxes, walls that move) and its mean pressure gradient; none where it vanishes.
-    imposed: Option<(StaggeredField, [f64; 2])>,
-    forces: Vec<Vec2>,
-    own: Vec<Vec2>,
-    velocity: StaggeredField,
-    density: StaggeredField,
 }
 
 impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
@@ -124,8 +113,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.correction.is_some()
     }
 
-    /// The velocity on the grid (length per time) of the last evaluation or sampling; where viscosities differ, that of a fluid of one
-    /// viscosity under the same forces.
+    /// The velocity on the grid (length per time) of the last evaluation or sampling. Where viscosities differ and there are no markers
+    /// but those of interfaces, an evaluation leaves that of a fluid of one viscosity under the same forces.
     #[must_use]
     pub fn velocity_field(&self) -> &StaggeredField {
         &self.velocity
@@ -151,30 +140,38 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// The flow on the grid for given positions and forces, without velocities at markers.
     fn solve(&mut self, positions: &[Vec2], forces: &[Vec2]) -> Result<SolveReport, FlowError> {
         self.transfer.locate(positions);
+        self.solve_located(forces)
+    }
+
+    /// The same for the positions located last.
+    fn solve_located(&mut self, forces: &[Vec2]) -> Result<SolveReport, FlowError> {
         self.density.fill(0.0);
         self.transfer.spread(forces, &mut self.density);
+        self.solve_density(forces.len())
+    }
+
+    /// The same for the positions that `transfer` has.
+    fn solve_on(&mut self, transfer: &Transfer<K>, forces: &[Vec2]) -> Result<SolveReport, FlowError> {
+        self.density.fill(0.0);
+        transfer.spread(forces, &mut self.density);
+        self.solve_density(forces.len())
+    }
+
+    fn solve_density(&mut self, markers: usize) -> Result<SolveReport, FlowError> {
         let before = self.solver.work();
         let report = self.solver.solve(&self.density, &mut self.velocity)?;
         let after = self.solver.work();
         let transforms = |work: stokes_grid::Work| work.forward_transforms + work.inverse_transforms;
         self.work.stokes_solves += after.solves - before.solves;
         self.work.transforms += transforms(after) - transforms(before);
-        let iterations = after.iterations - before.iterations;
-        self.work.iterations += iterations;
-        self.work.most_iterations = self.work.most_iterations.max(iterations);
-        self.work.markers_spread += positions.len();
+        self.work.iterations += after.iterations - before.iterations;
+        self.work.markers_spread += markers;
         Ok(report)
     }
 
     /// Adds the mobility correction of a group to its velocities.
     fn correct(&mut self, group: usize, markers: &mut Markers) -> Result<(), FlowError> {
-        let setting = Setting {
-            spacing: self.grid().spacing(),
-            origin: self.grid().origin(),
-            viscosity: self.solver.viscosity(),
-            walls: self.walls(),
-            variance: self.variance,
-        };
+        let setting = self.setting();
         let group = &markers.groups()[group];
         if let Some(correction) = self.correction.as_mut()
             && matches!(group.kind, MarkerKind::Interface { .. })
@@ -195,103 +192,6 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             }
         }
         Ok(false)
-    }
-
-    /// Makes what interfaces to other viscosities need, once.
-    fn prepare_contrast(&mut self) -> Result<(), FlowError> {
-        if self.contrast.is_some() {
-            return Ok(());
-        }
-        let grid = *self.solver.grid();
-        let ([lx, ly], walls) = (grid.lengths(), self.walls());
-        let mut density = StaggeredField::zeros(grid);
-        let mut velocity = StaggeredField::zeros(grid);
-        let at_rest = self.solver.solve(&density, &mut velocity)?;
-        let moves = velocity.x().iter().chain(velocity.y()).any(|value| *value != 0.0);
-        let imposed = moves.then(|| (velocity.clone(), at_rest.mean_pressure_gradient));
-        let rigid = walls.map(|heights| {
-            // Whether the mean pressure gradient or the flux is held fixed shows in the answer to a force along x.
-            let index = grid.ny() / 2 * grid.nx();
-            density.components_mut().0[index] = 1.0;
-            let pushed = self.solver.solve(&density, &mut velocity);
-            density.components_mut().0[index] = 0.0;
-            pushed.map(|pushed| {
-                let zero_flux = pushed.mean_pressure_gradient[0] != at_rest.mean_pressure_gradient[0];
-                RigidWalls::new(lx, heights, zero_flux, 0.1 * grid.spacing())
-            })
-        });
-        let images = Images { along: lx, across: walls.is_none().then_some(ly) };
-        let contrast = Contrast::new(images, rigid.transpose()?, self.solver.viscosity());
-        self.contrast =
-            Some(ContrastFlow { contrast, imposed, forces: Vec::new(), own: Vec::new(), velocity, density });
-        Ok(())
-    }
-
-    /// The flow with interfaces to other viscosities: one solve on the grid for their forces, one for all others if there are
-    /// any, and the double layer.
-    fn contrast_velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
-        self.prepare_contrast()?;
-        let Some(mut flow) = self.contrast.take() else { return Ok(FlowReport::default()) };
-        let outcome = self.contrast_with(&mut flow, markers);
-        self.contrast = Some(flow);
-        outcome
-    }
-
-    fn contrast_with(&mut self, flow: &mut ContrastFlow, markers: &mut Markers) -> Result<FlowReport, FlowError> {
-        let viscosity = self.solver.viscosity();
-        let differs = |kind: &MarkerKind| other_viscosity(kind, viscosity).map(|value| value.is_some());
-        flow.forces.clear();
-        flow.forces.extend_from_slice(&markers.forces);
-        flow.own.resize(markers.len(), Vec2::zeros());
-        let mut others = flow.imposed.is_some();
-        for group in markers.groups() {
-            if !differs(&group.kind)? {
-                let forces = &mut flow.forces[group.range.clone()];
-                others |= forces.iter().any(|force| *force != Vec2::zeros());
-                forces.fill(Vec2::zeros());
-            }
-        }
-        let own = self.solve(&markers.positions, &flow.forces)?;
-        let mut gradient = own.mean_pressure_gradient;
-        if let Some((imposed, [x, y])) = &flow.imposed {
-            add(&mut self.velocity, imposed, -1.0);
-            gradient = [gradient[0] - x, gradient[1] - y];
-        }
-        self.transfer.interpolate(&self.velocity, &mut markers.velocities);
-        for index in 0..markers.groups().len() {
-            if differs(&markers.groups()[index].kind)? {
-                self.correct(index, markers)?;
-            }
-        }
-        flow.own.copy_from_slice(&markers.velocities);
-        if others {
-            for (other, force) in flow.forces.iter_mut().zip(&markers.forces) {
-                *other = force - *other;
-            }
-            std::mem::swap(&mut self.velocity, &mut flow.velocity);
-            std::mem::swap(&mut self.density, &mut flow.density);
-            let other = self.solve(&markers.positions, &flow.forces)?;
-            self.transfer.interpolate(&self.velocity, &mut markers.velocities);
-            for index in 0..markers.groups().len() {
-                if !differs(&markers.groups()[index].kind)? {
-                    self.correct(index, markers)?;
-                }
-            }
-            for (velocity, own) in markers.velocities.iter_mut().zip(&flow.own) {
-                *velocity += own;
-            }
-            add(&mut self.velocity, &flow.velocity, 1.0);
-            add(&mut self.density, &flow.density, 1.0);
-            for (total, other) in gradient.iter_mut().zip(other.mean_pressure_gradient) {
-                *total += other;
-            }
-        }
-        self.work.evaluations += 1;
-        let effort = flow.contrast.solve(markers, &flow.own)?;
-        self.work.iterations += effort.iterations;
-        self.work.most_iterations = self.work.most_iterations.max(effort.iterations);
-        gradient[0] += effort.pressure_gradient;
-        Ok(FlowReport { iterations: effort.iterations, residual: effort.residual, mean_pressure_gradient: gradient })
     }
 
     /// Refuses markers that are not finite or too far beyond a wall, and forces that are not finite.
@@ -364,18 +264,11 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             return Err(FlowError::WrongLength { name: "the samples", expected, found });
         }
         self.check(markers)?;
+        if self.has_contrast(markers)? {
+            return self.contrast_sample(markers, points, out);
+        }
         self.solve(&markers.positions, &markers.forces)?;
         let pressure = self.pressure_field()?;
-        if self.has_contrast(markers)? {
-            self.prepare_contrast()?;
-            let Some(flow) = self.contrast.as_mut() else { return Ok(()) };
-            let smeared = SMEARED * self.solver.grid().spacing();
-            let velocity = &self.velocity;
-            let grid = |points: &[Vec2], out: &mut [FlowSample]| {
-                sampling::sample_smooth(velocity, &pressure, points, out);
-            };
-            return flow.contrast.sample(markers, smeared, points, grid, out);
-        }
         sampling::sample(&self.velocity, &pressure, points, out);
         Ok(())
     }

@@ -43,46 +43,57 @@ impl Lattice<'_> {
 }
 
 impl Lattice<'_> {
-    /// Value by cubic interpolation at a position in cells.
-    fn cubic(&self, position: [f64; 2]) -> f64 {
+    /// Value and gradient (per cell) by cubic interpolation at a position in cells.
+    fn cubic(&self, position: [f64; 2]) -> (f64, [f64; 2]) {
         let (x, y) = (position[0] - self.shift[0], position[1] - self.shift[1]);
         let (i, j) = (x.floor(), y.floor());
-        let (columns, rows) = (cubic_weights(x - i), cubic_weights(y - j));
+        let ((columns, column_slopes), (rows, row_slopes)) = (cubic_weights(x - i), cubic_weights(y - j));
         let (i, j) = (i as i64 - 1, j as i64 - 1);
-        let mut sum = 0.0;
-        for (row, wy) in (j..).zip(rows) {
-            for (column, wx) in (i..).zip(columns) {
-                sum += wx * wy * self.value(column, row);
+        let (mut value, mut gradient) = (0.0, [0.0; 2]);
+        for (row, (weight, slope)) in (j..).zip(rows.into_iter().zip(row_slopes)) {
+            let (mut along, mut across) = (0.0, 0.0);
+            for (column, (weight, slope)) in (i..).zip(columns.into_iter().zip(column_slopes)) {
+                let entry = self.value(column, row);
+                along += weight * entry;
+                across += slope * entry;
             }
+            value += weight * along;
+            gradient = [gradient[0] + weight * across, gradient[1] + slope * along];
         }
-        sum
+        (value, gradient)
     }
 }
 
-/// Lagrange weights of the points -1, 0, 1, 2 at t between 0 and 1.
-fn cubic_weights(t: f64) -> [f64; 4] {
+/// Lagrange weights of the points -1, 0, 1, 2 at t between 0 and 1, and their slopes.
+fn cubic_weights(t: f64) -> ([f64; 4], [f64; 4]) {
     let (a, b, c) = (t + 1.0, t - 1.0, t - 2.0);
-    [-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0]
+    let weights = [-t * b * c / 6.0, a * b * c / 2.0, -a * t * c / 2.0, a * t * b / 6.0];
+    let slopes = [
+        -(b * c + t * c + t * b) / 6.0,
+        (b * c + a * c + a * b) / 2.0,
+        -(t * c + a * c + a * t) / 2.0,
+        (t * b + a * b + a * t) / 6.0,
+    ];
+    (weights, slopes)
 }
 
-/// Fills `out` with velocity and pressure at `points` by cubic interpolation, for where errors are amplified; no gradient.
-pub(crate) fn sample_smooth(
-    velocity: &StaggeredField,
-    pressure: &CentreField,
-    points: &[Vec2],
-    out: &mut [FlowSample],
-) {
+/// Velocity and its gradient at a point by cubic interpolation between grid points.
+pub(crate) fn smooth_velocity(velocity: &StaggeredField, point: Vec2) -> (Vec2, [[f64; 2]; 2]) {
     let grid = velocity.grid();
     let (h, origin) = (grid.spacing(), grid.origin());
-    let lattice = |values, shift, parity| Lattice { values, grid, shift, parity };
-    let u = lattice(velocity.x(), [0.0, 0.5], -1.0);
-    let v = lattice(velocity.y(), [0.5, 0.0], -1.0);
-    let p = lattice(pressure.values(), [0.5, 0.5], 1.0);
-    for (point, out) in points.iter().zip(out) {
-        let position = [(point.x - origin[0]) / h, (point.y - origin[1]) / h];
-        out.velocity = Vec2::new(u.cubic(position), v.cubic(position));
-        out.pressure = p.cubic(position);
-    }
+    let u = Lattice { values: velocity.x(), grid, shift: [0.0, 0.5], parity: -1.0 };
+    let v = Lattice { values: velocity.y(), grid, shift: [0.5, 0.0], parity: -1.0 };
+    let position = [(point.x - origin[0]) / h, (point.y - origin[1]) / h];
+    let ((ux, du), (uy, dv)) = (u.cubic(position), v.cubic(position));
+    (Vec2::new(ux, uy), [du.map(|d| d / h), dv.map(|d| d / h)])
+}
+
+/// Pressure at a point, bilinear between grid points.
+pub(crate) fn pressure(pressure: &CentreField, point: Vec2) -> f64 {
+    let grid = pressure.grid();
+    let (h, origin) = (grid.spacing(), grid.origin());
+    let lattice = Lattice { values: pressure.values(), grid, shift: [0.5, 0.5], parity: 1.0 };
+    lattice.bilinear([(point.x - origin[0]) / h, (point.y - origin[1]) / h]).0
 }
 
 /// Fills `out` with the flow at `points`: velocity and pressure bilinear between grid points, and the gradient of that.
@@ -91,14 +102,12 @@ pub(crate) fn sample(velocity: &StaggeredField, pressure: &CentreField, points: 
     let (h, origin) = (grid.spacing(), grid.origin());
     let u = Lattice { values: velocity.x(), grid, shift: [0.0, 0.5], parity: -1.0 };
     let v = Lattice { values: velocity.y(), grid, shift: [0.5, 0.0], parity: -1.0 };
-    let p = Lattice { values: pressure.values(), grid, shift: [0.5, 0.5], parity: 1.0 };
     for (point, out) in points.iter().zip(out) {
         let position = [(point.x - origin[0]) / h, (point.y - origin[1]) / h];
-        let (ux, du) = u.bilinear(position);
-        let (uy, dv) = v.bilinear(position);
+        let ((ux, du), (uy, dv)) = (u.bilinear(position), v.bilinear(position));
         *out = FlowSample {
             velocity: Vec2::new(ux, uy),
-            pressure: p.bilinear(position).0,
+            pressure: self::pressure(pressure, *point),
             gradient: [du.map(|d| d / h), dv.map(|d| d / h)],
         };
     }

@@ -84,12 +84,6 @@ impl ChannelStokes {
         Ok(())
     }
 
-    /// What drives the flow.
-    #[must_use]
-    pub fn drive(&self) -> Drive {
-        self.drive
-    }
-
     /// Moves the walls in the solutions to come.
     ///
     /// # Errors
@@ -115,6 +109,10 @@ impl StokesSolver for ChannelStokes {
 
     fn walls(&self) -> &WallMotion {
         &self.walls
+    }
+
+    fn drive(&self) -> Drive {
+        self.drive
     }
 
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {

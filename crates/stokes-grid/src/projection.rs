@@ -118,6 +118,13 @@ impl StokesSolver for ProjectionStokes {
         }
     }
 
+    fn drive(&self) -> Drive {
+        match &self.region {
+            Region::Channel(channel) => channel.drive(),
+            Region::Periodic(_) => Drive::default(),
+        }
+    }
+
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
         self.check(force, velocity.grid())?;
         self.work.solves += 1;

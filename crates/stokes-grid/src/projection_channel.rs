@@ -110,6 +110,10 @@ impl ChannelProjection {
         self.drive = drive;
     }
 
+    pub(crate) fn drive(&self) -> Drive {
+        self.drive
+    }
+
     pub(crate) fn walls(&self) -> &WallMotion {
         &self.walls
     }

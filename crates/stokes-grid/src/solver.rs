@@ -1,6 +1,6 @@
 //! What every Stokes solver does.
 
-use crate::{CentreField, Grid, StaggeredField, StokesError, WallMotion};
+use crate::{CentreField, Drive, Grid, StaggeredField, StokesError, WallMotion};
 
 /// What one solve needed and found.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -44,6 +44,11 @@ pub trait StokesSolver: std::fmt::Debug + Send {
         &AT_REST
     }
 
+    /// What is held fixed along a channel; no mean pressure gradient is imposed on a periodic box.
+    fn drive(&self) -> Drive {
+        Drive::default()
+    }
+
     /// The velocity for a force density; it is discretely divergence free.
     ///
     /// # Errors
@@ -79,6 +84,10 @@ impl<S: StokesSolver + ?Sized> StokesSolver for Box<S> {
 
     fn walls(&self) -> &WallMotion {
         (**self).walls()
+    }
+
+    fn drive(&self) -> Drive {
+        (**self).drive()
     }
 
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {

@@ -2,7 +2,7 @@
 
 use crate::checks::{check_grid, check_viscosity};
 use crate::viscous_force::ViscousForce;
-use crate::{CentreField, NodeField, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
+use crate::{CentreField, Drive, NodeField, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
 
 /// Stokes flow with a viscosity eta(x, y) that varies in space,
 ///
@@ -224,6 +224,10 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
 
     fn walls(&self) -> &WallMotion {
         self.solver.walls()
+    }
+
+    fn drive(&self) -> Drive {
+        self.solver.drive()
     }
 
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {

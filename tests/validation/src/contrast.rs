@@ -11,13 +11,15 @@ use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 
 use crate::StudyError;
 
+mod cost;
 mod field;
 mod iterations;
 mod layer;
 mod runs;
 mod tables;
 
-pub use field::{FieldErrors, field_errors};
+pub use cost::{Cost, CostScene};
+pub use field::{FieldErrors, exact_flow, field_errors};
 pub use iterations::{Iterations, cold_iterations, iterations_in_a_run};
 pub use layer::{LayerErrors, layer_errors};
 pub use runs::{Way, growth};
@@ -83,6 +85,12 @@ impl Droplet {
                 vec![Self::ellipse(100.0).at(0.1, height).turned(quarter)],
             ),
             ("off the centre, gap 0.3", Region::Channel(6.0, 3.0), vec![Self::circle(1, 100.0).at(0.1, 0.2)]),
+            (
+                "beside a wall, equal viscosities",
+                Region::Channel(6.0, 3.0),
+                vec![Self::ellipse(1.0).at(0.1, height).turned(quarter)],
+            ),
+            ("two droplets, equal viscosities", Region::Box(6.0), pair(1.0, 1.0)),
             ("two droplets", Region::Box(6.0), pair(10.0, 100.0)),
             ("beside a passive interface", Region::Box(6.0), pair(100.0, 1.0)),
         ]
@@ -117,8 +125,11 @@ impl Droplet {
         slope * tau + self.tension(t) * a * b / (speed * speed) * Vec2::new(-tau.y, tau.x)
     }
 
-    /// Equally spaced markers, about `spacing` apart.
-    fn push_even(&self, spacing: f64, markers: &mut Markers) -> Result<(), StudyError> {
+    /// Adds equally spaced markers, about `spacing` (length) apart, with their forces.
+    ///
+    /// # Errors
+    /// A spacing that leaves too few of them.
+    pub fn push_even(&self, spacing: f64, markers: &mut Markers) -> Result<(), StudyError> {
         let [a, b] = self.axes;
         let curve = if a == b { Curve::circle(a)? } else { Curve::ellipse(a, b)? };
         let curve = curve.translated(Vec2::new(self.centre[0], self.centre[1]));
@@ -225,7 +236,7 @@ impl Exact {
     #[must_use]
     pub fn moves(&self, droplet: usize) -> bool {
         let largest = self.velocities[droplet].iter().map(Vec2::norm).fold(0.0, f64::max);
-        self.centroids[droplet].norm() > 1e-3 * largest
+        self.centroids[droplet].norm() > 0.02 * largest
     }
 
     /// The errors of the immersed boundary method with grid spacing `h` and markers h/2 apart, droplet by droplet.

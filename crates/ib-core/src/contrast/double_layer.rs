@@ -223,54 +223,10 @@ impl DoubleLayer {
         }
     }
 
-    /// Prepares [`DoubleLayer::at`] for velocities on the nodes.
-    pub(crate) fn begin_field(&mut self, droplets: &[Droplet], v: &[f64]) -> Vec2 {
+    /// Part of the mean pressure gradient that comes from velocities on the nodes (force per volume).
+    pub(crate) fn pressure_gradient(&mut self, droplets: &[Droplet], v: &[f64]) -> f64 {
         self.fill_dipoles(droplets, v);
-        self.mean(droplets, v)
-    }
-
-    /// Prepares the walls' part at `points`, which [`DoubleLayer::wall_flow`] then gives.
-    pub(crate) fn begin_walls(&mut self, points: impl Iterator<Item = Vec2>) {
-        if let Some(walls) = &mut self.walls {
-            walls.begin_field(&self.dipoles, points);
-        }
-    }
-
-    /// Velocity and pressure of the walls' part at point `index`.
-    pub(crate) fn wall_flow(&self, index: usize) -> (Vec2, f64) {
-        self.walls.as_ref().map_or((Vec2::zeros(), 0.0), |walls| walls.flow(index))
-    }
-
-    /// Part of the mean pressure gradient that comes from the prepared dipoles (force per volume).
-    pub(crate) fn pressure_gradient(&mut self) -> f64 {
         self.walls.as_mut().map_or(0.0, |walls| -walls.pressure_gradient(&self.dipoles))
-    }
-
-    /// The sum over a droplet's nodes of `D T v n/(4 pi)` at a point, without walls, and the pressure that belongs to it;
-    /// velocities relative to `reference`, whose own sum is exact.
-    pub(crate) fn at(&mut self, droplet: &Droplet, point: Vec2, reference: Option<(Vec2, bool)>) -> (Vec2, f64) {
-        let relative = self.images.wrap(point - droplet.centre);
-        let target = self.kernel.target(relative);
-        self.kernel.sum(&target, &droplet.sources, 0);
-        let scale = droplet.contrast / FOUR_PI;
-        let (mut velocity, mut pressure) = (Vec2::zeros(), 0.0);
-        let shift = reference.map_or(Vec2::zeros(), |(v, _)| scale * v);
-        let nodes = self.dipoles[droplet.first..].iter().zip(&droplet.normals);
-        for (i, ([xx, mixed, yy], normal)) in nodes.enumerate() {
-            let t = self.kernel.stress(i);
-            let (xx, yy) = (xx - shift.x * normal.x, yy - shift.y * normal.y);
-            let mixed = mixed - shift.x * normal.y - shift.y * normal.x;
-            velocity.x += t.xxx * xx + t.xxy * mixed + t.xyy * yy;
-            velocity.y += t.xxy * xx + t.xyy * mixed + t.yyy * yy;
-            let [difference, cross] = self.kernel.pressure(i);
-            pressure += difference * (xx - yy) + cross * mixed;
-        }
-        if let Some((v, inside)) = reference {
-            let background = self.images.area().map_or(0.0, |area| droplet.area / area);
-            let jump = if inside { -1.0 } else { 0.0 };
-            velocity += droplet.contrast * (jump + background) * v;
-        }
-        (velocity, pressure)
     }
 }
 

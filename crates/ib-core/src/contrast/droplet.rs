@@ -11,6 +11,8 @@ use super::stress::{Sources, StressKernel};
 pub(crate) struct Droplet {
     /// Which markers.
     pub(crate) markers: Range<usize>,
+    /// Whether its markers are equally spaced.
+    pub(crate) even: bool,
     /// Its first node among those of all droplets.
     pub(crate) first: usize,
     /// Viscosity inside (stress times time).
@@ -29,6 +31,8 @@ pub(crate) struct Droplet {
     pub(crate) area: f64,
     /// Largest distance of a node from the centre.
     pub(crate) radius: f64,
+    /// Largest distance of neighbouring nodes (length).
+    pub(crate) longest: f64,
     pub(crate) sources: Sources,
 }
 
@@ -47,6 +51,7 @@ impl Droplet {
         self.positions.clear();
         self.positions.extend(positions.iter().map(|x| x - self.centre));
         self.radius = self.positions.iter().map(Vec2::norm).fold(0.0, f64::max);
+        self.longest = (0..n).map(|k| (self.positions[(k + 1) % n] - self.positions[k]).norm()).fold(0.0, f64::max);
         self.normals.clear();
         self.weights.clear();
         self.area = 0.0;
@@ -80,11 +85,6 @@ impl Droplet {
         (first..first + count).chain(all + first..all + first + count)
     }
 
-    /// Mean distance of neighbouring nodes (length).
-    pub(crate) fn spacing(&self) -> f64 {
-        self.weights.iter().sum::<f64>() / self.nodes() as f64
-    }
-
     /// Whether a point relative to the centre lies inside, by the number of times the polygon goes around it.
     pub(crate) fn contains(&self, point: Vec2) -> bool {
         let n = self.nodes();
@@ -98,19 +98,25 @@ impl Droplet {
         inside
     }
 
-    /// The point of the polygon nearest to a point relative to the centre.
-    pub(crate) fn foot(&self, point: Vec2) -> Foot {
+    /// The point of the polygon nearest to a point relative to the centre, if it is closer than `reach`.
+    pub(crate) fn foot(&self, point: Vec2, reach: f64) -> Option<Foot> {
         let n = self.nodes();
-        let mut best = Foot { node: 0, fraction: 0.0, distance: f64::INFINITY };
-        for node in 0..n {
+        let mut best = None;
+        let mut least = reach;
+        let mut node = 0;
+        while node < n {
             let (a, b) = (self.positions[node], self.positions[(node + 1) % n]);
             let along = b - a;
             let square = along.norm_squared();
             let fraction = if square > 0.0 { ((point - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
             let distance = (point - a - fraction * along).norm();
-            if distance < best.distance {
-                best = Foot { node, fraction, distance };
+            if distance < least {
+                least = distance;
+                best = Some(Foot { node, fraction, distance });
             }
+            // The next ones cannot come closer faster than they are apart.
+            let skipped = ((distance - least) / self.longest) as usize;
+            node += skipped.max(1);
         }
         best
     }

@@ -1,133 +1,134 @@
-//! The flow away from the markers of droplets of another viscosity.
+//! Points close to droplets of another viscosity.
 
-use crate::{FlowError, FlowSample, Markers, Vec2};
+use crate::Vec2;
 
 use super::Contrast;
-use super::droplet::Droplet;
 
-/// Points closer to a droplet than so many spacings of its nodes get the double layer relative to the velocity at the
-/// nearest node's foot, so that the kernel's peak does not show.
-const CLOSE: f64 = 4.0;
-
-/// Flow at a point and the viscosity there.
+/// A point within the reach of the kernel from a droplet's interface.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct LocalFlow {
-    pub(crate) velocity: Vec2,
-    pub(crate) pressure: f64,
-    pub(crate) viscosity: f64,
+pub(crate) struct Nearby {
+    /// The nearest point of the interface (length), in the frame of the point.
+    foot: Vec2,
+    /// Between which nodes that lies, and how far along.
+    nodes: [usize; 2],
+    fraction: f64,
+    /// Unit vector away from the interface on the point's side.
+    away: Vec2,
+    distance: f64,
+}
+
+impl Nearby {
+    /// The point at the distance `reach` (length) from the same place on the same side.
+    pub(crate) fn retreat(&self, reach: f64) -> Vec2 {
+        self.foot + reach * self.away
+    }
+
+    /// Distance from the interface (length).
+    pub(crate) fn distance(&self) -> f64 {
+        self.distance
+    }
+
+    /// Values on the nodes where the foot is.
+    pub(crate) fn on_the_interface(&self, values: &[Vec2]) -> Vec2 {
+        values[self.nodes[0]].lerp(&values[self.nodes[1]], self.fraction)
+    }
+
+    /// Velocity and its gradient from the velocity `surface` on the interface and the flow `at` places that are `reach` (length) and
+    /// more away from it: farther away as they are, else by a parabola along the normal.
+    pub(crate) fn flow(
+        &self,
+        point: Vec2,
+        [reach, step]: [f64; 2],
+        surface: Vec2,
+        at: impl Fn(Vec2) -> (Vec2, [[f64; 2]; 2]),
+    ) -> (Vec2, [[f64; 2]; 2]) {
+        if self.distance >= reach {
+            return at(point);
+        }
+        let (near, mut gradient) = at(self.retreat(reach));
+        let (beyond, _) = at(self.retreat(reach + step));
+        let (rise, slope) = ((near - surface) / reach, (beyond - near) / step);
+        let bend = (slope - rise) / (reach + step);
+        let change = 2.0 * (self.distance - reach) * bend;
+        for (row, change) in gradient.iter_mut().zip([change.x, change.y]) {
+            *row = [row[0] + change * self.away.x, row[1] + change * self.away.y];
+        }
+        (surface + self.distance * (rise + (self.distance - reach) * bend), gradient)
+    }
+
+    /// A value from those at the distances `reach` and `reach + step` (length), on a straight line.
+    pub(crate) fn extrapolate(&self, [reach, step]: [f64; 2], near: f64, beyond: f64) -> f64 {
+        near + (reach - self.distance) / step * (near - beyond)
+    }
 }
 
 impl Contrast {
-    /// The flow at a point from `stress`, the one-viscosity velocity times viscosity there:
-    /// `eta(x) v = stress - (D/4 pi) INT T v n ds`, with walls' part `index` and mean flow prepared.
-    pub(super) fn flow_at(&mut self, point: Vec2, index: usize, stress: Vec2, mean: Vec2) -> LocalFlow {
-        let (wall, pressure) = self.layer.wall_flow(index);
-        let mut flow = LocalFlow { velocity: stress - mean - wall, pressure: -pressure, viscosity: self.viscosity };
-        for k in 0..self.count {
-            let droplet = &self.droplets[k];
-            let relative = self.layer.images().wrap(point - droplet.centre);
-            let reach = CLOSE * droplet.spacing();
-            let mut reference = None;
-            if relative.norm() < droplet.radius + reach {
-                let inside = droplet.contains(relative);
-                let foot = droplet.foot(relative);
-                if inside {
-                    flow.viscosity = droplet.viscosity;
-                }
-                if foot.distance < reach {
-                    reference = Some((self.surface_velocity(droplet, foot.node, foot.fraction), inside));
-                }
-            }
-            let (velocity, pressure) = self.layer.at(&self.droplets[k], point, reference);
-            flow.velocity -= velocity;
-            flow.pressure -= pressure;
-        }
-        flow.velocity /= flow.viscosity;
-        flow
-    }
-
-    /// The velocity between node `k` of a droplet and the next one.
-    fn surface_velocity(&self, droplet: &Droplet, k: usize, fraction: f64) -> Vec2 {
-        let at = |k: usize| {
-            let i = droplet.first + k % droplet.nodes();
-            Vec2::new(self.velocities[i], self.velocities[self.nodes + i])
-        };
-        at(k).lerp(&at(k + 1), fraction)
-    }
-
-    /// The point to compute the flow at in place of one that is closer to an interface than `smeared`, within which the grid's
-    /// flow is smeared: on the same side, at that distance; with the interface's velocity and the fraction of the way there.
-    fn retreat(&self, point: Vec2, smeared: f64) -> Option<(Vec2, Vec2, f64)> {
+    /// The nearest interface closer to a point than `reach` (length).
+    pub(crate) fn nearby(&self, point: Vec2, reach: f64) -> Option<Nearby> {
+        let mut least = reach;
         let mut nearest = None;
-        let mut least = smeared;
-        for droplet in &self.droplets[..self.count] {
+        for droplet in self.droplets() {
             let relative = self.layer.images().wrap(point - droplet.centre);
-            if relative.norm() < droplet.radius + least {
-                let foot = droplet.foot(relative);
-                if foot.distance < least {
-                    least = foot.distance;
-                    nearest = Some((droplet, relative, foot));
-                }
+            if relative.norm() < droplet.radius + least
+                && let Some(foot) = droplet.foot(relative, least)
+            {
+                least = foot.distance;
+                nearest = Some((droplet, relative, foot));
             }
         }
         let (droplet, relative, foot) = nearest?;
         let next = (foot.node + 1) % droplet.nodes();
         let normal = droplet.normals[foot.node].lerp(&droplet.normals[next], foot.fraction).normalize();
         let side = if droplet.contains(relative) { -1.0 } else { 1.0 };
-        let away = point + (smeared - foot.distance) * side * normal;
-        Some((away, self.surface_velocity(droplet, foot.node, foot.fraction), foot.distance / smeared))
+        let place = droplet.positions[foot.node].lerp(&droplet.positions[next], foot.fraction);
+        Some(Nearby {
+            foot: point - relative + place,
+            nodes: [droplet.first + foot.node, droplet.first + next],
+            fraction: foot.fraction,
+            away: side * normal,
+            distance: foot.distance,
+        })
     }
 
-    /// Replaces the flow of one viscosity in `out` by that with the contrast.
+    /// The droplet that a point lies in.
+    pub(crate) fn droplet_at(&self, point: Vec2) -> Option<usize> {
+        self.droplets().iter().position(|droplet| {
+            let relative = self.layer.images().wrap(point - droplet.centre);
+            relative.norm() <= droplet.radius && droplet.contains(relative)
+        })
+    }
+
+    /// What the pressure inside each droplet exceeds the ratio of viscosities times that of the fluid of one viscosity by (force per
+    /// length).
     ///
-    /// `grid` gives the one-viscosity flow at any points. Within `smeared` of an interface the velocity is interpolated
-    /// between the interface's and that at this distance on the same side; pressure and gradient are those there.
-    pub(crate) fn sample(
-        &mut self,
-        markers: &Markers,
-        smeared: f64,
-        points: &[Vec2],
-        mut grid: impl FnMut(&[Vec2], &mut [FlowSample]),
-        out: &mut [FlowSample],
-    ) -> Result<(), FlowError> {
-        self.load(markers)?;
-        self.velocities.resize(2 * self.nodes, 0.0);
-        for droplet in &self.droplets[..self.count] {
-            for (k, marker) in droplet.markers.clone().enumerate() {
+    /// With the equivalent forces q in place of the forces F, both per length, that fluid's pressure inside is the mean of both sides,
+    /// `at_nodes`, less q_n/2. The normal stresses balance, with
+    /// `n . dv/dn = -tau . dv/ds` in an incompressible flow, so that on the interface
+    ///
+    /// `p_in = p + q_n/2 - F_n - 2 (eta_in - eta) tau . dv/ds`.
+    pub(crate) fn pressure_offsets(
+        &self,
+        at_nodes: &[f64],
+        equivalent: &[Vec2],
+        forces: &[Vec2],
+        velocities: &[Vec2],
+    ) -> Vec<f64> {
+        let offset = |droplet: &super::Droplet| {
+            let count = droplet.nodes();
+            let mut sum = 0.0;
+            for (k, (normal, weight)) in droplet.normals.iter().zip(&droplet.weights).enumerate() {
+                let at = |shift: usize| droplet.first + (k + shift) % count;
                 let i = droplet.first + k;
-                let velocity = markers.velocities[marker];
-                (self.velocities[i], self.velocities[self.nodes + i]) = (velocity.x, velocity.y);
+                let unit = normal / *weight;
+                let tangent = Vec2::new(-unit.y, unit.x);
+                // Times the arc length.
+                let (q, f) = (equivalent[i].dot(&unit), forces[i].dot(&unit));
+                let stretching = 0.5 * (velocities[at(1)] - velocities[at(count - 1)]).dot(&tangent);
+                let (mean, ratio) = (weight * at_nodes[i], droplet.viscosity / self.viscosity);
+                sum += mean + 0.5 * q - f - 2.0 * droplet.contrast * stretching - ratio * (mean - 0.5 * q);
             }
-        }
-        self.layer.place(&self.droplets[..self.count]);
-        let mean = self.layer.begin_field(&self.droplets[..self.count], &self.velocities);
-        let retreats: Vec<_> = points.iter().map(|&point| self.retreat(point, smeared)).collect();
-        // The point itself and four around it, for the gradient of the double layer.
-        let step = 0.25 * smeared;
-        let steps = [(0.0, 0.0), (-step, 0.0), (step, 0.0), (0.0, -step), (0.0, step)].map(|(x, y)| Vec2::new(x, y));
-        let places: Vec<Vec2> = points
-            .iter()
-            .zip(&retreats)
-            .flat_map(|(&point, retreat)| {
-                let place = retreat.map_or(point, |(away, ..)| away);
-                steps.map(|step| place + step)
-            })
-            .collect();
-        let mut flows = vec![FlowSample::default(); places.len()];
-        grid(&places, &mut flows);
-        self.layer.begin_walls(places.iter().copied());
-        for (index, (out, retreat)) in out.iter_mut().zip(&retreats).enumerate() {
-            let five: [LocalFlow; 5] = std::array::from_fn(|k| {
-                let i = steps.len() * index + k;
-                self.flow_at(places[i], i, self.viscosity * flows[i].velocity, mean)
-            });
-            let [dx, dy] = [1, 3].map(|k| (five[k + 1].velocity - five[k].velocity) / (2.0 * step));
-            let pressure = flows[steps.len() * index].pressure + five[0].pressure;
-            *out = FlowSample { velocity: five[0].velocity, pressure, gradient: [[dx.x, dy.x], [dx.y, dy.y]] };
-            if let Some((_, surface, fraction)) = retreat {
-                out.velocity = surface.lerp(&out.velocity, *fraction);
-            }
-        }
-        Ok(())
+            sum / droplet.weights.iter().sum::<f64>()
+        };
+        self.droplets().iter().map(offset).collect()
     }
 }

@@ -2,8 +2,6 @@
 
 use num_complex::Complex64;
 
-use crate::Vec2;
-
 use super::droplet::Droplet;
 use super::wall_points::WallPoints;
 use super::walls::WallModes;
@@ -18,7 +16,6 @@ pub(crate) struct RigidWalls {
     half: f64,
     middle: f64,
     nodes: WallPoints,
-    points: WallPoints,
     gap: f64,
     least_gap: f64,
     /// x of the nodes relative to their droplets' centres.
@@ -35,7 +32,6 @@ impl RigidWalls {
             half,
             middle: 0.5 * (top + bottom),
             nodes: WallPoints::default(),
-            points: WallPoints::default(),
             gap: half,
             least_gap,
             local: Vec::new(),
@@ -93,24 +89,6 @@ impl RigidWalls {
                 uy[i] += scale * (mixed * normal.x + (2.0 * yy - pressure) * normal.y);
             }
         }
-    }
-
-    /// Solves for the walls' answer to dipoles at the nodes and prepares `points`.
-    pub(crate) fn begin_field(&mut self, dipoles: &[[f64; 3]], points: impl Iterator<Item = Vec2>) {
-        self.points.clear();
-        for point in points {
-            let y = (point.y - self.middle).clamp(-self.half, self.half);
-            self.points.push(&self.modes, point.x, y);
-        }
-        let gap = self.points.gap().min(self.half);
-        self.modes.begin(self.gap, gap);
-        self.modes.add_dipoles(&self.nodes, gap, |j| dipoles[j], |j| self.local[j]);
-        self.modes.solve();
-    }
-
-    pub(crate) fn flow(&self, index: usize) -> (Vec2, f64) {
-        let flow = self.modes.flow(&self.points, index);
-        (Vec2::new(flow.velocity[0], flow.velocity[1]), flow.pressure)
     }
 
     /// Mean pressure gradient of the flow of dipoles at the nodes.

@@ -194,14 +194,6 @@ impl StressKernel {
             Stress { xxx: a, xxy: b, xyy: c, yyy: d }
         }
     }
-
-    /// Pressure at the target of the stress as a flow, for the last sums at source `first + i`: factors of
-    /// `v_x n_x - v_y n_y` and of `v_x n_y + v_y n_x`.
-    #[inline(always)]
-    pub(crate) fn pressure(&self, i: usize) -> [f64; 2] {
-        let sign = if self.transposed { 4.0 } else { -4.0 };
-        [sign * self.work.axx[i], -4.0 * self.work.axy[i]]
-    }
 }
 
 impl Work {
@@ -216,6 +208,15 @@ impl Work {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    impl StressKernel {
+        /// Pressure at the target of the stress as a flow, for the last sums at source `first + i`: factors of
+        /// `v_x n_x - v_y n_y` and of `v_x n_y + v_y n_x`.
+        fn pressure(&self, i: usize) -> [f64; 2] {
+            let sign = if self.transposed { 4.0 } else { -4.0 };
+            [sign * self.work.axx[i], -4.0 * self.work.axy[i]]
+        }
+    }
 
     fn at(kernel: &mut StressKernel, d: Vec2) -> (Stress, [f64; 2]) {
         let mut sources = Sources::default();

@@ -36,25 +36,8 @@ pub fn field_errors(region: Region, droplet: &Droplet, h: f64) -> Result<[FieldE
         points.push((droplet.point(t) + distance * normal, distance));
     }
     let places: Vec<Vec2> = points.iter().map(|(point, _)| *point).collect();
-    let (mut exact, mut found) = (vec![FlowSample::default(); 40], vec![FlowSample::default(); 40]);
-    let mut markers = Markers::new();
-    droplet.push_exact(256, &mut markers);
-    let settings = Settings { nodes: 256, tolerance: 1e-10, ..Settings::default() };
-    match region {
-        Region::Box(side) => sample(
-            &mut BoundaryIntegral::new(PeriodicBox::new(side, side)?, 1.0, settings)?,
-            &mut markers,
-            &places,
-            &mut exact,
-        )?,
-        Region::Channel(length, width) => sample(
-            &mut BoundaryIntegral::new(Channel::new(length, width)?, 1.0, settings)?,
-            &mut markers,
-            &places,
-            &mut exact,
-        )?,
-    }
-    let largest = markers.velocities.iter().map(Vec2::norm).fold(0.0, f64::max);
+    let mut found = vec![FlowSample::default(); 40];
+    let (exact, largest) = exact_samples(region, droplet, &places)?;
     let mut markers = Markers::new();
     droplet.push_even(0.5 * h, &mut markers)?;
     sample(coupled(region, h)?.as_mut(), &mut markers, &places, &mut found)?;
@@ -74,6 +57,33 @@ pub fn field_errors(region: Region, droplet: &Droplet, h: f64) -> Result<[FieldE
         error.pressure = error.pressure.max((found.pressure - exact.pressure - shift).abs() / range);
     }
     Ok(errors)
+}
+
+/// The flow of a single droplet at points by boundary integrals, and its largest marker velocity.
+fn exact_samples(region: Region, droplet: &Droplet, points: &[Vec2]) -> Result<(Vec<FlowSample>, f64), StudyError> {
+    let mut exact = vec![FlowSample::default(); points.len()];
+    let mut markers = Markers::new();
+    droplet.push_exact(256, &mut markers);
+    let settings = Settings { nodes: 256, tolerance: 1e-10, ..Settings::default() };
+    match region {
+        Region::Box(side) => {
+            let mut flow = BoundaryIntegral::new(PeriodicBox::new(side, side)?, 1.0, settings)?;
+            sample(&mut flow, &mut markers, points, &mut exact)?;
+        }
+        Region::Channel(length, width) => {
+            let mut flow = BoundaryIntegral::new(Channel::new(length, width)?, 1.0, settings)?;
+            sample(&mut flow, &mut markers, points, &mut exact)?;
+        }
+    }
+    Ok((exact, markers.velocities.iter().map(Vec2::norm).fold(0.0, f64::max)))
+}
+
+/// The velocities of the flow of a single droplet at points, by boundary integrals.
+///
+/// # Errors
+/// What the solver can fail with.
+pub fn exact_flow(region: Region, droplet: &Droplet, points: &[Vec2]) -> Result<Vec<Vec2>, StudyError> {
+    Ok(exact_samples(region, droplet, points)?.0.into_iter().map(|sample| sample.velocity).collect())
 }
 
 fn sample<H: Hydrodynamics + ?Sized>(

@@ -1,0 +1,213 @@
+//! Forces that take the place of another viscosity.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use num_complex::Complex;
+use rustfft::{Fft, FftPlanner};
+
+use super::droplet::Droplet;
+use super::gmres::{Gmres, Outcome};
+use crate::mobility::normal_taper;
+use crate::{FlowError, Vec2};
+
+/// Residual of the velocities on the droplets relative to them: well below the errors of the grid.
+const TOLERANCE: f64 = 1e-4;
+/// Iterations before giving up.
+const MOST_ITERATIONS: usize = 120;
+
+/// Forces q on the markers of droplets of another viscosity that, in a fluid of one viscosity, leave the velocities v there:
+///
+/// `S q = eta v`, S the velocity times viscosity that forces have on the markers.
+///
+/// By uniqueness the flow of q is then that of the droplets, inside and outside. It is not the small difference of two large
+/// flows, so that the errors of the grid are not multiplied by the ratio of viscosities, and it costs one solve on the grid
+/// wherever it is wanted. Pressures inside are those of the fluid of one viscosity times the ratio, plus a constant.
+///
+/// On a straight interface S multiplies the wave number k by 1/(4 k), along and across alike, which makes a preconditioner; what
+/// is too short for the grid is left out. A uniform force along the normal moves nothing and is fixed to what suits the
+/// iteration.
+#[derive(Debug, Default)]
+pub(crate) struct EquivalentForces {
+    filters: Vec<Filter>,
+    gmres: Gmres,
+    right: Vec<f64>,
+    unknown: Vec<f64>,
+    forces: Vec<Vec2>,
+    velocities: Vec<Vec2>,
+}
+
+/// Multiplication of the Fourier modes along a closed curve.
+struct Filter {
+    forward: Arc<dyn Fft<f64>>,
+    inverse: Arc<dyn Fft<f64>>,
+    values: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+    /// Wave number of the first mode (1/length).
+    wave: f64,
+}
+
+impl std::fmt::Debug for Filter {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Filter").field("nodes", &self.values.len()).finish_non_exhaustive()
+    }
+}
+
+impl Filter {
+    fn new(nodes: usize) -> Self {
+        let mut planner = FftPlanner::new();
+        let (forward, inverse) = (planner.plan_fft_forward(nodes), planner.plan_fft_inverse(nodes));
+        let scratch = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
+        let (values, scratch) = (vec![Complex::default(); nodes], vec![Complex::default(); scratch]);
+        Self { forward, inverse, values, scratch, wave: 0.0 }
+    }
+
+    /// Multiplies each mode of `self.values` by a function of its number.
+    fn apply(&mut self, factor: impl Fn(usize) -> f64) {
+        let nodes = self.values.len();
+        self.forward.process_with_scratch(&mut self.values, &mut self.scratch);
+        for (m, value) in self.values.iter_mut().enumerate() {
+            *value *= factor(m.min(nodes - m)) / nodes as f64;
+        }
+        self.inverse.process_with_scratch(&mut self.values, &mut self.scratch);
+    }
+}
+
+/// Droplets with their filters.
+struct Curves<'a> {
+    droplets: &'a [Droplet],
+    filters: &'a mut [Filter],
+    nodes: usize,
+    /// Grid spacing (length).
+    spacing: f64,
+}
+
+impl Curves<'_> {
+    /// Forces of densities `4 k y`, without what the grid does not resolve.
+    fn forces(&mut self, y: &[f64], forces: &mut [Vec2]) {
+        for (droplet, filter) in self.droplets.iter().zip(&mut *self.filters) {
+            let (first, wave, h) = (droplet.first, filter.wave, self.spacing);
+            for (i, value) in filter.values.iter_mut().enumerate() {
+                *value = Complex::new(y[first + i], y[self.nodes + first + i]);
+            }
+            filter.apply(|m| 4.0 * wave * (m as f64).max(0.5) * normal_taper(wave * m as f64 * h));
+            for ((force, value), weight) in forces[first..].iter_mut().zip(&filter.values).zip(&droplet.weights) {
+                *force = *weight * Vec2::new(value.re, value.im);
+            }
+        }
+    }
+
+    /// What the grid resolves of velocities, as a vector of unknowns.
+    fn smooth(&mut self, velocities: &[Vec2], out: &mut [f64]) {
+        for (droplet, filter) in self.droplets.iter().zip(&mut *self.filters) {
+            let (first, wave, h) = (droplet.first, filter.wave, self.spacing);
+            for (value, v) in filter.values.iter_mut().zip(&velocities[first..]) {
+                *value = Complex::new(v.x, v.y);
+            }
+            filter.apply(|m| normal_taper(wave * m as f64 * h));
+            for (i, value) in filter.values.iter().enumerate() {
+                (out[first + i], out[self.nodes + first + i]) = (value.re, value.im);
+            }
+        }
+    }
+
+    /// Mean of the normal component over a droplet.
+    fn growth(&self, droplet: &Droplet, y: &[f64]) -> f64 {
+        let flux = droplet.normals.iter().enumerate().map(|(i, normal)| {
+            let i = droplet.first + i;
+            y[i] * normal.x + y[self.nodes + i] * normal.y
+        });
+        flux.sum::<f64>() / droplet.weights.iter().sum::<f64>()
+    }
+
+    /// Adds a uniform normal component to a droplet.
+    fn grow(&self, droplet: &Droplet, amount: f64, y: &mut [f64]) {
+        for (i, (normal, weight)) in droplet.normals.iter().zip(&droplet.weights).enumerate() {
+            let normal = amount / weight * normal;
+            y[droplet.first + i] += normal.x;
+            y[self.nodes + droplet.first + i] += normal.y;
+        }
+    }
+}
+
+impl EquivalentForces {
+    /// Finds the forces for velocities times viscosity `target` at the droplets' nodes; `respond` gives those of forces.
+    pub(crate) fn solve(
+        &mut self,
+        droplets: &[Droplet],
+        spacing: f64,
+        target: &[Vec2],
+        mut respond: impl FnMut(&[Vec2], &mut [Vec2]) -> Result<(), FlowError>,
+    ) -> Result<Outcome, FlowError> {
+        let nodes = target.len();
+        if self.unknown.len() != 2 * nodes {
+            // The last solution is no guess for other nodes.
+            self.unknown.clear();
+        }
+        for (index, droplet) in droplets.iter().enumerate() {
+            let count = droplet.nodes();
+            if self.filters.get(index).is_none_or(|filter| filter.values.len() != count) {
+                self.filters.truncate(index);
+                self.filters.push(Filter::new(count));
+                self.unknown.clear();
+            }
+            self.filters[index].wave = TAU / droplet.weights.iter().sum::<f64>();
+        }
+        self.unknown.resize(2 * nodes, 0.0);
+        self.right.resize(2 * nodes, 0.0);
+        self.forces.resize(nodes, Vec2::zeros());
+        self.velocities.resize(nodes, Vec2::zeros());
+
+        let Self { filters, gmres, right, unknown, forces, velocities } = self;
+        let mut curves = Curves { droplets, filters, nodes, spacing };
+        curves.smooth(target, right);
+        for droplet in droplets {
+            let growth = curves.growth(droplet, right);
+            curves.grow(droplet, -growth, right);
+        }
+        let mut failure = None;
+        let product = |y: &[f64], out: &mut [f64]| {
+            curves.forces(y, forces);
+            if failure.is_none()
+                && let Err(error) = respond(forces, velocities)
+            {
+                failure = Some(error);
+            }
+            curves.smooth(velocities, out);
+            // Unresolved modes are kept as they are, and the growth that no force gives.
+            for (droplet, filter) in curves.droplets.iter().zip(&mut *curves.filters) {
+                let (first, wave) = (droplet.first, filter.wave);
+                for (i, value) in filter.values.iter_mut().enumerate() {
+                    *value = Complex::new(y[first + i], y[nodes + first + i]);
+                }
+                filter.apply(|m| 1.0 - normal_taper(wave * m as f64 * spacing));
+                for (i, value) in filter.values.iter().enumerate() {
+                    out[first + i] += value.re;
+                    out[nodes + first + i] += value.im;
+                }
+            }
+            for droplet in curves.droplets {
+                let growth = curves.growth(droplet, y) - curves.growth(droplet, out);
+                curves.grow(droplet, growth, out);
+            }
+        };
+        let outcome = gmres.solve(product, right, unknown, TOLERANCE, MOST_ITERATIONS);
+        if let Some(error) = failure {
+            unknown.fill(0.0);
+            return Err(error);
+        }
+        let Outcome { iterations, residual } = outcome;
+        if residual.is_nan() || residual > 2.0 * TOLERANCE {
+            unknown.fill(0.0);
+            let what = "the flow around droplets of another viscosity";
+            return Err(FlowError::NoConvergence { what, iterations, residual, tolerance: TOLERANCE });
+        }
+        curves.forces(unknown, forces);
+        Ok(outcome)
+    }
+
+    /// The forces found last, node by node.
+    pub(crate) fn forces(&self) -> &[Vec2] {
+        &self.forces
+    }
+}

@@ -1,0 +1,336 @@
+//! Interfaces to other viscosities on the grid.
+
+use stokes_grid::{CentreField, StaggeredField, StokesSolver};
+
+use super::{ImmersedBoundary, add};
+use crate::contrast::{Contrast, Droplet, EquivalentForces, Images, Nearby, Outcome, RigidWalls};
+use crate::correction::Setting;
+use crate::{FlowError, FlowReport, FlowSample, Kernel, Markers, Transfer, Vec2, sampling};
+
+/// What interfaces to other viscosities need beside the grid.
+#[derive(Debug)]
+pub(super) struct ContrastFlow<K> {
+    contrast: Contrast,
+    equivalent: EquivalentForces,
+    /// For the droplets' nodes alone.
+    transfer: Transfer<K>,
+    /// The flow without forces (imposed fluxes, walls that move) and its mean pressure gradient; none where it vanishes.
+    imposed: Option<(StaggeredField, [f64; 2])>,
+    /// At the droplets' nodes.
+    nodes: Nodes,
+    /// Forces of all markers but the droplets'; then velocities of all markers.
+    all: Vec<Vec2>,
+    /// The flow of these forces and what is imposed.
+    other: StaggeredField,
+    other_density: StaggeredField,
+}
+
+/// Vectors at the droplets' nodes.
+#[derive(Debug, Default)]
+struct Nodes {
+    positions: Vec<Vec2>,
+    forces: Vec<Vec2>,
+    /// Velocities of one viscosity: of the droplets' own forces, and of all others.
+    own: Vec<Vec2>,
+    other: Vec<Vec2>,
+    /// Velocities.
+    velocities: Vec<Vec2>,
+    /// The part of them that is not the others', times viscosity.
+    target: Vec<Vec2>,
+}
+
+impl<K: Kernel> ContrastFlow<K> {
+    /// Takes over the droplets.
+    fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+        self.contrast.load(markers)?;
+        let Nodes { positions, forces, own, other, velocities, target } = &mut self.nodes;
+        for array in [&mut *positions, &mut *forces, &mut *velocities] {
+            array.clear();
+        }
+        for droplet in self.contrast.droplets() {
+            positions.extend_from_slice(&markers.positions[droplet.markers.clone()]);
+            forces.extend_from_slice(&markers.forces[droplet.markers.clone()]);
+            velocities.extend_from_slice(&markers.velocities[droplet.markers.clone()]);
+        }
+        for array in [own, other, target] {
+            array.resize(positions.len(), Vec2::zeros());
+        }
+        self.transfer.locate(positions);
+        Ok(())
+    }
+}
+
+impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
+    /// Makes what interfaces to other viscosities need, once, and lends it.
+    fn take_contrast(&mut self) -> Result<ContrastFlow<K>, FlowError> {
+        if let Some(flow) = self.contrast.take() {
+            return Ok(flow);
+        }
+        let grid = *self.solver.grid();
+        let ([lx, ly], walls) = (grid.lengths(), self.walls());
+        let density = StaggeredField::zeros(grid);
+        let mut velocity = StaggeredField::zeros(grid);
+        let at_rest = self.solver.solve(&density, &mut velocity)?;
+        let moves = velocity.x().iter().chain(velocity.y()).any(|value| *value != 0.0);
+        let imposed = moves.then(|| (velocity.clone(), at_rest.mean_pressure_gradient));
+        let rigid = walls.map(|heights| {
+            let zero_flux = matches!(self.solver.drive(), stokes_grid::Drive::ZeroFlux | stokes_grid::Drive::Flux(_));
+            RigidWalls::new(lx, heights, zero_flux, 0.1 * grid.spacing())
+        });
+        let images = Images { along: lx, across: walls.is_none().then_some(ly) };
+        Ok(ContrastFlow {
+            contrast: Contrast::new(images, rigid, self.solver.viscosity()),
+            equivalent: EquivalentForces::default(),
+            transfer: Transfer::new(grid, self.transfer.kernel().clone()),
+            imposed,
+            nodes: Nodes::default(),
+            all: Vec::new(),
+            other: velocity,
+            other_density: density,
+        })
+    }
+
+    /// The flow with interfaces to other viscosities: one solve on the grid for their forces, one for all others if there are
+    /// any, and the double layer; where there are other markers, the flow of the equivalent forces for these.
+    pub(super) fn contrast_velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+        let mut flow = self.take_contrast()?;
+        let outcome = self.contrast_with(&mut flow, markers);
+        self.contrast = Some(flow);
+        outcome
+    }
+
+    fn contrast_with(&mut self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+        flow.load(markers)?;
+        self.work.evaluations += 1;
+        let mut gradient = self.solve_others(flow, markers)?;
+        let own = self.solve_on(&flow.transfer, &flow.nodes.forces)?;
+        let fixed = flow.imposed.as_ref().map_or([0.0; 2], |(_, gradient)| *gradient);
+        for (total, (own, fixed)) in gradient.iter_mut().zip(own.mean_pressure_gradient.into_iter().zip(fixed)) {
+            *total += own - fixed;
+        }
+        if let Some((imposed, _)) = &flow.imposed {
+            add(&mut self.velocity, imposed, -1.0);
+        }
+        flow.transfer.interpolate(&self.velocity, &mut flow.nodes.own);
+        let droplets = flow.contrast.droplets();
+        self.correct_droplets(droplets, &flow.nodes.positions, &flow.nodes.forces, &mut flow.nodes.own)?;
+        let effort = flow.contrast.solve(&flow.nodes.own, &flow.nodes.other, &mut flow.nodes.velocities)?;
+        gradient[0] += effort.pressure_gradient;
+        let (mut iterations, mut residual) = (effort.iterations, effort.residual);
+        if !flow.contrast.others().is_empty() {
+            let found = self.find_equivalent(flow)?;
+            (iterations, residual) = (iterations + found.iterations, residual.max(found.residual));
+            self.solve_on(&flow.transfer, flow.equivalent.forces())?;
+            if let Some((imposed, _)) = &flow.imposed {
+                add(&mut self.velocity, imposed, -1.0);
+            }
+            self.add_to_others(flow, markers);
+        }
+        for droplet in flow.contrast.droplets() {
+            let nodes = droplet.first..droplet.first + droplet.nodes();
+            markers.velocities[droplet.markers.clone()].copy_from_slice(&flow.nodes.velocities[nodes]);
+        }
+        self.work.iterations += effort.iterations;
+        add(&mut self.velocity, &flow.other, 1.0);
+        add(&mut self.density, &flow.other_density, 1.0);
+        Ok(FlowReport { iterations, residual, mean_pressure_gradient: gradient })
+    }
+
+    /// The flow of all forces but the droplets' and of what is imposed: at the droplets' nodes, at the other markers (with
+    /// the mobility correction) and on the grid; its mean pressure gradient.
+    fn solve_others(&mut self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<[f64; 2], FlowError> {
+        flow.all.clear();
+        flow.all.extend_from_slice(&markers.forces);
+        for droplet in flow.contrast.droplets() {
+            flow.all[droplet.markers.clone()].fill(Vec2::zeros());
+        }
+        if !flow.contrast.others().is_empty() {
+            self.transfer.locate(&markers.positions);
+        }
+        let (mut gradient, mut moves) = ([0.0; 2], true);
+        if flow.all.iter().any(|force| *force != Vec2::zeros()) {
+            let report = self.solve_located(&flow.all)?;
+            gradient = report.mean_pressure_gradient;
+            copy(&mut flow.other, &self.velocity);
+            copy(&mut flow.other_density, &self.density);
+        } else if let Some((imposed, fixed)) = &flow.imposed {
+            gradient = *fixed;
+            copy(&mut flow.other, imposed);
+            flow.other_density.fill(0.0);
+        } else {
+            moves = false;
+            flow.other.fill(0.0);
+            flow.other_density.fill(0.0);
+        }
+        if !moves {
+            flow.nodes.other.fill(Vec2::zeros());
+            markers.velocities.fill(Vec2::zeros());
+            return Ok(gradient);
+        }
+        flow.transfer.interpolate(&flow.other, &mut flow.nodes.other);
+        if !flow.contrast.others().is_empty() {
+            self.transfer.interpolate(&flow.other, &mut markers.velocities);
+            for index in 0..markers.groups().len() {
+                let start = markers.groups()[index].range.start;
+                if flow.contrast.others().binary_search(&start).is_ok() {
+                    self.correct(index, markers)?;
+                }
+            }
+        }
+        Ok(gradient)
+    }
+
+    /// Adds the mobility correction of droplets to velocities at their nodes.
+    fn correct_droplets(
+        &mut self,
+        droplets: &[Droplet],
+        positions: &[Vec2],
+        forces: &[Vec2],
+        velocities: &mut [Vec2],
+    ) -> Result<(), FlowError> {
+        let setting = self.setting();
+        let Some(correction) = self.correction.as_mut() else { return Ok(()) };
+        for droplet in droplets.iter().filter(|droplet| droplet.even) {
+            let nodes = droplet.first..droplet.first + droplet.nodes();
+            let (positions, forces) = (&positions[nodes.clone()], &forces[nodes.clone()]);
+            correction.apply(&setting, positions, forces, &mut velocities[nodes])?;
+            self.work.corrections += 1;
+        }
+        Ok(())
+    }
+
+    /// Finds the forces that take the place of the other viscosities.
+    fn find_equivalent(&mut self, flow: &mut ContrastFlow<K>) -> Result<Outcome, FlowError> {
+        let viscosity = self.solver.viscosity();
+        let Nodes { positions, other, velocities, target, .. } = &mut flow.nodes;
+        for ((target, velocity), other) in target.iter_mut().zip(velocities).zip(other) {
+            *target = viscosity * (*velocity - *other);
+        }
+        let (droplets, transfer, imposed) = (flow.contrast.droplets(), &flow.transfer, &flow.imposed);
+        let spacing = self.grid().spacing();
+        flow.equivalent.solve(droplets, spacing, target, |forces, out| {
+            self.solve_on(transfer, forces)?;
+            if let Some((imposed, _)) = imposed {
+                add(&mut self.velocity, imposed, -1.0);
+            }
+            transfer.interpolate(&self.velocity, out);
+            self.correct_droplets(droplets, positions, forces, out)?;
+            out.iter_mut().for_each(|velocity| *velocity *= viscosity);
+            Ok(())
+        })
+    }
+
+    /// As [`crate::Hydrodynamics::sample`] where viscosities differ. Closer to an interface than the kernel reaches the velocity is a
+    /// parabola between the interface's and the flow at that distance on the same side; pressure and gradient are those there.
+    pub(super) fn contrast_sample(
+        &mut self,
+        markers: &Markers,
+        points: &[Vec2],
+        out: &mut [FlowSample],
+    ) -> Result<(), FlowError> {
+        let mut flow = self.take_contrast()?;
+        let outcome = self.sample_with(&mut flow, markers, points, out);
+        self.contrast = Some(flow);
+        outcome
+    }
+
+    fn sample_with(
+        &mut self,
+        flow: &mut ContrastFlow<K>,
+        markers: &Markers,
+        points: &[Vec2],
+        out: &mut [FlowSample],
+    ) -> Result<(), FlowError> {
+        flow.load(markers)?;
+        let mut scratch = markers.clone();
+        self.solve_others(flow, &mut scratch)?;
+        self.find_equivalent(flow)?;
+        self.solve_on(&flow.transfer, flow.equivalent.forces())?;
+        if let Some((imposed, _)) = &flow.imposed {
+            add(&mut self.velocity, imposed, -1.0);
+        }
+        add(&mut self.velocity, &flow.other, 1.0);
+        add(&mut self.density, &flow.other_density, 1.0);
+        let mut pressure = CentreField::zeros(*self.solver.grid());
+        self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
+
+        let (contrast, nodes) = (&flow.contrast, &flow.nodes);
+        let at_nodes: Vec<f64> = nodes.positions.iter().map(|&node| sampling::pressure(&pressure, node)).collect();
+        let offsets = contrast.pressure_offsets(&at_nodes, flow.equivalent.forces(), &nodes.forces, &nodes.velocities);
+        let viscosity = self.solver.viscosity();
+        let reach = self.reach();
+        for (point, out) in points.iter().zip(out) {
+            let inside = contrast.droplet_at(*point);
+            let velocity = |point| sampling::smooth_velocity(&self.velocity, point);
+            let near = self.close_to(contrast, *point);
+            (out.velocity, out.gradient) = match &near {
+                Some(near) => near.flow(*point, reach, near.on_the_interface(&nodes.velocities), velocity),
+                None => velocity(*point),
+            };
+            let smeared = near.filter(|near| near.distance() < 2.0 * reach[0]);
+            out.pressure = match smeared.map(|near| (near, [2.0, 3.0].map(|times| near.retreat(times * reach[0])))) {
+                // On the same side of all interfaces.
+                Some((near, [first, second]))
+                    if self.between_walls(&second)
+                        && contrast.droplet_at(first) == inside
+                        && contrast.droplet_at(second) == inside =>
+                {
+                    let [first, second] = [first, second].map(|place| sampling::pressure(&pressure, place));
+                    near.extrapolate([2.0 * reach[0], reach[0]], first, second)
+                }
+                _ => sampling::pressure(&pressure, *point),
+            };
+            if let Some(index) = inside {
+                out.pressure = out.pressure * contrast.droplets()[index].viscosity / viscosity + offsets[index];
+            }
+        }
+        Ok(())
+    }
+
+    /// Distance from an interface (length) beyond which what spreading smears of the flow can be neglected, three times its
+    /// width, and a step beyond that.
+    fn reach(&self) -> [f64; 2] {
+        let h = self.grid().spacing();
+        [3.0 * self.variance.sqrt() * h, h]
+    }
+
+    fn between_walls(&self, point: &Vec2) -> bool {
+        self.walls().is_none_or(|[bottom, top]| point.y > bottom && point.y < top)
+    }
+
+    /// The interface within four times whose reach a point lies, unless a wall is in the way of its neighbourhood.
+    fn close_to(&self, contrast: &Contrast, point: Vec2) -> Option<Nearby> {
+        let [reach, step] = self.reach();
+        contrast.nearby(point, 4.0 * reach).filter(|near| self.between_walls(&near.retreat(reach + step)))
+    }
+
+    /// Adds the flow of the equivalent forces, which is on the grid, at the markers that are not on droplets.
+    fn add_to_others(&self, flow: &mut ContrastFlow<K>, markers: &mut Markers) {
+        self.transfer.interpolate(&self.velocity, &mut flow.all);
+        let (reach, inverse) = (self.reach(), 1.0 / self.solver.viscosity());
+        let velocity = |point| sampling::smooth_velocity(&self.velocity, point);
+        for &marker in flow.contrast.others() {
+            let point = markers.positions[marker];
+            markers.velocities[marker] += match self.close_to(&flow.contrast, point) {
+                Some(near) => near.flow(point, reach, inverse * near.on_the_interface(&flow.nodes.target), velocity).0,
+                None => flow.all[marker],
+            };
+        }
+    }
+
+    pub(super) fn setting(&self) -> Setting {
+        Setting {
+            spacing: self.grid().spacing(),
+            origin: self.grid().origin(),
+            viscosity: self.solver.viscosity(),
+            walls: self.walls(),
+            variance: self.variance,
+        }
+    }
+}
+
+fn copy(target: &mut StaggeredField, source: &StaggeredField) {
+    let (x, y) = target.components_mut();
+    x.copy_from_slice(source.x());
+    y.copy_from_slice(source.y());
+}
