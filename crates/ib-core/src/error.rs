@@ -2,6 +2,8 @@
 
 use stokes_grid::StokesError;
 
+use crate::CheckpointError;
+
 /// The flow could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -225,6 +227,20 @@ pub enum SceneError {
         time: f64,
         /// The number allowed.
         most: usize,
+    },
+    /// The run was told to stop.
+    #[error("stopped at time {time}: the state is that of the last complete step, from which the run can go on")]
+    Stopped {
+        /// When (time).
+        time: f64,
+    },
+    /// A checkpoint could not be saved.
+    #[error("at time {time} no checkpoint could be saved")]
+    Checkpoint {
+        /// When (time).
+        time: f64,
+        /// Why.
+        source: Box<CheckpointError>,
     },
     /// A time or time step that makes no sense.
     #[error("{name} is {value}: give {remedy}")]

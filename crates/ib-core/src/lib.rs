@@ -46,6 +46,7 @@
 
 mod band_limit;
 mod body;
+mod checkpoint;
 mod contrast;
 mod correction;
 mod error;
@@ -68,6 +69,7 @@ mod wall_gap;
 
 pub use band_limit::BandLimit;
 pub use body::{Body, StepCause, StepInfo, StepLimit};
+pub use checkpoint::{Checkpoint, CheckpointError};
 pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{Domain, FlowReport, FlowSample, FlowWork, Hydrodynamics, Medium};
 pub use immersed_boundary::ImmersedBoundary;

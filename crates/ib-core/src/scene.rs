@@ -4,7 +4,8 @@ use std::marker::PhantomData;
 
 use crate::step_control::StepControl;
 use crate::{
-    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Run, SceneError, StepInfo, StepReport, StepSize, System,
+    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Record, Run, SceneError, StepInfo, StepReport, StepSize,
+    System,
 };
 
 /// Where a body of type B stands in its scene.
@@ -236,6 +237,10 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     #[must_use]
     pub fn integrator_work(&self) -> IntegratorWork {
         self.integrator.work()
+    }
+
+    pub(crate) fn load_integrator(&mut self, record: &Record) -> Result<(), SceneError> {
+        self.integrator.load(record)
     }
 
     /// The integrator.

@@ -3,8 +3,8 @@
 use std::any::Any;
 
 use crate::{
-    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, MarkerKind, Markers, SceneError, StepInfo, StepLimit, Vec2,
-    wall_gap,
+    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, MarkerKind, Markers, Record, SceneError, StepInfo,
+    StepLimit, Vec2, wall_gap,
 };
 
 /// The bodies of a scene, the fluid between them, and the time.
@@ -23,6 +23,7 @@ pub struct System<H> {
     /// Marker positions of the present state, for the gap to the walls.
     positions: Vec<Vec2>,
     minimum_wall_gap: Option<f64>,
+    minimum_gap: Option<f64>,
 }
 
 impl<H: Hydrodynamics> System<H> {
@@ -37,6 +38,7 @@ impl<H: Hydrodynamics> System<H> {
             current: false,
             positions: Vec::new(),
             minimum_wall_gap: None,
+            minimum_gap: None,
         }
     }
 
@@ -107,6 +109,55 @@ impl<H: Hydrodynamics> System<H> {
         &self.report
     }
 
+    /// Whether [`System::markers`] holds the flow of the present state.
+    #[must_use]
+    pub fn is_evaluated(&self) -> bool {
+        self.current
+    }
+
+    /// Takes over the state of a checkpoint.
+    pub(crate) fn load<'a>(
+        &mut self,
+        bodies: impl Iterator<Item = &'a Record>,
+        flow: &Record,
+        time: f64,
+        steps: usize,
+        [minimum_wall_gap, minimum_gap]: [Option<f64>; 2],
+    ) -> Result<(), SceneError> {
+        self.current = false;
+        self.hydrodynamics.load(flow);
+        let medium = self.hydrodynamics.medium();
+        for (body, record) in self.bodies.iter_mut().zip(bodies) {
+            body.load(&medium, record).map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        (self.time, self.steps) = (time, steps);
+        (self.minimum_wall_gap, self.minimum_gap) = (minimum_wall_gap, minimum_gap);
+        self.fit_markers();
+        Ok(())
+    }
+
+    /// Takes over velocities that were computed at the present state, if there is one for each marker.
+    pub(crate) fn take_flow(
+        &mut self,
+        flow: &Record,
+        velocities: impl ExactSizeIterator<Item = Vec2>,
+        report: FlowReport,
+    ) -> Result<(), SceneError> {
+        if velocities.len() != self.markers.len() {
+            let (found, expected) = (velocities.len(), self.markers.len());
+            let problem = format!("it has the velocities of {found} markers, the scene has {expected}");
+            return Err(SceneError::ForeignCheckpoint { problem });
+        }
+        // For all that a flow makes of its markers, such as what it samples from. The velocities come out the same only to the tolerance of
+        // its iterations, so those that were found take their place, and so does what the next iteration starts from.
+        self.compute_flow()?;
+        self.hydrodynamics.load(flow);
+        self.markers.velocities.iter_mut().zip(velocities).for_each(|(to, from)| *to = from);
+        self.report = report;
+        self.current = true;
+        Ok(())
+    }
+
     /// Computes forces and velocities at the present state, unless they are known already.
     ///
     /// # Errors
@@ -151,6 +202,13 @@ impl<H: Hydrodynamics> System<H> {
     #[must_use]
     pub fn minimum_wall_gap(&self) -> Option<f64> {
         self.minimum_wall_gap
+    }
+
+    /// The smallest gap between two interfaces, or one and its own image in a periodic domain, since the start (length), where it was
+    /// small enough to be looked for; negative where they overlap.
+    #[must_use]
+    pub fn minimum_gap(&self) -> Option<f64> {
+        self.minimum_gap
     }
 
     fn record_wall_gap(&mut self) {
