@@ -1,6 +1,6 @@
 //! The solid as a body of a scene.
 
-use ib_core::{Body, BodyError, MarkerKind, Medium, Record, StepLimit, Vec2};
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepLimit, Vec2};
 
 use crate::{ElasticForces, Solid, SolidError};
 
@@ -77,6 +77,20 @@ impl<F: ElasticForces> Body for Solid<F> {
 
     fn end_step(&mut self, _medium: &Medium, _dt: f64) -> Result<(), BodyError> {
         if self.may_invert { Ok(()) } else { Ok(self.check_inversion()?) }
+    }
+
+    fn write_boundary(&self, boundary: &mut Boundary) {
+        let period = self.mesh.period();
+        for outline in self.mesh.boundary_loops() {
+            let points = &outline.points;
+            for (&start, &end) in points.iter().zip(points.iter().cycle().skip(1)) {
+                let mut along = self.positions[end] - self.positions[start];
+                if let Some(period) = period {
+                    along.x -= period * (along.x / period).round();
+                }
+                boundary.push(self.positions[start], self.positions[start] + along);
+            }
+        }
     }
 
     /// All points, pinned ones too, and the tethers.

@@ -242,7 +242,7 @@ pub enum SceneError {
         /// Why.
         source: Box<CheckpointError>,
     },
-    /// A time or time step that makes no sense.
+    /// A time, time step or other number that makes no sense.
     #[error("{name} is {value}: give {remedy}")]
     Time {
         /// The quantity.

@@ -47,6 +47,7 @@
 mod band_limit;
 mod body;
 mod checkpoint;
+mod contact;
 mod contrast;
 mod correction;
 mod error;
@@ -70,6 +71,7 @@ mod wall_gap;
 pub use band_limit::BandLimit;
 pub use body::{Body, StepCause, StepInfo, StepLimit};
 pub use checkpoint::{Checkpoint, CheckpointError};
+pub use contact::{Boundary, Repulsion};
 pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{Domain, FlowReport, FlowSample, FlowWork, Hydrodynamics, Medium};
 pub use immersed_boundary::ImmersedBoundary;

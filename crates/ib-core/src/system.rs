@@ -2,10 +2,14 @@
 
 use std::any::Any;
 
+use crate::contact::{ContactFinder, Gap};
 use crate::{
-    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, MarkerKind, Markers, Record, SceneError, StepInfo,
-    StepLimit, Vec2, wall_gap,
+    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Record, Repulsion, SceneError,
+    StepInfo, StepLimit, Vec2, wall_gap,
 };
+
+/// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the round-off of a grid.
+const CONTACT: f64 = 0.25;
 
 /// The bodies of a scene, the fluid between them, and the time.
 ///
@@ -24,6 +28,11 @@ pub struct System<H> {
     positions: Vec<Vec2>,
     minimum_wall_gap: Option<f64>,
     minimum_gap: Option<f64>,
+    contacts: ContactFinder,
+    /// The narrowest gap of the present state.
+    narrowest: Option<Gap>,
+    pub(crate) least_gap: Option<f64>,
+    pub(crate) repulsion: Option<Repulsion>,
 }
 
 impl<H: Hydrodynamics> System<H> {
@@ -39,6 +48,10 @@ impl<H: Hydrodynamics> System<H> {
             positions: Vec::new(),
             minimum_wall_gap: None,
             minimum_gap: None,
+            contacts: ContactFinder::default(),
+            narrowest: None,
+            least_gap: None,
+            repulsion: None,
         }
     }
 
@@ -67,6 +80,9 @@ impl<H: Hydrodynamics> System<H> {
         self.time += dt;
         self.steps += 1;
         self.record_wall_gap();
+        if let Some(Gap { width, .. }) = self.narrowest {
+            self.minimum_gap = Some(self.minimum_gap.map_or(width, |least| least.min(width)));
+        }
     }
 
     /// What computes the flow.
@@ -211,6 +227,48 @@ impl<H: Hydrodynamics> System<H> {
         self.minimum_gap
     }
 
+    /// The largest distance of neighbouring markers of an interface (length).
+    fn finest_markers(&self) -> f64 {
+        let groups = self.markers.groups().iter().filter(|group| group.kind != MarkerKind::Points);
+        groups
+            .flat_map(|group| self.markers.positions[group.range.clone()].windows(2))
+            .map(|pair| (pair[1] - pair[0]).norm())
+            .fold(0.0, f64::max)
+    }
+
+    /// The repulsion between interfaces, if it is on.
+    #[must_use]
+    pub fn repulsion(&self) -> Option<&Repulsion> {
+        self.repulsion.as_ref()
+    }
+
+    /// Looks at the gaps of the present state: interfaces must not be inside other bodies or their own images by more than a quarter of
+    /// the grid spacing, and no gap narrower than the bound, if there is one.
+    pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
+        let Medium { domain, spacing, .. } = self.hydrodynamics.medium();
+        // Without a grid the spacing of the markers that carry the flow.
+        let scale = spacing.unwrap_or_else(|| self.finest_markers());
+        self.narrowest = self.contacts.narrowest(&self.bodies, &domain, scale);
+        let (time, allowed) = (self.time, CONTACT * scale);
+        let name = |index: usize| self.bodies[index].name().to_owned();
+        if let Some(Gap { body, marker, other, width }) = self.narrowest {
+            if width < -allowed {
+                let (body, other) = (name(body), name(other));
+                return Err(SceneError::Crossing { time, body, marker, other, depth: -width, allowed });
+            }
+            if let Some(bound) = self.least_gap.filter(|&bound| width < bound) {
+                return Err(SceneError::Gap { time, body: name(body), other: name(other), gap: width, bound });
+            }
+        }
+        if let Some(bound) = self.least_gap
+            && let Some(gap) = self.wall_gap().filter(|&gap| gap < bound)
+        {
+            let (body, other) = ("a body".to_owned(), "a wall".to_owned());
+            return Err(SceneError::Gap { time, body, other, gap, bound });
+        }
+        Ok(())
+    }
+
     fn record_wall_gap(&mut self) {
         if let Some(gap) = self.wall_gap() {
             self.minimum_wall_gap = Some(self.minimum_wall_gap.map_or(gap, |least| least.min(gap)));
@@ -226,7 +284,13 @@ impl<H: Hydrodynamics> System<H> {
     /// All bounds on the time step at the present state, with the names of the bodies that set them.
     pub fn limits(&self) -> impl Iterator<Item = (StepLimit, &str)> {
         let medium = self.hydrodynamics.medium();
-        self.bodies.iter().flat_map(move |body| body.step_limits(&medium).into_iter().map(|limit| (limit, body.name())))
+        let repulsion = self.repulsion.iter().map(move |repulsion| {
+            (StepLimit::decay(repulsion.step_limit(medium.viscosity), "the repulsion"), "the interfaces")
+        });
+        self.bodies
+            .iter()
+            .flat_map(move |body| body.step_limits(&medium).into_iter().map(|limit| (limit, body.name())))
+            .chain(repulsion)
     }
 
     /// The fastest decay that the bodies' limits tell of at the present state, without stabilisers (1/time).
@@ -279,6 +343,9 @@ impl<H: Hydrodynamics> System<H> {
             body.write_markers(&mut self.markers.positions[range.clone()]);
             body.write_forces(&medium, &mut self.markers.forces[range])
                 .map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        if let Some(repulsion) = &self.repulsion {
+            repulsion.add(&mut self.markers, medium.domain.periods);
         }
         self.report =
             self.hydrodynamics.velocities(&mut self.markers).map_err(|source| SceneError::Flow { time, source })?;
