@@ -19,6 +19,10 @@ pub const MINIMUM_MARKERS: usize = 8;
 /// the grid.
 pub const PECLET_LIMIT: f64 = 0.5;
 
+/// Relative change of the area, and of the number of particles, at which a run ends unless the droplet is told otherwise.
+const AREA_BOUND: f64 = 0.05;
+const NUMBER_BOUND: f64 = 1e-8;
+
 /// How the markers of an interface move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Motion {
@@ -100,6 +104,11 @@ pub struct ActiveDroplet {
     pub(crate) crossing: CrossingFinder,
     pub(crate) repair: Repair,
     pub(crate) redistributed: (usize, usize),
+    /// Particles at the start, and the bounds on the relative changes of area and particles.
+    pub(crate) initial_number: f64,
+    pub(crate) bounds: [f64; 2],
+    /// Whether the tension law lets particles collapse.
+    pub(crate) collapsible: bool,
 }
 
 impl ActiveDroplet {
@@ -146,7 +155,6 @@ impl ActiveDroplet {
         let initial_area = signed_area(&markers);
         let mut droplet = Self {
             name: "droplet".to_owned(),
-            tension,
             motion: Motion::default(),
             diffusion,
             stabilised: true,
@@ -170,6 +178,10 @@ impl ActiveDroplet {
             crossing: CrossingFinder::new(),
             repair: Repair::default(),
             redistributed: (0, 0),
+            initial_number: numbers.iter().sum(),
+            bounds: [AREA_BOUND, NUMBER_BOUND],
+            collapsible: tension.warning().is_some(),
+            tension,
             markers,
             numbers,
         };
@@ -209,6 +221,21 @@ impl ActiveDroplet {
     pub fn with_area_constraint(mut self, on: bool) -> Self {
         self.keeps_area = on;
         self
+    }
+
+    /// The same droplet with other bounds on the relative changes of its area and of its number of particles since the start, beyond which
+    /// a step is an error (5e-2 and 1e-8 by default; infinity for none).
+    ///
+    /// # Errors
+    /// A bound that is negative or not a number.
+    pub fn with_bounds(mut self, area: f64, particles: f64) -> Result<Self, InterfaceError> {
+        for (name, value) in [("the bound on the area", area), ("the bound on the particles", particles)] {
+            if value.is_nan() || value < 0.0 {
+                return Err(InterfaceError::Negative { name, value });
+            }
+        }
+        self.bounds = [area, particles];
+        Ok(self)
     }
 
     /// The same droplet with or without the stabiliser (on by default), which makes the fast relaxation of crowded particles implicit:

@@ -9,6 +9,9 @@ use crate::geometry::{equidistribute, outward, signed_area};
 use crate::redistribution::redistribute;
 use crate::{ActiveDroplet, InterfaceError, Motion, Repair, Transport, repair_positivity};
 
+/// Part of all particles in one segment from which on they have collapsed.
+const COLLAPSED: f64 = 0.15;
+
 impl From<InterfaceError> for BodyError {
     fn from(error: InterfaceError) -> Self {
         Self::Other(Box::new(error))
@@ -201,7 +204,7 @@ impl Body for ActiveDroplet {
         if let Some((first, second)) = self.crossing.first_crossing(&self.markers)? {
             return Err(BodyError::SelfCrossing { first, second });
         }
-        Ok(())
+        self.check_bounds()
     }
 
     fn step_limits(&self, medium: &Medium) -> Vec<StepLimit> {
@@ -217,11 +220,11 @@ impl Body for ActiveDroplet {
     }
 
     fn save(&self) -> Record {
-        let Self { target_spacing, initial_area, repair, redistributed, .. } = self;
+        let Self { target_spacing, initial_area, initial_number, repair, redistributed, .. } = self;
         let mut reals = vec![0.0; self.state_len()];
         self.write_state(&mut reals);
         reals.extend_from_slice(&self.slip);
-        reals.extend([*target_spacing, *initial_area, repair.moved]);
+        reals.extend([*target_spacing, *initial_area, *initial_number, repair.moved]);
         let counts = [self.markers.len(), repair.segments, repair.furthest, redistributed.0, redistributed.1];
         Record { reals, counts: counts.map(|count| count as u64).to_vec() }
     }
@@ -231,7 +234,7 @@ impl Body for ActiveDroplet {
         let per_marker = if self.transport.is_some() { 4 } else { 3 };
         let found = record.reals.len();
         let count = usize::try_from(count).unwrap_or(usize::MAX).min(found);
-        let expected = per_marker * count + 3;
+        let expected = per_marker * count + 4;
         if count < MINIMUM_MARKERS || expected != found {
             return Err(BodyError::ForeignRecord { expected, found });
         }
@@ -244,14 +247,35 @@ impl Body for ActiveDroplet {
         self.read_state(state)?;
         self.fit(medium)?;
         self.slip.copy_from_slice(slip);
-        (self.target_spacing, self.initial_area) = (numbers[0], numbers[1]);
-        self.repair = Repair { segments: segments as usize, moved: numbers[2], furthest: furthest as usize };
+        (self.target_spacing, self.initial_area, self.initial_number) = (numbers[0], numbers[1], numbers[2]);
+        self.repair = Repair { segments: segments as usize, moved: numbers[3], furthest: furthest as usize };
         self.redistributed = (inserted as usize, removed as usize);
         Ok(())
     }
 }
 
 impl ActiveDroplet {
+    /// Area and particles are what they were, and no tension law without a plateau has gathered the particles in a point.
+    fn check_bounds(&self) -> Result<(), BodyError> {
+        let total: f64 = self.numbers.iter().sum();
+        let changes = [
+            ("the area", signed_area(&self.markers) / self.initial_area - 1.0),
+            ("the number of particles", if total > 0.0 { total / self.initial_number - 1.0 } else { 0.0 }),
+        ];
+        for ((what, change), bound) in changes.into_iter().zip(self.bounds) {
+            if change.is_nan() || change.abs() > bound {
+                return Err(BodyError::NotConserved { what, change, bound });
+            }
+        }
+        if self.collapsible && total > 0.0 {
+            let most = self.numbers.iter().fold(0.0_f64, |a, &b| a.max(b));
+            if most > COLLAPSED * total {
+                return Err(InterfaceError::Collapse { part: most / total }.into());
+            }
+        }
+        Ok(())
+    }
+
     /// Makes all lists fit `count` markers.
     fn resize(&mut self, count: usize) -> Result<(), InterfaceError> {
         self.markers.resize(count, Vec2::zeros());

@@ -148,6 +148,15 @@ pub enum InterfaceError {
         /// What to do.
         remedy: &'static str,
     },
+    /// A tension law without a plateau has drawn the particles together to a point.
+    #[error(
+        "{part:.2} of all particles are on one segment: the tension law has no plateau, so that they collapse towards a point at any \
+         resolution; use an activity below the strength of the excluded volume"
+    )]
+    Collapse {
+        /// Part of the particles on the fullest segment.
+        part: f64,
+    },
     /// There are no particles to borrow from.
     #[error("the particle numbers add up to {total}, so no redistribution makes them positive")]
     NoParticles {

@@ -1,6 +1,6 @@
 //! The flow of interfaces by boundary integrals.
 
-use ib_core::{FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium, Vec2};
+use ib_core::{FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium, Record, Vec2};
 use num_complex::Complex64;
 
 use crate::{
@@ -266,6 +266,19 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
 
     fn work(&self) -> FlowWork {
         self.work
+    }
+
+    fn save(&self) -> Record {
+        let mut reals = vec![self.stiffness];
+        reals.extend_from_slice(&self.velocities);
+        Record { reals, counts: Vec::new() }
+    }
+
+    fn load(&mut self, record: &Record) {
+        if let ([stiffness, velocities @ ..], []) = (record.reals.as_slice(), record.counts.as_slice()) {
+            self.stiffness = *stiffness;
+            self.velocities = velocities.to_vec();
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The solid as a body of a scene.
 
-use ib_core::{Body, BodyError, MarkerKind, Medium, StepLimit, Vec2};
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepLimit, Vec2};
 
 use crate::{ElasticForces, Solid, SolidError};
 
@@ -77,6 +77,49 @@ impl<F: ElasticForces> Body for Solid<F> {
 
     fn end_step(&mut self, _medium: &Medium, _dt: f64) -> Result<(), BodyError> {
         if self.may_invert { Ok(()) } else { Ok(self.check_inversion()?) }
+    }
+
+    fn write_boundary(&self, boundary: &mut Boundary) {
+        let period = self.mesh.period();
+        for outline in self.mesh.boundary_loops() {
+            let points = &outline.points;
+            for (&start, &end) in points.iter().zip(points.iter().cycle().skip(1)) {
+                let mut along = self.positions[end] - self.positions[start];
+                if let Some(period) = period {
+                    along.x -= period * (along.x / period).round();
+                }
+                boundary.push(self.positions[start], self.positions[start] + along);
+            }
+        }
+    }
+
+    /// All points, pinned ones too, and the tethers.
+    fn save(&self) -> Record {
+        let mut reals: Vec<f64> = self.positions.iter().flat_map(|place| [place.x, place.y]).collect();
+        reals.extend(self.tethers.iter().flat_map(|tether| [tether.anchor.x, tether.anchor.y, tether.stiffness]));
+        let counts = vec![self.positions.len() as u64, self.tethers.len() as u64];
+        Record { reals, counts }
+    }
+
+    fn load(&mut self, _medium: &Medium, record: &Record) -> Result<(), BodyError> {
+        let [points, tethers] = record.counts_of("an elastic solid")?;
+        let (split, found) = (2 * self.positions.len(), record.reals.len());
+        let expected = split + 3 * self.tethers.len();
+        if [points, tethers] != [self.positions.len() as u64, self.tethers.len() as u64] || expected != found {
+            return Err(BodyError::ForeignRecord { expected, found });
+        }
+        if let Some(index) = record.reals.iter().position(|value| !value.is_finite()) {
+            return Err(BodyError::NonFinite { what: "entry of the record", index, value: record.reals[index] });
+        }
+        let (positions, numbers) = record.reals.split_at(split);
+        for (place, pair) in self.positions.iter_mut().zip(positions.chunks_exact(2)) {
+            *place = Vec2::new(pair[0], pair[1]);
+        }
+        for (tether, numbers) in self.tethers.iter_mut().zip(numbers.chunks_exact(3)) {
+            tether.anchor = Vec2::new(numbers[0], numbers[1]);
+            tether.stiffness = numbers[2];
+        }
+        Ok(())
     }
 
     /// `2 eta/(mu + 0.015 kappa (a/h)^2)` for the midpoint rule, a being the spacing of the mesh and h that of the

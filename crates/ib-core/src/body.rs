@@ -2,7 +2,7 @@
 
 use std::any::Any;
 
-use crate::{BodyError, MarkerKind, Medium, Record, Vec2};
+use crate::{BodyError, Boundary, MarkerKind, Medium, Record, Vec2};
 
 /// What a bound on the time step comes from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -135,6 +135,15 @@ pub trait Body: Any + std::fmt::Debug + Send {
 
     /// The largest stable time steps of the explicit midpoint rule at the present state, one for each reason there is.
     fn step_limits(&self, medium: &Medium) -> Vec<StepLimit>;
+
+    /// Adds the body's boundary, to which gaps are measured: by default the polygon of an interface, and nothing of other bodies.
+    fn write_boundary(&self, boundary: &mut Boundary) {
+        if !matches!(self.kind(), MarkerKind::Points) {
+            let mut positions = vec![Vec2::zeros(); self.marker_count()];
+            self.write_markers(&mut positions);
+            boundary.push_loop(&positions);
+        }
+    }
 
     /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive): the radius of a
     /// droplet for positions, say. By default all are one.

@@ -13,7 +13,7 @@ mod wall_flow;
 mod wall_points;
 mod walls;
 
-use crate::{FlowError, MarkerKind, Markers, Vec2};
+use crate::{FlowError, MarkerKind, Markers, Record, Vec2};
 
 use double_layer::DoubleLayer;
 pub(crate) use droplet::Droplet;
@@ -113,6 +113,26 @@ impl Contrast {
     /// The markers that are not on them.
     pub(crate) fn others(&self) -> &[usize] {
         &self.targets
+    }
+
+    /// The last solutions, from which the next ones start.
+    pub(crate) fn save(&self) -> Record {
+        let counts = [self.count, self.nodes, self.left.len()].map(|count| count as u64).to_vec();
+        Record { reals: [self.left.as_slice(), &self.velocities].concat(), counts }
+    }
+
+    /// Takes back what [`Contrast::save`] wrote.
+    pub(crate) fn restore(&mut self, record: &Record) {
+        let Ok([count, nodes, split]) = record.counts_of("droplets of another viscosity") else { return };
+        let split = usize::try_from(split).unwrap_or(usize::MAX);
+        let (Some(left), Some(velocities)) = (record.reals.get(..split), record.reals.get(split..)) else { return };
+        // Three rigid motions a droplet.
+        let len = nodes.saturating_mul(2);
+        let fits = |list: &[f64], columns: u64| list.is_empty() || list.len() as u64 == columns.saturating_mul(len);
+        if fits(left, count.saturating_mul(3)) && fits(velocities, 1) {
+            (self.left, self.velocities) = (left.to_vec(), velocities.to_vec());
+            (self.count, self.nodes) = (count as usize, nodes as usize);
+        }
     }
 
     /// Takes over the shapes of the droplets.

@@ -2,6 +2,8 @@
 
 use stokes_grid::StokesError;
 
+use crate::CheckpointError;
+
 /// The flow could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -226,7 +228,21 @@ pub enum SceneError {
         /// The number allowed.
         most: usize,
     },
-    /// A time or time step that makes no sense.
+    /// The run was told to stop.
+    #[error("stopped at time {time}: the state is that of the last complete step, from which the run can go on")]
+    Stopped {
+        /// When (time).
+        time: f64,
+    },
+    /// A checkpoint could not be saved.
+    #[error("at time {time} no checkpoint could be saved")]
+    Checkpoint {
+        /// When (time).
+        time: f64,
+        /// Why.
+        source: Box<CheckpointError>,
+    },
+    /// A time, time step or other number that makes no sense.
     #[error("{name} is {value}: give {remedy}")]
     Time {
         /// The quantity.

@@ -1,6 +1,6 @@
 //! From forces at markers to velocities at markers.
 
-use crate::{FlowError, Markers, Vec2};
+use crate::{FlowError, Markers, Record, Vec2};
 
 /// The region that the fluid fills.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,6 +99,15 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 
     /// Work done since the start.
     fn work(&self) -> FlowWork;
+
+    /// What the next evaluation depends on besides its arguments, such as the last solution, from which an iteration starts; by default
+    /// nothing.
+    fn save(&self) -> Record {
+        Record::default()
+    }
+
+    /// Takes back what [`Hydrodynamics::save`] wrote. What another flow wrote is of no use and ignored.
+    fn load(&mut self, _record: &Record) {}
 }
 
 /// Hydrodynamics that were chosen at run time.
@@ -117,5 +126,13 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
 
     fn work(&self) -> FlowWork {
         self.as_ref().work()
+    }
+
+    fn save(&self) -> Record {
+        self.as_ref().save()
+    }
+
+    fn load(&mut self, record: &Record) {
+        self.as_mut().load(record);
     }
 }

@@ -9,7 +9,7 @@ use crate::correction::MobilityCorrection;
 use crate::sampling;
 use crate::{
     Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, Kernel, MarkerKind, Markers, Medium,
-    MobilityDeficit, Transfer, Vec2,
+    MobilityDeficit, Record, Transfer, Vec2,
 };
 use contrast_flow::ContrastFlow;
 
@@ -275,6 +275,19 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
 
     fn work(&self) -> FlowWork {
         self.work
+    }
+
+    fn save(&self) -> Record {
+        self.contrast.as_ref().map_or_else(Record::default, |flow| flow.contrast.save())
+    }
+
+    fn load(&mut self, record: &Record) {
+        if !record.counts.is_empty()
+            && self.prepare_contrast().is_ok()
+            && let Some(flow) = &mut self.contrast
+        {
+            flow.contrast.restore(record);
+        }
     }
 }
 

@@ -22,6 +22,9 @@ pub struct IntegratorWork {
 
 /// Advances the state of all bodies by one step.
 pub trait Integrator: std::fmt::Debug + Send {
+    /// What it is called in messages and checkpoints.
+    fn name(&self) -> &'static str;
+
     /// Advances the states of `system` by `dt` (time): reads them with [`System::write_state`], computes rates with
     /// [`System::present_rate`] and [`System::rate`], and leaves the new ones with [`System::read_state`]. The clock, the calls before and after a step and the return to the last good
     /// state after an error are the scene's.

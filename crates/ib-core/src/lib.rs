@@ -46,6 +46,8 @@
 
 mod band_limit;
 mod body;
+mod checkpoint;
+mod contact;
 mod contrast;
 mod correction;
 mod error;
@@ -68,6 +70,8 @@ mod wall_gap;
 
 pub use band_limit::BandLimit;
 pub use body::{Body, StepCause, StepInfo, StepLimit};
+pub use checkpoint::{Checkpoint, CheckpointError};
+pub use contact::{Boundary, Repulsion};
 pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{Domain, FlowReport, FlowSample, FlowWork, Hydrodynamics, Medium};
 pub use immersed_boundary::ImmersedBoundary;

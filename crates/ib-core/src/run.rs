@@ -1,5 +1,8 @@
 //! Runs of many steps, watched by observers.
 
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::{Hydrodynamics, Integrator, Scene, SceneError, StepSize, System};
 
 /// Looks on while a scene runs. Closures `FnMut(&mut System<H>) -> Result<(), E>` are observers.
@@ -45,6 +48,15 @@ pub struct Run<'a, H, I> {
     least: Option<f64>,
     most: usize,
     watches: Vec<Watch<'a, H>>,
+    saver: Option<Saver<'a>>,
+    stop: Option<&'a AtomicBool>,
+}
+
+/// When and where checkpoints are saved.
+struct Saver<'a> {
+    every: usize,
+    path: &'a Path,
+    description: &'a str,
 }
 
 impl<H: std::fmt::Debug, I: std::fmt::Debug> std::fmt::Debug for Run<'_, H, I> {
@@ -63,7 +75,7 @@ const LEAST: f64 = 1e-6;
 impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     pub(crate) fn new(scene: &'a mut Scene<H, I>, until: f64) -> Self {
         let step = scene.step_size();
-        Self { scene, until, step, least: None, most: usize::MAX, watches: Vec::new() }
+        Self { scene, until, step, least: None, most: usize::MAX, watches: Vec::new(), saver: None, stop: None }
     }
 
     /// Sets the time step (default: the scene's, [`Scene::step_size`]).
@@ -85,6 +97,21 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     #[must_use]
     pub fn most_steps(mut self, most: usize) -> Self {
         self.most = most;
+        self
+    }
+
+    /// Saves a checkpoint with that description to `path` after every `every` steps of the scene (0 counts as 1), in place of the last
+    /// one, which stays until the new one is complete. What is saved has no influence on the run.
+    #[must_use]
+    pub fn save(mut self, every: usize, path: &'a Path, description: &'a str) -> Self {
+        self.saver = Some(Saver { every: every.max(1), path, description });
+        self
+    }
+
+    /// Ends the run with [`SceneError::Stopped`] after the step during which `flag` becomes true.
+    #[must_use]
+    pub fn stop_on(mut self, flag: &'a AtomicBool) -> Self {
+        self.stop = Some(flag);
         self
     }
 
@@ -120,6 +147,16 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
             self.advance(least)?;
             taken += 1;
             self.notify(false)?;
+            let time = self.scene.time();
+            if let Some(saver) = &self.saver
+                && self.scene.steps().is_multiple_of(saver.every)
+            {
+                let saved = self.scene.checkpoint(saver.description).write(saver.path);
+                saved.map_err(|source| SceneError::Checkpoint { time, source: Box::new(source) })?;
+            }
+            if self.stop.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+                return Err(SceneError::Stopped { time });
+            }
         }
         Ok(())
     }

@@ -4,7 +4,8 @@ use std::marker::PhantomData;
 
 use crate::step_control::StepControl;
 use crate::{
-    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Run, SceneError, StepInfo, StepReport, StepSize, System,
+    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Record, Repulsion, Run, SceneError, StepInfo,
+    StepReport, StepSize, System,
 };
 
 /// Where a body of type B stands in its scene.
@@ -92,6 +93,27 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         let Self { system, step_size, report, saved, saved_lengths, error, .. } = self;
         let control = StepControl::default();
         Scene { system, integrator, step_size, control, report, saved, saved_lengths, error }
+    }
+
+    /// The same scene with a short-range repulsion between different interfaces (none by default).
+    #[must_use]
+    pub fn with_repulsion(mut self, repulsion: Repulsion) -> Self {
+        self.system.repulsion = Some(repulsion);
+        self
+    }
+
+    /// The same scene with a bound on gaps (length): a step after which an interface is closer to another body, to its own image or to a
+    /// wall ends in [`SceneError::Gap`]. A grid resolves films of two spacings and more; below that they drain as the kernel and not as the
+    /// fluid has it. By default gaps are measured ([`System::minimum_gap`], [`System::minimum_wall_gap`]) and only overlaps are errors.
+    ///
+    /// # Errors
+    /// A bound that is not finite.
+    pub fn with_least_gap(mut self, bound: f64) -> Result<Self, SceneError> {
+        if !bound.is_finite() {
+            return Err(SceneError::Time { name: "the bound on gaps", value: bound, remedy: "a finite length" });
+        }
+        self.system.least_gap = Some(bound);
+        Ok(self)
     }
 
     /// Adds a body; the handle gives it back.
@@ -208,6 +230,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             system.write_state(&mut error.after);
         }
         system.end_step(dt)?;
+        system.check_gaps()?;
         // The flow at the end of a step is that at the start of the next.
         system.evaluate()?;
         let Some(tolerance) = tolerance else { return Ok(0.0) };
@@ -236,6 +259,10 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     #[must_use]
     pub fn integrator_work(&self) -> IntegratorWork {
         self.integrator.work()
+    }
+
+    pub(crate) fn load_integrator(&mut self, record: &Record) -> Result<(), SceneError> {
+        self.integrator.load(record)
     }
 
     /// The integrator.

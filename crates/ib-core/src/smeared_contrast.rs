@@ -4,8 +4,8 @@ use stokes_grid::{CentreField, Grid, NodeField, RealFft2, StaggeredField, Stokes
 
 use crate::contrast::other_viscosity;
 use crate::{
-    FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Medium, Transfer,
-    Vec2,
+    FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Medium, Record,
+    Transfer, Vec2,
 };
 
 /// The immersed boundary method with the viscosity as a smooth field on the grid (thesis section 2.2.4): the outward normals
@@ -193,5 +193,37 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
 
     fn work(&self) -> FlowWork {
         self.flow.work()
+    }
+
+    fn save(&self) -> Record {
+        let mut record = Record::default();
+        for solution in self.flow.solver().solutions() {
+            record.reals.extend_from_slice(solution.x());
+            record.reals.extend_from_slice(solution.y());
+            record.counts.push(solution.x().len() as u64);
+        }
+        record
+    }
+
+    fn load(&mut self, record: &Record) {
+        let grid = *self.centres.grid();
+        let mut values = record.reals.as_slice();
+        let mut solutions = Vec::new();
+        for _ in 0..record.counts.len().min(2) {
+            let mut solution = StaggeredField::zeros(grid);
+            let (x, y) = solution.components_mut();
+            if values.len() < x.len() + y.len() {
+                return;
+            }
+            for list in [x, y] {
+                let (own, rest) = values.split_at(list.len());
+                list.copy_from_slice(own);
+                values = rest;
+            }
+            solutions.push(solution);
+        }
+        // All are on the solver's grid.
+        let taken = self.flow.solver_mut().set_solutions(&solutions);
+        debug_assert!(taken.is_ok());
     }
 }

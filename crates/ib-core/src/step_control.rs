@@ -1,5 +1,7 @@
 //! How long steps are, and what made them so.
 
+use serde::{Deserialize, Serialize};
+
 use crate::Record;
 
 /// How long the steps of a run are.
@@ -27,10 +29,10 @@ impl Default for StepSize {
 }
 
 /// What the length of steps was set by, and how often.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Limiting {
     /// The reason, as it reads after "set by".
-    pub reason: &'static str,
+    pub reason: String,
     /// The body; empty where the reason is not a body's.
     pub body: String,
     /// Steps that it set the length of.
@@ -38,7 +40,7 @@ pub struct Limiting {
 }
 
 /// The steps of a scene's runs.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct StepReport {
     /// Steps taken.
     pub steps: usize,
@@ -61,7 +63,7 @@ impl StepReport {
         self.limiting.iter().max_by_key(|limiting| limiting.steps)
     }
 
-    pub(crate) fn count(&mut self, dt: f64, last: bool, reason: &'static str, body: &str) {
+    pub(crate) fn count(&mut self, dt: f64, last: bool, reason: &str, body: &str) {
         if self.steps == 0 {
             self.shortest = f64::INFINITY;
         }
@@ -72,7 +74,7 @@ impl StepReport {
         }
         match self.limiting.iter_mut().find(|limiting| limiting.reason == reason && limiting.body == body) {
             Some(limiting) => limiting.steps += 1,
-            None => self.limiting.push(Limiting { reason, body: body.to_owned(), steps: 1 }),
+            None => self.limiting.push(Limiting { reason: reason.to_owned(), body: body.to_owned(), steps: 1 }),
         }
     }
 }

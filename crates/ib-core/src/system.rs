@@ -2,10 +2,14 @@
 
 use std::any::Any;
 
+use crate::contact::{ContactFinder, Gap};
 use crate::{
-    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, MarkerKind, Markers, SceneError, StepInfo, StepLimit, Vec2,
-    wall_gap,
+    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Record, Repulsion, SceneError,
+    StepInfo, StepLimit, Vec2, wall_gap,
 };
+
+/// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the round-off of a grid.
+const CONTACT: f64 = 0.25;
 
 /// The bodies of a scene, the fluid between them, and the time.
 ///
@@ -23,6 +27,12 @@ pub struct System<H> {
     /// Marker positions of the present state, for the gap to the walls.
     positions: Vec<Vec2>,
     minimum_wall_gap: Option<f64>,
+    minimum_gap: Option<f64>,
+    contacts: ContactFinder,
+    /// The narrowest gap of the present state.
+    narrowest: Option<Gap>,
+    pub(crate) least_gap: Option<f64>,
+    pub(crate) repulsion: Option<Repulsion>,
 }
 
 impl<H: Hydrodynamics> System<H> {
@@ -37,6 +47,11 @@ impl<H: Hydrodynamics> System<H> {
             current: false,
             positions: Vec::new(),
             minimum_wall_gap: None,
+            minimum_gap: None,
+            contacts: ContactFinder::default(),
+            narrowest: None,
+            least_gap: None,
+            repulsion: None,
         }
     }
 
@@ -65,6 +80,9 @@ impl<H: Hydrodynamics> System<H> {
         self.time += dt;
         self.steps += 1;
         self.record_wall_gap();
+        if let Some(Gap { width, .. }) = self.narrowest {
+            self.minimum_gap = Some(self.minimum_gap.map_or(width, |least| least.min(width)));
+        }
     }
 
     /// What computes the flow.
@@ -105,6 +123,55 @@ impl<H: Hydrodynamics> System<H> {
     #[must_use]
     pub fn report(&self) -> &FlowReport {
         &self.report
+    }
+
+    /// Whether [`System::markers`] holds the flow of the present state.
+    #[must_use]
+    pub fn is_evaluated(&self) -> bool {
+        self.current
+    }
+
+    /// Takes over the state of a checkpoint.
+    pub(crate) fn load<'a>(
+        &mut self,
+        bodies: impl Iterator<Item = &'a Record>,
+        flow: &Record,
+        time: f64,
+        steps: usize,
+        [minimum_wall_gap, minimum_gap]: [Option<f64>; 2],
+    ) -> Result<(), SceneError> {
+        self.current = false;
+        self.hydrodynamics.load(flow);
+        let medium = self.hydrodynamics.medium();
+        for (body, record) in self.bodies.iter_mut().zip(bodies) {
+            body.load(&medium, record).map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        (self.time, self.steps) = (time, steps);
+        (self.minimum_wall_gap, self.minimum_gap) = (minimum_wall_gap, minimum_gap);
+        self.fit_markers();
+        Ok(())
+    }
+
+    /// Takes over velocities that were computed at the present state, if there is one for each marker.
+    pub(crate) fn take_flow(
+        &mut self,
+        flow: &Record,
+        velocities: impl ExactSizeIterator<Item = Vec2>,
+        report: FlowReport,
+    ) -> Result<(), SceneError> {
+        if velocities.len() != self.markers.len() {
+            let (found, expected) = (velocities.len(), self.markers.len());
+            let problem = format!("it has the velocities of {found} markers, the scene has {expected}");
+            return Err(SceneError::ForeignCheckpoint { problem });
+        }
+        // For all that a flow makes of its markers, such as what it samples from. The velocities come out the same only to the tolerance of
+        // its iterations, so those that were found take their place, and so does what the next iteration starts from.
+        self.compute_flow()?;
+        self.hydrodynamics.load(flow);
+        self.markers.velocities.iter_mut().zip(velocities).for_each(|(to, from)| *to = from);
+        self.report = report;
+        self.current = true;
+        Ok(())
     }
 
     /// Computes forces and velocities at the present state, unless they are known already.
@@ -153,6 +220,55 @@ impl<H: Hydrodynamics> System<H> {
         self.minimum_wall_gap
     }
 
+    /// The smallest gap between two interfaces, or one and its own image in a periodic domain, since the start (length), where it was
+    /// small enough to be looked for; negative where they overlap.
+    #[must_use]
+    pub fn minimum_gap(&self) -> Option<f64> {
+        self.minimum_gap
+    }
+
+    /// The largest distance of neighbouring markers of an interface (length).
+    fn finest_markers(&self) -> f64 {
+        let groups = self.markers.groups().iter().filter(|group| group.kind != MarkerKind::Points);
+        groups
+            .flat_map(|group| self.markers.positions[group.range.clone()].windows(2))
+            .map(|pair| (pair[1] - pair[0]).norm())
+            .fold(0.0, f64::max)
+    }
+
+    /// The repulsion between interfaces, if it is on.
+    #[must_use]
+    pub fn repulsion(&self) -> Option<&Repulsion> {
+        self.repulsion.as_ref()
+    }
+
+    /// Looks at the gaps of the present state: interfaces must not be inside other bodies or their own images by more than a quarter of
+    /// the grid spacing, and no gap narrower than the bound, if there is one.
+    pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
+        let Medium { domain, spacing, .. } = self.hydrodynamics.medium();
+        // Without a grid the spacing of the markers that carry the flow.
+        let scale = spacing.unwrap_or_else(|| self.finest_markers());
+        self.narrowest = self.contacts.narrowest(&self.bodies, &domain, scale);
+        let (time, allowed) = (self.time, CONTACT * scale);
+        let name = |index: usize| self.bodies[index].name().to_owned();
+        if let Some(Gap { body, marker, other, width }) = self.narrowest {
+            if width < -allowed {
+                let (body, other) = (name(body), name(other));
+                return Err(SceneError::Crossing { time, body, marker, other, depth: -width, allowed });
+            }
+            if let Some(bound) = self.least_gap.filter(|&bound| width < bound) {
+                return Err(SceneError::Gap { time, body: name(body), other: name(other), gap: width, bound });
+            }
+        }
+        if let Some(bound) = self.least_gap
+            && let Some(gap) = self.wall_gap().filter(|&gap| gap < bound)
+        {
+            let (body, other) = ("a body".to_owned(), "a wall".to_owned());
+            return Err(SceneError::Gap { time, body, other, gap, bound });
+        }
+        Ok(())
+    }
+
     fn record_wall_gap(&mut self) {
         if let Some(gap) = self.wall_gap() {
             self.minimum_wall_gap = Some(self.minimum_wall_gap.map_or(gap, |least| least.min(gap)));
@@ -168,7 +284,13 @@ impl<H: Hydrodynamics> System<H> {
     /// All bounds on the time step at the present state, with the names of the bodies that set them.
     pub fn limits(&self) -> impl Iterator<Item = (StepLimit, &str)> {
         let medium = self.hydrodynamics.medium();
-        self.bodies.iter().flat_map(move |body| body.step_limits(&medium).into_iter().map(|limit| (limit, body.name())))
+        let repulsion = self.repulsion.iter().map(move |repulsion| {
+            (StepLimit::decay(repulsion.step_limit(medium.viscosity), "the repulsion"), "the interfaces")
+        });
+        self.bodies
+            .iter()
+            .flat_map(move |body| body.step_limits(&medium).into_iter().map(|limit| (limit, body.name())))
+            .chain(repulsion)
     }
 
     /// The fastest decay that the bodies' limits tell of at the present state, without stabilisers (1/time).
@@ -221,6 +343,9 @@ impl<H: Hydrodynamics> System<H> {
             body.write_markers(&mut self.markers.positions[range.clone()]);
             body.write_forces(&medium, &mut self.markers.forces[range])
                 .map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        if let Some(repulsion) = &self.repulsion {
+            repulsion.add(&mut self.markers, medium.domain.periods);
         }
         self.report =
             self.hydrodynamics.velocities(&mut self.markers).map_err(|source| SceneError::Flow { time, source })?;

@@ -115,6 +115,29 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         self
     }
 
+    /// The last solutions, the latest first, from which the next iteration starts: none at first, two after two solves.
+    pub fn solutions(&self) -> impl Iterator<Item = &StaggeredField> {
+        self.previous.iter().take(self.known)
+    }
+
+    /// Takes over the last solutions, the latest first, as [`TwoPhaseStokes::solutions`] of the same solver had them. More than two are
+    /// ignored.
+    ///
+    /// # Errors
+    /// Fields on another grid.
+    pub fn set_solutions<'a>(
+        &mut self,
+        solutions: impl IntoIterator<Item = &'a StaggeredField>,
+    ) -> Result<(), StokesError> {
+        self.known = 0;
+        for (own, solution) in self.previous.iter_mut().zip(solutions) {
+            check_grid(self.solver.grid(), solution.grid(), "a solution")?;
+            copy(own, solution);
+            self.known += 1;
+        }
+        Ok(())
+    }
+
     /// The tolerance of the relative residual.
     #[must_use]
     pub fn tolerance(&self) -> f64 {

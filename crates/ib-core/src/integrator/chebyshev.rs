@@ -147,6 +147,10 @@ impl RungeKuttaChebyshev {
 }
 
 impl Integrator for RungeKuttaChebyshev {
+    fn name(&self) -> &'static str {
+        "the Runge-Kutta-Chebyshev method"
+    }
+
     fn step<H: Hydrodynamics>(&mut self, system: &mut System<H>, dt: f64) -> Result<(), SceneError> {
         system.write_state(&mut self.start);
         let len = self.start.len();
@@ -222,7 +226,7 @@ impl Integrator for RungeKuttaChebyshev {
     }
 
     fn load(&mut self, record: &Record) -> Result<(), SceneError> {
-        let [due, stages, most_stages, estimates] = record.counts_of("the Runge-Kutta-Chebyshev method")?;
+        let [due, stages, most_stages, estimates] = record.counts_of(self.name())?;
         let [stages, most_stages, estimates] = [stages, most_stages, estimates].map(|count| count as usize);
         self.due = due as usize;
         self.work = IntegratorWork { stages, most_stages, estimates };

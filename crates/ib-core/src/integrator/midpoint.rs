@@ -16,6 +16,10 @@ pub struct Midpoint {
 }
 
 impl Integrator for Midpoint {
+    fn name(&self) -> &'static str {
+        "the midpoint rule"
+    }
+
     fn step<H: Hydrodynamics>(&mut self, system: &mut System<H>, dt: f64) -> Result<(), SceneError> {
         system.write_state(&mut self.start);
         self.rate.resize(self.start.len(), 0.0);
@@ -50,7 +54,7 @@ impl Integrator for Midpoint {
     }
 
     fn load(&mut self, record: &Record) -> Result<(), SceneError> {
-        let [steps] = record.counts_of("the midpoint rule")?;
+        let [steps] = record.counts_of(self.name())?;
         self.steps = steps as usize;
         Ok(())
     }

@@ -1,0 +1,208 @@
+//! Scenes on disk.
+
+mod error;
+mod file;
+
+pub use error::CheckpointError;
+
+use serde::{Deserialize, Serialize};
+
+use crate::{Domain, FlowReport, Hydrodynamics, Integrator, MarkerKind, Record, Scene, SceneError, StepReport, Vec2};
+
+/// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
+///
+/// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. Time step, integrator, viscosities and
+/// resolution of the grid may be others then; the domain and the bodies must be the same.
+///
+/// ```
+/// use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
+/// use stokes_grid::{Grid, PeriodicStokes};
+///
+/// # let directory = std::env::temp_dir().join(format!("motile-{}", std::process::id()));
+/// # std::fs::create_dir_all(&directory)?;
+/// # let path = directory.join("scene.checkpoint");
+/// let make = || -> Result<_, Box<dyn std::error::Error>> {
+///     let solver = PeriodicStokes::new(Grid::periodic(32, 32, 0.1)?, 1.0)?;
+///     Ok(Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default())))
+/// };
+/// let mut scene = make()?;
+/// scene.run(2.0).go()?;
+/// scene.checkpoint("an empty box").write(&path)?;
+///
+/// let mut again = make()?;
+/// again.resume(&Checkpoint::read(&path)?)?;
+/// assert_eq!(again.time(), 2.0);
+/// # std::fs::remove_dir_all(&directory)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Checkpoint {
+    description: String,
+    time: f64,
+    steps: u64,
+    minimum_wall_gap: Option<f64>,
+    minimum_gap: Option<f64>,
+    region: Region,
+    bodies: Vec<Part>,
+    flow: Record,
+    /// The flow at the markers, where it was known: x and y of all velocities, and what its evaluation found.
+    known: Option<(Vec<[f64; 2]>, Found)>,
+    integrator: Part,
+    control: Record,
+    report: StepReport,
+}
+
+/// A domain as it stands in a file: origin, periods, walls.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Region([f64; 2], [Option<f64>; 2], Option<[f64; 2]>);
+
+impl From<Domain> for Region {
+    fn from(domain: Domain) -> Self {
+        Self(domain.origin, domain.periods, domain.walls)
+    }
+}
+
+/// What an evaluation of the flow found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Found {
+    iterations: u64,
+    residual: f64,
+    mean_pressure_gradient: [f64; 2],
+}
+
+/// A named record.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Part {
+    name: String,
+    kind: u8,
+    record: Record,
+}
+
+/// What kind of markers a body has, as it stands in a file.
+fn kind(kind: MarkerKind) -> u8 {
+    match kind {
+        MarkerKind::Interface { viscosity_inside: None } => 0,
+        MarkerKind::Interface { .. } => 1,
+        MarkerKind::UnevenInterface { viscosity_inside: None } => 2,
+        MarkerKind::UnevenInterface { .. } => 3,
+        MarkerKind::Points => 4,
+    }
+}
+
+impl Checkpoint {
+    /// What the one who saved it said it is.
+    #[must_use]
+    pub fn description(&self) -> &str {
+        &self.description
+    }
+
+    /// Time of the state (time).
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Steps up to it.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+}
+
+impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
+    /// The present state, with a description to tell checkpoints apart by.
+    #[must_use]
+    pub fn checkpoint(&self, description: impl Into<String>) -> Checkpoint {
+        let (system, integrator) = (self.system(), self.integrator());
+        let mut kept = Record::default();
+        integrator.save(&mut kept);
+        let mut control = Record::default();
+        self.control.save(&mut control);
+        let report = system.report();
+        let found = Found {
+            iterations: report.iterations as u64,
+            residual: report.residual,
+            mean_pressure_gradient: report.mean_pressure_gradient,
+        };
+        let part = |name: &str, kind, record| Part { name: name.to_owned(), kind, record };
+        Checkpoint {
+            description: description.into(),
+            time: system.time(),
+            steps: system.steps() as u64,
+            minimum_wall_gap: system.minimum_wall_gap(),
+            minimum_gap: system.minimum_gap(),
+            region: system.hydrodynamics().medium().domain.into(),
+            bodies: system.bodies().map(|body| part(body.name(), kind(body.kind()), body.save())).collect(),
+            flow: system.hydrodynamics().save(),
+            known: system
+                .is_evaluated()
+                .then(|| (system.markers().velocities.iter().map(|v| [v.x, v.y]).collect(), found)),
+            integrator: part(integrator.name(), 0, kept),
+            control,
+            report: self.step_report().clone(),
+        }
+    }
+
+    /// Goes on from a checkpoint of this scene: the steps that follow are, bit for bit, those that would have followed there. With
+    /// another integrator that starts afresh. After an error the scene is as it was.
+    ///
+    /// # Errors
+    /// A checkpoint of another domain, of other bodies, or of a state that a body refuses.
+    pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+        self.compare(checkpoint)?;
+        let before = self.checkpoint("");
+        self.take(checkpoint).inspect_err(|_| {
+            // It was the state a moment ago.
+            let restored = self.take(&before);
+            debug_assert!(restored.is_ok());
+        })
+    }
+
+    fn compare(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+        let system = self.system();
+        let foreign = |problem: String| Err(SceneError::ForeignCheckpoint { problem });
+        let region: Region = system.hydrodynamics().medium().domain.into();
+        if region != checkpoint.region {
+            let describe = |Region(origin, periods, walls): Region| {
+                format!("origin {origin:?}, periods {periods:?}, walls {walls:?}")
+            };
+            return foreign(format!("its domain has {}, this one {}", describe(checkpoint.region), describe(region)));
+        }
+        let (expected, found) = (system.bodies().count(), checkpoint.bodies.len());
+        if expected != found {
+            return foreign(format!("it has {found} bodies, this scene {expected}"));
+        }
+        for (index, (body, part)) in system.bodies().zip(&checkpoint.bodies).enumerate() {
+            if body.name() != part.name || kind(body.kind()) != part.kind {
+                let (here, there) = (body.name(), &part.name);
+                return foreign(format!(
+                    "its body {index} is {there:?} where this scene has {here:?}, or of another kind"
+                ));
+            }
+        }
+        if !(checkpoint.time.is_finite() && usize::try_from(checkpoint.steps).is_ok()) {
+            return foreign(format!("its time is {} after {} steps", checkpoint.time, checkpoint.steps));
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
+        let records = checkpoint.bodies.iter().map(|part| &part.record);
+        let gaps = [checkpoint.minimum_wall_gap, checkpoint.minimum_gap];
+        self.system_mut().load(records, &checkpoint.flow, checkpoint.time, checkpoint.steps as usize, gaps)?;
+        if checkpoint.integrator.name == self.integrator().name() {
+            self.load_integrator(&checkpoint.integrator.record)?;
+            self.control = crate::step_control::StepControl::load(&checkpoint.control).ok_or_else(|| {
+                SceneError::ForeignCheckpoint { problem: "it has no record of its time steps".to_owned() }
+            })?;
+        }
+        self.report = checkpoint.report.clone();
+        if let Some((velocities, found)) = &checkpoint.known {
+            let velocities = velocities.iter().map(|&[x, y]| Vec2::new(x, y));
+            let Found { iterations, residual, mean_pressure_gradient } = *found;
+            let report = FlowReport { iterations: iterations as usize, residual, mean_pressure_gradient };
+            self.system_mut().take_flow(&checkpoint.flow, velocities, report)?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,143 @@
+//! A short-range repulsion between interfaces.
+
+use crate::{FlowError, MarkerKind, Markers, Vec2};
+
+/// A repulsion between different interfaces that come close, an option for scenes of several droplets whose films the grid does not
+/// resolve; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of the thesis' model.
+///
+/// Each pair of pieces of interfaces of lengths ds and ds', a distance r < range apart, is pushed apart by the force
+/// ```text
+/// strength ds ds' (1 - r/range)^2
+/// ```
+/// along the line between them, so that all forces together have no resultant and no torque.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Repulsion {
+    strength: f64,
+    range: f64,
+}
+
+impl Repulsion {
+    /// A repulsion of that strength (force per length squared) and range (length).
+    ///
+    /// # Errors
+    /// Values that are not positive and finite.
+    pub fn new(strength: f64, range: f64) -> Result<Self, FlowError> {
+        for (name, value) in [("the strength of the repulsion", strength), ("the range of the repulsion", range)] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(FlowError::Parameter {
+                    name,
+                    value,
+                    remedy: "give a positive finite number, or no repulsion",
+                });
+            }
+        }
+        Ok(Self { strength, range })
+    }
+
+    /// Its strength (force per length squared).
+    #[must_use]
+    pub fn strength(&self) -> f64 {
+        self.strength
+    }
+
+    /// Its range (length).
+    #[must_use]
+    pub fn range(&self) -> f64 {
+        self.range
+    }
+
+    /// Largest stable step of the midpoint rule (time) in fluid of viscosity eta: two flat interfaces within the range move apart at a rate
+    /// of at most about `strength range / (2 eta)`.
+    pub(crate) fn step_limit(&self, viscosity: f64) -> f64 {
+        4.0 * viscosity / (self.strength * self.range)
+    }
+
+    /// Adds the forces between all interfaces to those of the markers.
+    pub(crate) fn add(&self, markers: &mut Markers, periods: [Option<f64>; 2]) {
+        for first in 0..markers.groups().len() {
+            for second in first + 1..markers.groups().len() {
+                self.add_between(first, second, markers, periods);
+            }
+        }
+    }
+
+    fn add_between(&self, first: usize, second: usize, markers: &mut Markers, periods: [Option<f64>; 2]) {
+        let [a, b] = [first, second].map(|index| markers.groups()[index].clone());
+        if [a.kind, b.kind].contains(&MarkerKind::Points) {
+            return;
+        }
+        // Half the distance of the neighbours.
+        let length = |markers: &Markers, range: &std::ops::Range<usize>, k: usize| {
+            let (count, i) = (range.len(), k - range.start);
+            let [before, after] =
+                [(i + count - 1) % count, (i + 1) % count].map(|i| markers.positions[range.start + i]);
+            0.5 * (after - before).norm()
+        };
+        for i in a.range.clone() {
+            let (place, piece) = (markers.positions[i], length(markers, &a.range, i));
+            for j in b.range.clone() {
+                let apart = apart(place - markers.positions[j], periods);
+                let distance = apart.norm();
+                if distance < self.range && distance > 0.0 {
+                    let closeness = 1.0 - distance / self.range;
+                    let size = self.strength * piece * length(markers, &b.range, j) * closeness * closeness;
+                    let force = size / distance * apart;
+                    markers.forces[i] += force;
+                    markers.forces[j] -= force;
+                }
+            }
+        }
+    }
+}
+
+fn apart(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
+    for (component, period) in difference.iter_mut().zip(periods) {
+        if let Some(period) = period {
+            *component -= period * (*component / period).round();
+        }
+    }
+    difference
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn circle(markers: &mut Markers, centre: Vec2) {
+        let start = markers.len();
+        markers.push_group(64, MarkerKind::Interface { viscosity_inside: None });
+        for k in 0..64 {
+            let angle = std::f64::consts::TAU * k as f64 / 64.0;
+            markers.positions[start + k] = centre + Vec2::new(angle.cos(), angle.sin());
+        }
+    }
+
+    #[test]
+    fn pushes_apart_across_a_period_without_a_resultant() {
+        let mut markers = Markers::new();
+        circle(&mut markers, Vec2::zeros());
+        circle(&mut markers, Vec2::new(-2.1, 0.0));
+        let repulsion = Repulsion::new(3.0, 0.2).unwrap();
+        let sums =
+            |markers: &Markers| [0, 1].map(|k| markers.forces[markers.groups()[k].range.clone()].iter().sum::<Vec2>());
+        repulsion.add(&mut markers, [None; 2]);
+        let near = sums(&markers);
+        assert!(near[0].x > 1e-4 && (near[0] + near[1]).norm() < 1e-15);
+        markers.forces.fill(Vec2::zeros());
+        for place in &mut markers.positions[64..] {
+            place.x += 8.0;
+        }
+        repulsion.add(&mut markers, [Some(8.0), None]);
+        assert!((sums(&markers)[0] - near[0]).norm() < 1e-14);
+        markers.forces.fill(Vec2::zeros());
+        repulsion.add(&mut markers, [None; 2]);
+        assert_eq!(sums(&markers)[0], Vec2::zeros());
+    }
+
+    #[test]
+    fn what_is_no_repulsion_is_refused() {
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(Repulsion::new(bad, 0.1).is_err() && Repulsion::new(1.0, bad).is_err());
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! Scenes on disk: resumed runs are bit for bit those that were never stopped, and files that are not whole are refused.
+
+use std::path::PathBuf;
+
+use motile::active_interface::{ActiveDroplet, Curve};
+use motile::ib_core::{
+    Body, Checkpoint, CheckpointError, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
+    SceneError, StepSize,
+};
+use motile::stokes_grid::Drive;
+use motile::{ContrastMethod, Method, SetupError, Swimmer};
+use proptest::prelude::*;
+
+/// Everything there is to know of a state, bit by bit.
+fn bits<H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>) -> Vec<u8> {
+    scene.checkpoint("").to_bytes().expect("bytes")
+}
+
+/// A run to `until` that is interrupted after each of the given numbers of steps, saved and resumed in a scene made anew, against one
+/// that is not.
+fn compare<H: Hydrodynamics, I: Integrator>(
+    make: impl Fn() -> Scene<H, I>,
+    until: f64,
+    step: StepSize,
+    stops: &[usize],
+) {
+    let mut whole = make();
+    whole.run(until).step_size(step).go().expect("a whole run");
+    let mut parts = make();
+    for &stop in stops {
+        let outcome = parts.run(until).step_size(step).most_steps(stop).go();
+        assert!(matches!(outcome, Err(SceneError::TooManySteps { .. })), "{outcome:?}");
+        // Looking at the state changes nothing.
+        parts.system_mut().evaluate().expect("a flow");
+        let saved = parts.checkpoint("part of a run");
+        parts = make();
+        parts
+            .resume(&Checkpoint::from_bytes(&saved.to_bytes().expect("bytes")).expect("a checkpoint"))
+            .expect("the same scene");
+        assert_eq!(parts.checkpoint("part of a run"), saved);
+    }
+    parts.run(until).step_size(step).go().expect("the rest of the run");
+    assert!(parts.steps() > stops.iter().sum());
+    assert_eq!(parts.time().to_bits(), whole.time().to_bits());
+    assert!(bits(&parts) == bits(&whole), "a resumed run differs after {} steps", whole.steps());
+}
+
+/// Numbers of steps that look random, from a seed.
+fn stops(seed: u64, most: u64) -> [usize; 2] {
+    let mut state = seed;
+    [(); 2].map(|()| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (1 + (state >> 33) % most) as usize
+    })
+}
+
+fn coarse() -> Swimmer {
+    Swimmer { spacing: 0.2, activity: -3.0, ..Swimmer::default() }
+}
+
+fn built<T, U>(outcome: Result<(T, U), SetupError>) -> T {
+    outcome.expect("a scene").0
+}
+
+const AUTO: StepSize = StepSize::OfLimit(0.5);
+const ADAPTIVE: StepSize = StepSize::Adaptive { tolerance: 1e-5 };
+
+#[test]
+fn a_swimmer() {
+    compare(|| built(coarse().build()), 6.0, AUTO, &stops(1, 15));
+    compare(|| built(coarse().build()), 6.0, ADAPTIVE, &stops(2, 15));
+    compare(|| built(coarse().build()), 1.0, StepSize::Fixed(0.01), &stops(3, 40));
+}
+
+#[test]
+fn a_swimmer_by_the_chebyshev_method() {
+    let make = || built(coarse().build()).advanced_by(RungeKuttaChebyshev::new());
+    compare(make, 20.0, ADAPTIVE, &stops(4, 25));
+    compare(make, 2.0, StepSize::Fixed(0.025), &stops(5, 30));
+}
+
+#[test]
+fn a_swimmer_by_the_method_of_the_thesis() {
+    // Markers are inserted and removed.
+    let swimmer = Swimmer { spacing: 0.2, activity: -4.0, ..Swimmer::thesis() };
+    compare(|| built(swimmer.build()), 2.0, StepSize::Fixed(0.01), &stops(6, 80));
+    let contrast = Swimmer { viscosity_inside: Some(1000.0), contrast: ContrastMethod::Arithmetic, ..swimmer };
+    compare(|| built(contrast.build()), 0.4, StepSize::Fixed(0.02), &stops(7, 8));
+}
+
+#[test]
+fn a_channel() {
+    let swimmer = Swimmer { lengths: [6.0, 3.0], ..coarse() };
+    compare(|| built(swimmer.build_in_channel(Drive::ZeroGradient)), 6.0, AUTO, &stops(8, 20));
+}
+
+#[test]
+fn a_viscosity_ratio_of_a_hundred() {
+    let swimmer = Swimmer { viscosity: 10.0, viscosity_inside: Some(1000.0), ..coarse() };
+    compare(|| built(swimmer.build()), 3.0, AUTO, &stops(9, 10));
+    let channel = Swimmer { lengths: [6.0, 3.0], ..swimmer };
+    compare(|| built(channel.build_in_channel(Drive::ZeroFlux)), 2.0, AUTO, &stops(10, 8));
+}
+
+#[test]
+fn without_a_grid() {
+    let swimmer = Swimmer { method: Method::BoundaryIntegral, nodes: 48, concentration_cells: 96, ..coarse() };
+    compare(|| built(swimmer.build()), 6.0, AUTO, &stops(11, 5));
+    let contrast = Swimmer { viscosity_inside: Some(1000.0), ..swimmer };
+    compare(|| built(contrast.build()), 3.0, AUTO, &stops(12, 4));
+}
+
+fn saved() -> Vec<u8> {
+    let mut scene = built(coarse().build());
+    scene.step(0.01).expect("a step");
+    bits(&scene)
+}
+
+#[test]
+fn a_file_that_is_not_whole_is_refused() {
+    let bytes = saved();
+    for cut in [0, 3, 8, 12, 23, 24, 100, bytes.len() / 2, bytes.len() - 1] {
+        let error = Checkpoint::from_bytes(&bytes[..cut]).expect_err("a part is no checkpoint");
+        let foreign = matches!(error, CheckpointError::Foreign);
+        assert_eq!(foreign, cut < 8, "{cut}: {error}");
+        assert!(foreign || matches!(error, CheckpointError::Length { .. }), "{cut}: {error}");
+    }
+    let longer = [bytes.as_slice(), &[0]].concat();
+    assert!(matches!(Checkpoint::from_bytes(&longer), Err(CheckpointError::Length { .. })));
+    let mut later = bytes.clone();
+    later[8] = 2;
+    assert!(matches!(Checkpoint::from_bytes(&later), Err(CheckpointError::Version { found: 2, supported: 1 })));
+    assert!(matches!(Checkpoint::from_bytes(b"some other file"), Err(CheckpointError::Foreign)));
+}
+
+#[test]
+fn a_checkpoint_of_another_scene_is_refused_and_changes_nothing() {
+    let mut scene = built(coarse().build());
+    scene.step(0.01).expect("a step");
+    let before = bits(&scene);
+    let mut others = vec![
+        built(Swimmer { lengths: [8.0, 6.0], ..coarse() }.build()).checkpoint(""),
+        built(Swimmer { viscosity_inside: Some(10.0), ..coarse() }.build()).checkpoint(""),
+        built(coarse().build_in_channel(Drive::ZeroFlux)).checkpoint(""),
+        coarse().scene().expect("an empty box").checkpoint(""),
+    ];
+    let passive = Curve::circle(1.0).and_then(|curve| curve.markers(64)).expect("markers");
+    let mut other = coarse().scene().expect("an empty box");
+    other.add(ActiveDroplet::passive(&passive, 1.0).expect("a droplet"));
+    others.push(other.checkpoint(""));
+    for other in others {
+        let error = scene.resume(&other).expect_err("another scene");
+        assert!(matches!(error, SceneError::ForeignCheckpoint { .. } | SceneError::Body { .. }), "{error}");
+        assert!(bits(&scene) == before);
+    }
+}
+
+#[test]
+fn another_integrator_or_viscosity_goes_on_from_the_state() {
+    let mut scene = built(coarse().build());
+    scene.run(1.0).go().expect("a run");
+    let saved = scene.checkpoint("");
+    let mut other = built(Swimmer { viscosity: 50.0, ..coarse() }.build()).advanced_by(RungeKuttaChebyshev::new());
+    other.resume(&saved).expect("the same bodies");
+    assert_eq!((other.time(), other.steps()), (1.0, scene.steps()));
+    other.run(1.5).go().expect("a run");
+}
+
+/// A directory of this test's own, removed in the end.
+struct Directory(PathBuf);
+
+impl Directory {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("motile-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).expect("a directory");
+        Self(path)
+    }
+}
+
+impl Drop for Directory {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+#[test]
+fn a_run_saves_checkpoints_and_stops_when_told() {
+    let directory = Directory::new("checkpoints");
+    let path = directory.0.join("swimmer.checkpoint");
+    let mut scene = built(coarse().build());
+    scene.run(0.5).step_size(StepSize::Fixed(0.0125)).save(7, &path, "a swimmer").go().expect("a run");
+    let read = Checkpoint::read(&path).expect("a checkpoint");
+    assert_eq!((read.steps(), read.description()), (35, "a swimmer"));
+    assert!((read.time() - 0.4375).abs() < 1e-12);
+    // Nothing else is left.
+    assert_eq!(std::fs::read_dir(&directory.0).expect("a directory").count(), 1);
+
+    let stop = std::sync::atomic::AtomicBool::new(true);
+    let error = scene.run(4.0).stop_on(&stop).go().expect_err("told to stop");
+    assert!(matches!(error, SceneError::Stopped { .. }) && scene.steps() == 41, "{error}");
+    let nowhere = directory.0.join("missing").join("file");
+    let error = scene.run(4.0).save(1, &nowhere, "").go().expect_err("no such directory");
+    assert!(matches!(error, SceneError::Checkpoint { .. }), "{error}");
+    assert!(error.explanation().contains("missing"), "{}", error.explanation());
+    assert!(matches!(Checkpoint::read(&nowhere), Err(CheckpointError::File { .. })));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_changed_byte_is_noticed(at in any::<prop::sample::Index>(), change in 1_u8..=255) {
+        thread_local!(static SAVED: Vec<u8> = saved());
+        let mut bytes = SAVED.with(Clone::clone);
+        let index = at.index(bytes.len());
+        bytes[index] ^= change;
+        prop_assert!(Checkpoint::from_bytes(&bytes).is_err());
+    }
+
+    /// Contents whose checksum is right but that were never written: an error, or a checkpoint that a scene refuses or takes, never a panic.
+    #[test]
+    fn contents_of_any_kind_do_no_harm(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
+        thread_local!(static SAVED: Vec<u8> = saved());
+        let mut contents = SAVED.with(|bytes| bytes[24..].to_vec());
+        for (at, value) in edits {
+            let index = at.index(contents.len());
+            contents[index] = value;
+        }
+        if let Ok(checkpoint) = Checkpoint::from_contents(&contents) {
+            let mut scene = built(coarse().build()).advanced_by(Midpoint::default());
+            let before = bits(&scene);
+            match scene.resume(&checkpoint) {
+                Ok(()) => { let _ = scene.step(0.01); }
+                Err(_) => prop_assert!(bits(&scene) == before),
+            }
+        }
+    }
+}
+
+/// Handles find their bodies after a resumption.
+#[test]
+fn handles_stay_valid() {
+    let (mut scene, droplet): (_, Handle<ActiveDroplet>) = coarse().build().expect("a scene");
+    scene.run(0.5).go().expect("a run");
+    let saved = scene.checkpoint("");
+    let markers = scene.body(droplet).markers().to_vec();
+    scene.run(1.0).go().expect("a run");
+    scene.resume(&saved).expect("the same scene");
+    assert_eq!(scene.body(droplet).markers(), markers);
+    assert_eq!(scene.body(droplet).marker_count(), markers.len());
+}
