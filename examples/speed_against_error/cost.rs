@@ -42,45 +42,44 @@ impl Cost {
     }
 }
 
-/// Runs a scene to `time` by the midpoint rule or another integrator; `end` looks at it then.
+/// Fewest steps that a cost is the median of: short runs are made again.
+const ENOUGH: usize = 60;
+
+/// Runs a scene that `make` makes to `time` by the midpoint rule or another integrator; `end` looks at it then.
 pub(crate) fn march<H: Hydrodynamics, T>(
-    scene: Scene<H>,
+    make: impl Fn() -> Result<Scene<H>>,
     stepper: Stepper,
     time: f64,
-    end: impl FnOnce(&mut dyn Marched<H>) -> Result<T>,
+    end: impl FnOnce(&mut System<H>) -> Result<T>,
 ) -> Result<(Cost, T)> {
     match stepper {
-        Stepper::Midpoint => go(scene, time, end),
+        Stepper::Midpoint => go(make, time, end),
         Stepper::Chebyshev(stages) => {
-            go(scene.advanced_by(RungeKuttaChebyshev::new().with_most_stages(stages)), time, end)
+            let integrator = || RungeKuttaChebyshev::new().with_most_stages(stages);
+            go(|| Ok(make()?.advanced_by(integrator())), time, end)
         }
     }
 }
 
-/// A scene whatever its integrator.
-pub(crate) trait Marched<H> {
-    fn system(&mut self) -> &mut System<H>;
-}
-
-impl<H: Hydrodynamics, I: Integrator> Marched<H> for Scene<H, I> {
-    fn system(&mut self) -> &mut System<H> {
-        self.system_mut()
-    }
-}
-
 fn go<H: Hydrodynamics, I: Integrator, T>(
-    mut scene: Scene<H, I>,
+    make: impl Fn() -> Result<Scene<H, I>>,
     time: f64,
-    end: impl FnOnce(&mut dyn Marched<H>) -> Result<T>,
+    end: impl FnOnce(&mut System<H>) -> Result<T>,
 ) -> Result<(Cost, T)> {
     let mut meter = Meter::new();
-    let mut watch = |system: &mut System<H>| -> Result<(), std::convert::Infallible> {
-        meter.stepped(system.steps());
-        Ok(())
-    };
-    scene.run(time).observe(Every::Steps(1), &mut watch).go()?;
-    let cost = Cost::new(&mut meter.times, &mut meter.pairs, scene.steps() as f64 / time);
-    Ok((cost, end(&mut scene)?))
+    loop {
+        let mut scene = make()?;
+        meter.last = None;
+        let mut watch = |system: &mut System<H>| -> Result<(), std::convert::Infallible> {
+            meter.stepped(system.steps());
+            Ok(())
+        };
+        scene.run(time).observe(Every::Steps(1), &mut watch).go()?;
+        if meter.times.len() >= ENOUGH {
+            let cost = Cost::new(&mut meter.times, &mut meter.pairs, scene.steps() as f64 / time);
+            return Ok((cost, end(scene.system_mut())?));
+        }
+    }
 }
 
 /// Times of steps and of the unit.
@@ -89,22 +88,25 @@ struct Meter {
     times: Vec<f64>,
     pairs: Vec<f64>,
     last: Option<Instant>,
+    /// Steps of the run at the last observation.
+    steps: usize,
 }
 
 impl Meter {
     fn new() -> Self {
-        Self { unit: PlainPair::new(UNIT, UNIT), times: Vec::new(), pairs: Vec::new(), last: None }
+        Self { unit: PlainPair::new(UNIT, UNIT), times: Vec::new(), pairs: Vec::new(), last: None, steps: 0 }
     }
 
     fn stepped(&mut self, steps: usize) {
         let now = Instant::now();
-        // The very first steps make plans.
-        if let Some(last) = self.last.filter(|_| steps > 2) {
+        // The first step makes plans; the last observation may come twice.
+        if let Some(last) = self.last.filter(|_| steps > 1 && steps != self.steps) {
             self.times.push((now - last).as_secs_f64());
         }
         if steps.is_multiple_of(EVERY) || self.pairs.len() < 3 {
             self.unit();
         }
+        self.steps = steps;
         self.last = Some(Instant::now());
     }
 

@@ -71,10 +71,14 @@ fn swimmer(study: Study, full: bool) -> Vec<Settings> {
     for cells in [2, 4, 8] {
         list.extend(nodes(&[16, 24, 32, 48, 64], cells));
     }
-    list.extend(nodes(&[16, 24, 32, 48, 64], 4).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
+    list.extend(nodes(&[16, 24, 32], 1));
+    for cells in [1, 2, 4] {
+        list.extend(nodes(&[16, 24, 32, 48, 64], cells).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
+    }
     list.extend(nodes(&[24, 48], 4).map(|settings| settings.with_step(StepSize::Adaptive { tolerance: 1e-4 })));
     list.extend(nodes(&[24, 48], 4).map(|settings| settings.with_stepper(Stepper::Chebyshev(16))));
-    let spacings: &[f64] = if full { &[0.3, 0.2, 0.15, 0.1, 0.05, 0.025] } else { &[0.3, 0.2, 0.15, 0.1, 0.05] };
+    let spacings: &[f64] =
+        if full { &[0.375, 0.3, 0.2, 0.15, 0.1, 0.05, 0.025] } else { &[0.375, 0.3, 0.2, 0.15, 0.1, 0.05] };
     for ratio in [1.0, 0.5, 0.25] {
         list.extend(grids(spacings, ratio));
     }
@@ -105,7 +109,9 @@ fn contrast(full: bool) -> Vec<Settings> {
     for cells in [2, 4, 8] {
         list.extend(nodes(&[16, 24, 32, 48, 64], cells));
     }
-    list.extend(nodes(&[16, 24, 32, 48], 4).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
+    for cells in [2, 4] {
+        list.extend(nodes(&[16, 24, 32, 48], cells).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
+    }
     let spacings: &[f64] = if full { &[0.3, 0.2, 0.15, 0.1, 0.05, 0.025] } else { &[0.3, 0.2, 0.15, 0.1, 0.05] };
     for ratio in [1.0, 0.5] {
         list.extend(grids(spacings, ratio));

@@ -13,7 +13,9 @@ mod front;
 mod lists;
 mod report;
 mod settings;
+mod shapes;
 mod studies;
+mod swimmers;
 
 use std::path::PathBuf;
 use std::process::{Command, ExitCode};
@@ -52,7 +54,7 @@ fn main() -> ExitCode {
 
 fn compare(flags: &Flags) -> Result<()> {
     if flags.reference {
-        say(format_args!("{:.10}", studies::reference_of_ratio_100()?));
+        say(format_args!("{:.10}", swimmers::reference_of_ratio_100()?));
         return Ok(());
     }
     let directory = flags.output.directory("speed_against_error")?;
