@@ -11,7 +11,7 @@ pub(crate) fn settings(study: Study, full: bool) -> Vec<Settings> {
     let mut list = match study {
         Study::FixedEllipse => fixed(),
         Study::Relaxation => relaxation(),
-        Study::Steady | Study::Transient => swimmer(study, full),
+        Study::Steady | Study::Strong | Study::Transient => swimmer(study, full),
         Study::Ratio10 | Study::Ratio100 => contrast(full),
         Study::Channel => channel(full),
         Study::ElasticLayer => elastic(),
@@ -88,7 +88,9 @@ fn swimmer(study: Study, full: bool) -> Vec<Settings> {
         list.extend(grids(&[0.2, 0.1, 0.05], 0.5).map(|settings| settings.with_kernel(kernel)));
     }
     list.extend(grids(&[0.1, 0.05, 0.025], 0.5).map(Settings::uncorrected));
-    list.extend(thesis(study == Study::Steady && full));
+    let thesis = thesis(study == Study::Steady && full);
+    let preset = |settings: &Settings| study == Study::Steady || !matches!(settings.step, StepSize::Fixed(_));
+    list.extend(thesis.into_iter().filter(preset));
     list
 }
 

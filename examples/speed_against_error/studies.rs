@@ -12,6 +12,7 @@ pub(crate) enum Study {
     FixedEllipse,
     Relaxation,
     Steady,
+    Strong,
     Transient,
     Ratio10,
     Ratio100,
@@ -20,10 +21,11 @@ pub(crate) enum Study {
 }
 
 impl Study {
-    pub(crate) const ALL: [Self; 8] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::FixedEllipse,
         Self::Relaxation,
         Self::Steady,
+        Self::Strong,
         Self::Transient,
         Self::Ratio10,
         Self::Ratio100,
@@ -37,6 +39,7 @@ impl Study {
             Self::FixedEllipse => "fixed_ellipse",
             Self::Relaxation => "relaxation",
             Self::Steady => "steady_swimmer",
+            Self::Strong => "strong_swimmer",
             Self::Transient => "transient",
             Self::Ratio10 => "ratio_10",
             Self::Ratio100 => "ratio_100",
@@ -50,6 +53,7 @@ impl Study {
             Self::FixedEllipse => "(a) Velocities on a fixed ellipse",
             Self::Relaxation => "(b) Relaxation of an ellipse",
             Self::Steady => "(c) Steady swimmer",
+            Self::Strong => "(c) Steady swimmer of activity -4",
             Self::Transient => "(d) Transient of a swimmer",
             Self::Ratio10 => "(e) Swimmer ten times as viscous as its surroundings",
             Self::Ratio100 => "(e) Swimmer a hundred times as viscous as its surroundings",
@@ -70,6 +74,10 @@ impl Study {
             }
             Self::Steady => {
                 "Activity -2, excluded volume 4, viscosity 100, 6 x 6 box, from the polarised start to t = 80; error of the speed."
+            }
+            Self::Strong => {
+                "Activity -4, excluded volume 8, viscosity 100, 6 x 6 box, from the polarised start to t = 80; error of the speed. The edge of \
+                 the crowded region is twice as sharp."
             }
             Self::Transient => {
                 "Activity -1, excluded volume 2, 6 x 6 box, from the polarised start; largest error of the speed at the times of the \
@@ -97,7 +105,8 @@ impl Study {
         match self {
             Self::FixedEllipse => shapes::fixed_ellipse(settings),
             Self::Relaxation => shapes::relaxation(settings),
-            Self::Steady => swimmers::steady(settings),
+            Self::Steady => swimmers::steady(settings, -2.0),
+            Self::Strong => swimmers::steady(settings, -4.0),
             Self::Transient => swimmers::transient(settings),
             Self::Ratio10 => swimmers::ratio_10(settings),
             Self::Ratio100 => swimmers::ratio_100(settings),

@@ -41,10 +41,10 @@ fn against(swimmer: &Swimmer, settings: &Settings, reference: f64) -> Result<(f6
     Ok((found / reference - 1.0, cost))
 }
 
-/// Speed of the steady swimmer of activity -2.
-pub(crate) fn steady(settings: &Settings) -> Result<(f64, Cost)> {
-    let reference = Reference::read(ReferenceFile::SteadySwimmers)?.select("zeta_dmu", "-2.0");
-    against(&boxed(settings, -2.0, None), settings, reference.value("speed")?)
+/// Speed of the steady swimmer of an activity.
+pub(crate) fn steady(settings: &Settings, activity: f64) -> Result<(f64, Cost)> {
+    let reference = Reference::read(ReferenceFile::SteadySwimmers)?.select("zeta_dmu", &format!("{activity:.1}"));
+    against(&boxed(settings, activity, None), settings, reference.value("speed")?)
 }
 
 /// The same at activity -1, ten times as viscous as its surroundings.
