@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use motile::ib_core::{AnyKernel, Hydrodynamics, Scene, Transfer, Vec2};
+use motile::ib_core::{AnyKernel, FlowWork, Hydrodynamics, Scene, Transfer, Vec2};
 use motile::stokes_grid::{Grid, RealFft2, StaggeredField, Symbol};
 use motile_timing::{PlainPair, median};
 use support::Summary;
@@ -52,15 +52,15 @@ impl<H: Hydrodynamics> Case<H> {
             let markers = self.scene.system_mut().evaluate()?;
             let own = if self.without_grid { [0.0; 3] } else { pieces.measure(&markers.positions, &markers.forces) };
             // What the markers' forces are known from is not part of the step that follows.
-            drop(self.take());
-            let work = self.scene.system().hydrodynamics().work();
-            // A step changes the state, so that its first evaluation is made anew, as in a run nobody looks at.
+            let _ = self.take();
+            // A step changes the state, so that the first evaluation of the next is made anew, as in a run nobody looks at.
             self.scene.step(self.dt)?;
-            drop(self.take());
+            let _ = self.take();
+            let work = self.scene.system().hydrodynamics().work();
             let total = seconds_of(|| self.scene.step(self.dt))?;
             let [forces, transport, upkeep, flow, solve] = self.take();
             let after = self.scene.system().hydrodynamics().work();
-            let per_step = |count: fn(&motile::ib_core::FlowWork) -> usize| (count(&after) - count(&work)) as f64 / 2.0;
+            let per_step = |count: fn(&FlowWork) -> usize| (count(&after) - count(&work)) as f64;
             let evaluations =
                 if self.without_grid { 0.0 } else { per_step(|work| work.markers_spread) / self.markers() };
             let [spread, transform, interpolate] = own;

@@ -1,6 +1,7 @@
 //! The scenes whose steps are measured.
 
 use anyhow::Result;
+use motile::active_interface::{ActiveDroplet, Curve, InitialConcentration};
 use motile::elastic_solids::{SpringLattice, fitted_strip};
 use motile::ib_core::{Body, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
@@ -116,11 +117,9 @@ fn without_grid(kind: &'static str, swimmer: Swimmer, nodes: usize, walls: bool)
         };
         let [lx, ly] = swimmer.lengths;
         // The droplet of the library's own scene, whose markers are the cells of its concentration.
-        let markers = motile::active_interface::Curve::circle(swimmer.radius)?.markers(4 * nodes)?;
-        let numbers = motile::active_interface::InitialConcentration::polarised(swimmer.mean_concentration, 0.0)?
-            .particle_numbers(&markers)?;
-        let mut droplet =
-            motile::active_interface::ActiveDroplet::new(&markers, numbers, swimmer.tension()?, swimmer.diffusion)?;
+        let markers = Curve::circle(swimmer.radius)?.markers(4 * nodes)?;
+        let numbers = InitialConcentration::polarised(swimmer.mean_concentration, 0.0)?.particle_numbers(&markers)?;
+        let mut droplet = ActiveDroplet::new(&markers, numbers, swimmer.tension()?, swimmer.diffusion)?;
         if let Some(inside) = swimmer.viscosity_inside {
             droplet = droplet.with_viscosity_inside(inside)?;
         }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use motile::ib_core::{
-    Body, BodyError, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium,
+    Body, BodyError, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium, StepInfo,
     StepLimit, Vec2,
 };
 use motile::stokes_grid::{
@@ -86,8 +86,8 @@ impl<B: Body> Body for Watched<B> {
         self.1.transport.time(|| self.0.rate(velocities, rate));
     }
 
-    fn begin_step(&mut self, medium: &Medium, dt: f64) -> Result<(), BodyError> {
-        self.1.upkeep.time(|| self.0.begin_step(medium, dt))
+    fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
+        self.1.upkeep.time(|| self.0.begin_step(medium, step))
     }
 
     fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {

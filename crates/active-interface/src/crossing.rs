@@ -12,6 +12,9 @@ use crate::polygon::cross;
 /// Segments are sorted by their midpoints into square cells as wide as the longest segment, through a hash table, and
 /// tested only against those in the nine cells around: two segments that meet are never further apart. The scratch
 /// grows with the number of points and is kept, so that a call in steady state allocates nothing.
+///
+/// Polygons that are star-shaped about the mean of their points, such as those of most droplets, need no table: one pass
+/// over the points is enough.
 #[derive(Debug, Clone, Default)]
 pub struct CrossingFinder {
     cells: Vec<(i64, i64)>,
@@ -35,6 +38,9 @@ impl CrossingFinder {
     pub fn first_crossing(&mut self, points: &[Vec2]) -> Result<Option<(usize, usize)>, InterfaceError> {
         enough("points of a polygon", points.len(), 3)?;
         all_points_finite("the points of the polygon", points)?;
+        if is_star_shaped(points) {
+            return Ok(None);
+        }
         let m = points.len();
         let end = |k: usize| points[if k + 1 == m { 0 } else { k + 1 }];
         let longest = (0..m).map(|k| (end(k) - points[k]).norm_squared()).fold(0.0, f64::max).sqrt();
@@ -111,6 +117,23 @@ fn bucket(cell: (i64, i64), mask: usize) -> usize {
     let hash =
         (cell.0 as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (cell.1 as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F);
     ((hash >> 29) as usize) & mask
+}
+
+/// Whether the polygon goes once around the mean of its points, turning the same way all the time: then it is simple.
+fn is_star_shaped(points: &[Vec2]) -> bool {
+    let centre = points.iter().sum::<Vec2>() / points.len() as f64;
+    let (mut turns, mut widest) = (0, 0.0_f64);
+    let mut least = f64::INFINITY;
+    let mut before = points[points.len() - 1] - centre;
+    for point in points {
+        let here = point - centre;
+        least = least.min(cross(before, here));
+        widest = widest.max(here.norm_squared());
+        turns += usize::from(before.y < 0.0 && here.y >= 0.0);
+        before = here;
+    }
+    // Rounding must not turn the sign.
+    turns == 1 && least > 1e-13 * widest
 }
 
 /// Whether an edge is followed by one that runs back along it, or has no length.

@@ -46,15 +46,20 @@ impl std::fmt::Debug for Planner {
 struct Plan {
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    tangents: Vec<Vec2>,
-    real: Vec<f64>,
-    tangential: Vec<Complex<f64>>,
-    normal: Vec<Complex<f64>>,
-    product: Vec<Complex<f64>>,
+    places: Vec<Place>,
+    /// Tangential and normal force per length.
+    forces: [Vec<f64>; 2],
+    spectra: [Vec<Complex<f64>>; 2],
+    /// Spectra and values of the parts of the correction: tangential mean, slope and curvature, normal mean and slope.
+    products: [Vec<Complex<f64>>; PARTS],
+    parts: [Vec<f64>; PARTS],
     scratch: Vec<Complex<f64>>,
     complex_forward: Arc<dyn Fft<f64>>,
     complex_inverse: Arc<dyn Fft<f64>>,
     tangential_force: Vec<f64>,
+    /// Factors of the grid harmonic, a mode.
+    harmonics: Vec<f64>,
+    /// For both axes, one after the other.
     phases: Vec<Complex<f64>>,
     modulated: Vec<Complex<f64>>,
     complex_scratch: Vec<Complex<f64>>,
@@ -62,23 +67,22 @@ struct Plan {
 
 impl std::fmt::Debug for Plan {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Plan").field("markers", &self.real.len()).finish_non_exhaustive()
+        f.debug_struct("Plan").field("markers", &self.places.len()).finish_non_exhaustive()
     }
 }
 
-/// Which of the five products of an evaluation.
-#[derive(Clone, Copy)]
-enum Part {
-    Tangential,
-    TangentialSlope,
-    TangentialCurvature,
-    Normal,
-    NormalSlope,
-}
+/// Products of an evaluation: three of the tangential force, two of the normal one.
+const PARTS: usize = 5;
+/// How many of them are of the tangential force.
+const TANGENTIAL: usize = 3;
 
-impl Part {
-    const ALL: [Self; 5] =
-        [Self::Tangential, Self::TangentialSlope, Self::TangentialCurvature, Self::Normal, Self::NormalSlope];
+/// A marker on its interface.
+#[derive(Debug, Clone, Copy, Default)]
+struct Place {
+    /// Unit tangent; zero between coinciding neighbours, which give no direction.
+    tangent: Vec2,
+    /// What a wall leaves of the tangential and of the normal part.
+    left: [f64; 2],
 }
 
 /// The fluid and grid of a correction.
@@ -113,128 +117,37 @@ impl MobilityCorrection {
         if count < 3 {
             return Ok(());
         }
-        if self.plan.as_ref().is_none_or(|plan| plan.real.len() != count) {
+        if self.plan.as_ref().is_none_or(|plan| plan.places.len() != count) {
             self.plan = Some(Plan::new(&mut self.planner.0, count));
         }
         let Some(plan) = self.plan.as_mut() else { return Ok(()) };
-
-        let mut perimeter = 0.0;
-        for k in 0..count {
-            let (before, after) = (positions[(k + count - 1) % count], positions[(k + 1) % count]);
-            let d = 0.5 * (after - before);
-            perimeter += d.norm();
-            plan.tangents[k] = d;
+        let perimeter = plan.place(setting, positions, forces);
+        plan.transform(&self.deficit, setting, perimeter)?;
+        for (k, (velocity, place)) in velocities.iter_mut().zip(&plan.places).enumerate() {
+            let tau = place.tangent;
+            // n_x^4 + n_y^4 - 3/4 = 1/4 - 2 (n_x n_y)^2
+            let direction = 0.25 - 2.0 * (tau.x * tau.y).powi(2);
+            let [mean, slope, curvature, normal, normal_slope] = plan.parts.each_ref().map(|part| part[k]);
+            let along = mean + direction * slope + (32.0 * direction * direction - 1.0) * curvature;
+            let across = normal + direction * normal_slope;
+            *velocity += place.left[0] * along * tau + place.left[1] * across * Vec2::new(tau.y, -tau.x);
         }
-        for part in [Part::Tangential, Part::Normal] {
-            for ((real, d), force) in plan.real.iter_mut().zip(&plan.tangents).zip(forces) {
-                let w2 = d.norm_squared();
-                // F.tau / w and F.n / w with d = w tau, n = (tau_y, -tau_x); coinciding neighbours give no direction.
-                let along = match part {
-                    Part::Tangential | Part::TangentialSlope | Part::TangentialCurvature => force.dot(d),
-                    Part::Normal | Part::NormalSlope => force.x * d.y - force.y * d.x,
-                };
-                *real = if w2 > 0.0 { along / w2 } else { 0.0 };
-            }
-            if matches!(part, Part::Tangential) {
-                plan.tangential_force.copy_from_slice(&plan.real);
-            }
-            plan.forward(part)?;
-        }
-        plan.normal[0] = Complex::default();
-
-        // Wave numbers in units of 1/h; the inverse transform is unnormalised.
-        let step = 2.0 * std::f64::consts::PI * setting.spacing / perimeter;
-        let scale = setting.spacing / setting.viscosity / count as f64;
-        for part in Part::ALL {
-            plan.backward(part, |m| {
-                let q = step * m as f64;
-                let deficit = self.deficit.at(q);
-                scale
-                    * match part {
-                        Part::Tangential => deficit.tangential,
-                        Part::TangentialSlope => deficit.tangential_slope,
-                        Part::TangentialCurvature => deficit.tangential_curvature,
-                        Part::Normal => deficit.normal * normal_taper(q),
-                        Part::NormalSlope => deficit.normal_slope * normal_taper(q),
-                    }
-            })?;
-            for k in 0..count {
-                let d = plan.tangents[k];
-                let w2 = d.norm_squared();
-                if w2 == 0.0 {
-                    continue;
-                }
-                let tau = d / w2.sqrt();
-                let normal = Vec2::new(tau.y, -tau.x);
-                // n_x^4 + n_y^4 - 3/4 = 1/4 - 2 (n_x n_y)^2
-                let direction = 0.25 - 2.0 * (normal.x * normal.y).powi(2);
-                let fade = setting.fade(positions[k].y, part);
-                velocities[k] += fade
-                    * plan.real[k]
-                    * match part {
-                        Part::Tangential => tau,
-                        Part::TangentialSlope => direction * tau,
-                        Part::TangentialCurvature => (32.0 * direction * direction - 1.0) * tau,
-                        Part::Normal => normal,
-                        Part::NormalSlope => direction * normal,
-                    };
-            }
-        }
-        self.take_off_harmonics(setting, step, positions, velocities);
+        plan.take_off_harmonics(self.deficit.second_harmonic(), setting, positions, velocities);
         Ok(())
-    }
-
-    fn take_off_harmonics(&mut self, setting: &Setting, step: f64, positions: &[Vec2], velocities: &mut [Vec2]) {
-        let Some(plan) = self.plan.as_mut() else { return };
-        let count = positions.len();
-        let scale = 2.0 * setting.spacing / setting.viscosity / count as f64;
-        let second = self.deficit.second_harmonic();
-        for axis in [0, 1] {
-            let across = 1 - axis;
-            for (k, position) in positions.iter().enumerate() {
-                let half_phase = std::f64::consts::PI * (position[across] - setting.origin[across]) / setting.spacing;
-                let (sin, cos) = half_phase.sin_cos();
-                plan.phases[k] = Complex::new(cos, sin);
-                plan.modulated[k] = plan.phases[k] * plan.tangential_force[k];
-            }
-            plan.complex_forward.process_with_scratch(&mut plan.modulated, &mut plan.complex_scratch);
-            for (m, value) in plan.modulated.iter_mut().enumerate() {
-                let q = step * m.min(count - m) as f64;
-                *value *= scale * self.deficit.harmonic(q);
-            }
-            plan.complex_inverse.process_with_scratch(&mut plan.modulated, &mut plan.complex_scratch);
-            for (k, velocity) in velocities.iter_mut().enumerate() {
-                let norm = plan.tangents[k].norm();
-                if norm == 0.0 {
-                    continue;
-                }
-                let tau = plan.tangents[k] / norm;
-                let mut mirrored = tau;
-                mirrored[across] = -tau[across];
-                let phase = plan.phases[k] * plan.phases[k];
-                let first = plan.phases[k] * plan.modulated[k];
-                // The second harmonic from the first: e^{-i phi} takes the first one's phase off.
-                let harmonics = first.re + second * (first * phase.conj()).re * (phase * phase).re;
-                let amount = setting.fade(positions[k].y, Part::Tangential) * harmonics;
-                *velocity -= amount * (tau + mirrored - tau.dot(&mirrored) * tau);
-            }
-        }
     }
 }
 
 impl Setting {
-    /// How much of the correction is left at height y: the image of the force in the wall cancels it at the wall.
-    /// Tangential `1 - exp(-x^2) + sqrt(pi) x erfc(x)`, x = gap/(h sqrt(variance)); normal `(1 - exp(-gap/2h))^2`.
-    fn fade(&self, y: f64, part: Part) -> f64 {
-        let Some([bottom, top]) = self.walls else { return 1.0 };
+    /// How much of the tangential and of the normal part is left at height y: the image of the force in the wall cancels it at
+    /// the wall. `1 - exp(-x^2) + sqrt(pi) x erfc(x)`, x = gap/(h sqrt(variance)), and `(1 - exp(-gap/2h))^2`.
+    fn left(&self, y: f64) -> [f64; 2] {
+        let Some([bottom, top]) = self.walls else { return [1.0; 2] };
         let gap = (y - bottom).min(top - y).max(0.0) / self.spacing;
-        match part {
-            Part::Tangential | Part::TangentialSlope | Part::TangentialCurvature => {
-                let x = gap / self.variance.sqrt();
-                if x > 6.0 { 1.0 } else { 1.0 - (-x * x).exp() + std::f64::consts::PI.sqrt() * x * erfc(x) }
-            }
-            Part::Normal | Part::NormalSlope => (1.0 - (-0.5 * gap).exp()).powi(2),
-        }
+        let x = gap / self.variance.sqrt();
+        let tangential = if x > 6.0 { 1.0 } else { 1.0 - (-x * x).exp() + std::f64::consts::PI.sqrt() * x * erfc(x) };
+        // Beyond 80 spacings the rest is below round-off.
+        let normal = if gap > 80.0 { 1.0 } else { (1.0 - (-0.5 * gap).exp()).powi(2) };
+        [tangential, normal]
     }
 }
 
@@ -250,7 +163,7 @@ impl Plan {
     fn new(planner: &mut RealFftPlanner<f64>, count: usize) -> Self {
         let (forward, inverse) = (planner.plan_fft_forward(count), planner.plan_fft_inverse(count));
         let scratch = vec![Complex::default(); forward.get_scratch_len().max(inverse.get_scratch_len())];
-        let spectrum = vec![Complex::default(); count / 2 + 1];
+        let (real, spectrum) = (vec![0.0; count], vec![Complex::default(); count / 2 + 1]);
         let mut complex_planner = FftPlanner::new();
         let (complex_forward, complex_inverse) =
             (complex_planner.plan_fft_forward(count), complex_planner.plan_fft_inverse(count));
@@ -258,45 +171,123 @@ impl Plan {
         Self {
             complex_forward,
             complex_inverse,
-            tangential_force: vec![0.0; count],
-            phases: vec![Complex::default(); count],
-            modulated: vec![Complex::default(); count],
+            tangential_force: real.clone(),
+            harmonics: vec![0.0; spectrum.len()],
+            phases: vec![Complex::default(); 2 * count],
+            modulated: vec![Complex::default(); 2 * count],
             complex_scratch: vec![Complex::default(); needed],
             forward,
             inverse,
-            tangents: vec![Vec2::zeros(); count],
-            real: vec![0.0; count],
-            tangential: spectrum.clone(),
-            normal: spectrum.clone(),
-            product: spectrum,
+            places: vec![Place::default(); count],
+            forces: std::array::from_fn(|_| real.clone()),
+            spectra: std::array::from_fn(|_| spectrum.clone()),
+            products: std::array::from_fn(|_| spectrum.clone()),
+            parts: std::array::from_fn(|_| real.clone()),
             scratch,
         }
     }
 
-    fn forward(&mut self, part: Part) -> Result<(), FlowError> {
-        let spectrum = match part {
-            Part::Tangential | Part::TangentialSlope | Part::TangentialCurvature => &mut self.tangential,
-            Part::Normal | Part::NormalSlope => &mut self.normal,
-        };
-        self.forward.process_with_scratch(&mut self.real, spectrum, &mut self.scratch).map_err(lengths)
+    /// Tangents and forces per length along and across them, for `d = (X_{k+1} - X_{k-1}) / 2 = w tau`, n = (tau_y, -tau_x);
+    /// the sum of w.
+    fn place(&mut self, setting: &Setting, positions: &[Vec2], forces: &[Vec2]) -> f64 {
+        let count = positions.len();
+        let [tangential, normal] = &mut self.forces;
+        let mut perimeter = 0.0;
+        for (k, place) in self.places.iter_mut().enumerate() {
+            let before = positions[if k == 0 { count - 1 } else { k - 1 }];
+            let after = positions[if k + 1 == count { 0 } else { k + 1 }];
+            let d = 0.5 * (after - before);
+            let w = d.norm();
+            perimeter += w;
+            let inverse = if w > 0.0 { 1.0 / w } else { 0.0 };
+            let (tau, force) = (inverse * d, inverse * forces[k]);
+            tangential[k] = force.dot(&tau);
+            normal[k] = force.x * tau.y - force.y * tau.x;
+            *place = Place { tangent: tau, left: setting.left(positions[k].y) };
+        }
+        self.tangential_force.copy_from_slice(tangential);
+        perimeter
     }
 
-    fn backward(&mut self, part: Part, factor: impl Fn(usize) -> f64) -> Result<(), FlowError> {
-        let spectrum = match part {
-            Part::Tangential | Part::TangentialSlope | Part::TangentialCurvature => &self.tangential,
-            Part::Normal | Part::NormalSlope => &self.normal,
-        };
-        for (m, (out, value)) in self.product.iter_mut().zip(spectrum).enumerate() {
-            *out = value * factor(m);
+    /// The parts of the correction (length per time) from the forces, and the factors of the grid harmonic.
+    fn transform(&mut self, deficit: &MobilityDeficit, setting: &Setting, perimeter: f64) -> Result<(), FlowError> {
+        for (force, spectrum) in self.forces.iter_mut().zip(&mut self.spectra) {
+            self.forward.process_with_scratch(force, spectrum, &mut self.scratch).map_err(lengths)?;
         }
-        // Purely real by definition; round-off would make the transform refuse them.
-        self.product[0].im = 0.0;
-        if self.real.len().is_multiple_of(2)
-            && let Some(last) = self.product.last_mut()
+        let count = self.places.len();
+        let [tangential, normal] = &mut self.spectra;
+        normal[0] = Complex::default();
+        // Wave numbers in units of 1/h; the inverse transform is unnormalised.
+        let step = 2.0 * std::f64::consts::PI * setting.spacing / perimeter;
+        let scale = setting.spacing / setting.viscosity / count as f64;
+        for m in 0..=count / 2 {
+            let q = step * m as f64;
+            let deficit_here = deficit.at(q);
+            let taper = normal_taper(q);
+            let factors = [
+                deficit_here.tangential,
+                deficit_here.tangential_slope,
+                deficit_here.tangential_curvature,
+                deficit_here.normal * taper,
+                deficit_here.normal_slope * taper,
+            ];
+            for (part, (product, factor)) in self.products.iter_mut().zip(factors).enumerate() {
+                let force = if part < TANGENTIAL { tangential[m] } else { normal[m] };
+                product[m] = force * (scale * factor);
+            }
+            self.harmonics[m] = 2.0 * scale * deficit.harmonic(q);
+        }
+        for (product, part) in self.products.iter_mut().zip(&mut self.parts) {
+            // Purely real by definition; round-off would make the transform refuse them.
+            product[0].im = 0.0;
+            if count.is_multiple_of(2) {
+                product[count / 2].im = 0.0;
+            }
+            self.inverse.process_with_scratch(product, part, &mut self.scratch).map_err(lengths)?;
+        }
+        Ok(())
+    }
+
+    fn take_off_harmonics(&mut self, second: f64, setting: &Setting, positions: &[Vec2], velocities: &mut [Vec2]) {
+        let count = positions.len();
+        let per_length = std::f64::consts::PI / setting.spacing;
+        for (axis, (phases, modulated)) in
+            self.phases.chunks_exact_mut(count).zip(self.modulated.chunks_exact_mut(count)).enumerate()
         {
-            last.im = 0.0;
+            let across = 1 - axis;
+            let origin = setting.origin[across];
+            for (((phase, value), position), force) in
+                phases.iter_mut().zip(modulated).zip(positions).zip(&self.tangential_force)
+            {
+                let (sin, cos) = (per_length * (position[across] - origin)).sin_cos();
+                *phase = Complex::new(cos, sin);
+                *value = *phase * *force;
+            }
         }
-        self.inverse.process_with_scratch(&mut self.product, &mut self.real, &mut self.scratch).map_err(lengths)
+        self.complex_forward.process_with_scratch(&mut self.modulated, &mut self.complex_scratch);
+        for modulated in self.modulated.chunks_exact_mut(count) {
+            for (m, value) in modulated.iter_mut().enumerate() {
+                *value *= self.harmonics[m.min(count - m)];
+            }
+        }
+        self.complex_inverse.process_with_scratch(&mut self.modulated, &mut self.complex_scratch);
+        for (axis, (phases, modulated)) in
+            self.phases.chunks_exact(count).zip(self.modulated.chunks_exact(count)).enumerate()
+        {
+            let across = 1 - axis;
+            for (((velocity, place), phase), value) in
+                velocities.iter_mut().zip(&self.places).zip(phases).zip(modulated)
+            {
+                let tau = place.tangent;
+                let mut mirrored = tau;
+                mirrored[across] = -tau[across];
+                let first = phase * value;
+                let phase = phase * phase;
+                // The second harmonic from the first: e^{-i phi} takes the first one's phase off.
+                let harmonics = first.re + second * (first * phase.conj()).re * (phase * phase).re;
+                *velocity -= place.left[0] * harmonics * (tau + mirrored - tau.dot(&mirrored) * tau);
+            }
+        }
     }
 }
 

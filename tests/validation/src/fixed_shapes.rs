@@ -76,10 +76,25 @@ pub struct Errors {
 pub fn errors<K: Kernel>(kernel: &K, corrected: bool, h: f64, case: Case) -> Result<Errors, StudyError> {
     let cells = (6.0 / h).round() as usize;
     let solver = PeriodicStokes::new(Grid::periodic(cells, cells, h)?, 1.0)?;
-    let mut flow = couple(solver, kernel, corrected);
+    Ok(compare(&mut couple(solver, kernel, corrected), h, case)?.0)
+}
+
+/// The errors of any flow in a 6 x 6 box of viscosity 1, markers h/2 apart, and the markers.
+///
+/// # Errors
+/// What an evaluation can fail with.
+pub fn compare<H: Hydrodynamics>(flow: &mut H, h: f64, case: Case) -> Result<(Errors, Markers), StudyError> {
     let mut shape = Shape::new(case, 0.0, h, None)?;
     flow.velocities(&mut shape.markers)?;
-    shape.compare(&case.reference()?)
+    Ok((shape.compare(&case.reference()?)?, shape.markers))
+}
+
+/// The errors of velocities at the eight points of the reference, equally spaced in the parameter t.
+///
+/// # Errors
+/// Reference values that are not readable.
+pub fn compare_velocities(velocities: &[Vec2], case: Case) -> Result<Errors, StudyError> {
+    errors_of(&case.reference()?, |j| velocities.get(j).copied().unwrap_or_default())
 }
 
 /// The immersed boundary method with or without the mobility correction.
@@ -126,18 +141,22 @@ impl Shape {
 
     /// Errors at the eight markers of `reference`.
     pub(crate) fn compare(&self, reference: &Reference) -> Result<Errors, StudyError> {
-        let (vx, vy) = (reference.column("vx")?, reference.column("vy")?);
-        let largest = vx.iter().zip(&vy).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
         let parameters: Vec<f64> = self.markers.positions.iter().map(|&point| self.parameter(point)).collect();
-        let (mut maximum, mut sum) = (0.0_f64, 0.0);
-        for (j, (vx, vy)) in vx.iter().zip(&vy).enumerate() {
-            let velocity = at_parameter(&parameters, &self.markers.velocities, TAU * j as f64 / 8.0);
-            let error = (velocity - Vec2::new(*vx, *vy)).norm() / largest;
-            maximum = maximum.max(error);
-            sum += error * error / 8.0;
-        }
-        Ok(Errors { maximum, rms: sum.sqrt() })
+        errors_of(reference, |j| at_parameter(&parameters, &self.markers.velocities, TAU * j as f64 / 8.0))
     }
+}
+
+/// Errors of the velocities at the eight markers of `reference`.
+fn errors_of(reference: &Reference, velocity: impl Fn(usize) -> Vec2) -> Result<Errors, StudyError> {
+    let (vx, vy) = (reference.column("vx")?, reference.column("vy")?);
+    let largest = vx.iter().zip(&vy).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
+    let (mut maximum, mut sum) = (0.0_f64, 0.0);
+    for (j, (vx, vy)) in vx.iter().zip(&vy).enumerate() {
+        let error = (velocity(j) - Vec2::new(*vx, *vy)).norm() / largest;
+        maximum = maximum.max(error);
+        sum += error * error / 8.0;
+    }
+    Ok(Errors { maximum, rms: sum.sqrt() })
 }
 
 /// Velocity at the parameter `t`, by cubic interpolation in the parameters of the markers around it.

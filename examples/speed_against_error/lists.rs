@@ -1,0 +1,167 @@
+//! Which settings are tried in which scene.
+
+use motile::ContrastMethod;
+use motile::ib_core::{AnyKernel, StepSize};
+
+use crate::settings::{Flow, Settings, Stepper};
+use crate::studies::Study;
+
+/// The settings of a study; `full` adds the expensive ones.
+pub(crate) fn settings(study: Study, full: bool) -> Vec<Settings> {
+    let mut list = match study {
+        Study::FixedEllipse => fixed(),
+        Study::Relaxation => relaxation(),
+        Study::Steady | Study::Strong | Study::Transient => swimmer(study, full),
+        Study::Ratio10 | Study::Ratio100 => contrast(full),
+        Study::Channel => channel(full),
+        Study::ElasticLayer => elastic(),
+    };
+    // Presets may be among the variations.
+    let mut different: Vec<Settings> = Vec::new();
+    list.retain(|settings| {
+        let new = !different.contains(settings);
+        different.push(*settings);
+        new
+    });
+    list
+}
+
+fn grids(spacings: &[f64], ratio: f64) -> impl Iterator<Item = Settings> {
+    spacings.iter().map(move |&h| Settings::grid(h, ratio))
+}
+
+fn nodes(all: &[usize], cells: usize) -> impl Iterator<Item = Settings> {
+    all.iter().map(move |&nodes| Settings::integrals(nodes, cells * nodes))
+}
+
+fn fixed() -> Vec<Settings> {
+    let spacings = [0.2, 0.1, 0.05, 0.025];
+    let mut list: Vec<Settings> = nodes(&[16, 24, 32, 48, 64, 96], 1).collect();
+    for kernel in AnyKernel::ALL {
+        list.extend(grids(&spacings, 0.5).map(|settings| settings.with_kernel(kernel)));
+    }
+    list.extend(grids(&spacings, 0.5).map(Settings::uncorrected));
+    list.extend(spacings.map(|h| Settings::thesis(h, StepSize::Fixed(1e-3))));
+    list
+}
+
+fn relaxation() -> Vec<Settings> {
+    let spacings = [0.2, 0.1, 0.05];
+    let mut list = Vec::new();
+    for step in [0.5, 0.25]
+        .map(StepSize::OfLimit)
+        .into_iter()
+        .chain([1e-3, 1e-4].map(|tolerance| StepSize::Adaptive { tolerance }))
+    {
+        list.extend(nodes(&[16, 24, 32, 48], 2).map(|settings| settings.with_step(step)));
+        list.extend(grids(&spacings, 0.5).map(|settings| settings.with_step(step)));
+    }
+    for step in [0.2, 0.1].map(StepSize::Fixed) {
+        list.extend(
+            grids(&spacings, 0.5).map(|settings| settings.with_step(step).with_stepper(Stepper::Chebyshev(16))),
+        );
+    }
+    list.extend(grids(&spacings, 0.5).map(Settings::uncorrected));
+    list.extend([0.2, 0.1, 0.05, 0.025].map(|h| Settings::thesis(h, StepSize::OfLimit(0.5))));
+    list
+}
+
+fn swimmer(study: Study, full: bool) -> Vec<Settings> {
+    let mut list = vec![Settings::integrals(96, 384)];
+    for cells in [2, 4, 8] {
+        list.extend(nodes(&[16, 24, 32, 48, 64], cells));
+    }
+    list.extend(nodes(&[16, 24, 32], 1));
+    for cells in [1, 2, 4] {
+        list.extend(nodes(&[16, 24, 32, 48, 64], cells).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
+    }
+    list.extend(nodes(&[24, 48], 4).map(|settings| settings.with_step(StepSize::Adaptive { tolerance: 1e-4 })));
+    list.extend(nodes(&[24, 48], 4).map(|settings| settings.with_stepper(Stepper::Chebyshev(16))));
+    let spacings: &[f64] =
+        if full { &[0.375, 0.3, 0.2, 0.15, 0.1, 0.05, 0.025] } else { &[0.375, 0.3, 0.2, 0.15, 0.1, 0.05] };
+    for ratio in [1.0, 0.5, 0.25] {
+        list.extend(grids(spacings, ratio));
+    }
+    list.extend(grids(spacings, 0.5).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
+    list.extend(grids(&[0.1, 0.05], 0.5).map(|settings| settings.with_stepper(Stepper::Chebyshev(16))));
+    for kernel in AnyKernel::ALL {
+        list.extend(grids(&[0.2, 0.1, 0.05], 0.5).map(|settings| settings.with_kernel(kernel)));
+    }
+    list.extend(grids(&[0.1, 0.05, 0.025], 0.5).map(Settings::uncorrected));
+    let thesis = thesis(study == Study::Steady && full);
+    let preset = |settings: &Settings| study == Study::Steady || !matches!(settings.step, StepSize::Fixed(_));
+    list.extend(thesis.into_iter().filter(preset));
+    list
+}
+
+/// The preset, coarser and finer grids of it, and with steps as long as are stable.
+fn thesis(full: bool) -> Vec<Settings> {
+    let mut list: Vec<Settings> = [0.1, 0.05].map(|h| Settings::thesis(h, StepSize::Fixed(1e-3))).to_vec();
+    let long = StepSize::OfLimit(0.5);
+    list.extend([0.2, 0.1, 0.05, 0.025].map(|h| Settings::thesis(h, long)));
+    if full {
+        list.push(Settings::thesis(0.025, StepSize::Fixed(1e-3)));
+        list.push(Settings::thesis(0.0125, long));
+    }
+    list
+}
+
+fn contrast(full: bool) -> Vec<Settings> {
+    let mut list = vec![Settings::integrals(96, 384)];
+    for cells in [2, 4, 8] {
+        list.extend(nodes(&[16, 24, 32, 48, 64], cells));
+    }
+    for cells in [2, 4] {
+        list.extend(nodes(&[16, 24, 32, 48], cells).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
+    }
+    let spacings: &[f64] = if full { &[0.3, 0.2, 0.15, 0.1, 0.05, 0.025] } else { &[0.3, 0.2, 0.15, 0.1, 0.05] };
+    for ratio in [1.0, 0.5] {
+        list.extend(grids(spacings, ratio));
+    }
+    let smeared: &[f64] = if full { &[0.2, 0.1, 0.05] } else { &[0.2, 0.1] };
+    list.extend(grids(smeared, 0.5).map(Settings::smeared));
+    list.extend(smeared.iter().map(|&h| Settings::thesis(h, StepSize::OfLimit(0.5))));
+    list
+}
+
+fn channel(full: bool) -> Vec<Settings> {
+    let mut list = vec![Settings::integrals(96, 384)];
+    for cells in [2, 4] {
+        list.extend(nodes(&[32, 48, 64, 96, 128], cells));
+    }
+    let spacings: &[f64] = if full { &[0.2, 0.1, 0.05, 0.025] } else { &[0.2, 0.1, 0.05] };
+    for ratio in [1.0, 0.5, 0.25] {
+        list.extend(grids(spacings, ratio));
+    }
+    list.extend(grids(&[0.1, 0.05], 0.5).map(Settings::uncorrected));
+    list.extend([0.1, 0.05].map(|h| Settings::thesis(h, StepSize::OfLimit(0.5))));
+    list
+}
+
+fn elastic() -> Vec<Settings> {
+    let spacings = [0.2, 0.1, 0.05];
+    let mut list = Vec::new();
+    for ratio in [1.0, 1.5] {
+        for step in [0.5, 0.25].map(StepSize::OfLimit) {
+            list.extend(grids(&spacings, ratio).map(|settings| settings.with_step(step)));
+            list.extend(grids(&spacings, ratio).map(|settings| settings.with_step(step).uncorrected()));
+        }
+    }
+    for step in [0.2, 0.1, 0.05].map(StepSize::Fixed) {
+        list.extend(
+            grids(&spacings, 1.0).map(|settings| settings.with_step(step).with_stepper(Stepper::Chebyshev(16))),
+        );
+    }
+    let peskin = grids(&spacings, 1.0).map(|settings| settings.with_kernel(AnyKernel::Peskin4));
+    list.extend(peskin.map(Settings::uncorrected));
+    list
+}
+
+/// What a series of refinements has in common.
+pub(crate) fn series(settings: &Settings) -> String {
+    let flow = match settings.flow {
+        Flow::Integrals { nodes, cells } => format!("cells {}", cells / nodes),
+        Flow::Grid { ratio, contrast, .. } => format!("ratio {ratio} {}", contrast == ContrastMethod::Sharp),
+    };
+    format!("{} {flow} {:?} {:?} {:?}", settings.family(), settings.kernel, settings.step, settings.stepper)
+}

@@ -1,0 +1,144 @@
+//! Error against cost: every kind of scene by every method, over spacings, nodes, time steps, kernels, corrections and integrators.
+//!
+//! `cargo run --release --example speed_against_error` takes some minutes on one core, `--full` much longer; `--only SCENE` makes
+//! one scene. Each finished run leaves a file in `out/speed_against_error/runs/` and is not made again; delete the directory to start
+//! afresh. From all runs come `points.csv`, a figure a scene (SVG and PNG), and the page `speed-against-error.md`; with `--docs DIRECTORY`
+//! the page and its figures go there as well.
+//!
+//! Costs are measured by turns with a plain real transform, so that what else the machine does cancels; runs are made one at a time.
+
+mod cost;
+mod figures;
+mod front;
+mod lists;
+mod report;
+mod settings;
+mod shapes;
+mod studies;
+mod swimmers;
+
+use std::path::PathBuf;
+use std::process::{Command, ExitCode};
+
+use anyhow::{Context, Result};
+use clap::Parser;
+use support::{OutputFlags, RunPool, Summary, say, write_results};
+
+use crate::front::Point;
+use crate::report::Circumstances;
+use crate::settings::Settings;
+use crate::studies::Study;
+
+/// Error against cost, over all scenes, methods and resolutions.
+#[derive(Debug, Parser)]
+struct Flags {
+    /// The expensive settings too
+    #[arg(long)]
+    full: bool,
+    /// Only this scene
+    #[arg(long, value_enum)]
+    only: Option<Study>,
+    /// Print the speed that the swimmer of ratio 100 is compared with, and nothing else
+    #[arg(long)]
+    reference: bool,
+    /// Write the page and its figures to this directory of documents too
+    #[arg(long, value_name = "DIRECTORY")]
+    docs: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputFlags,
+}
+
+fn main() -> ExitCode {
+    support::run(compare)
+}
+
+fn compare(flags: &Flags) -> Result<()> {
+    if flags.reference {
+        say(format_args!("{:.10}", swimmers::reference_of_ratio_100()?));
+        return Ok(());
+    }
+    let directory = flags.output.directory("speed_against_error")?;
+    let jobs: Vec<(Study, Settings)> = Study::ALL
+        .into_iter()
+        .filter(|study| flags.only.is_none_or(|only| only == *study))
+        .flat_map(|study| lists::settings(study, flags.full).into_iter().map(move |settings| (study, settings)))
+        .collect();
+    let name = |(study, settings): &(Study, Settings)| format!("{}_{}", study.name(), settings.name());
+    let runs = directory.join("runs");
+    let results = RunPool::new(&runs, 1, flags.output.quiet)?.run(&jobs, name, run);
+
+    let mut points = Vec::new();
+    for ((study, settings), result) in jobs.into_iter().zip(results) {
+        match result {
+            Ok(summary) => points.push(Point { study, settings, summary }),
+            // Settings that do not get through, such as steps that turn out too long, are an outcome too.
+            Err(error) => say(format_args!("{error:#}")),
+        }
+    }
+    let rows: Vec<Summary> = points.iter().map(|point| point.summary.clone()).collect();
+    write_results(&directory.join("points.csv"), &rows)?;
+    let circumstances = Circumstances { machine: machine(), commit: commit(), command: command(flags) };
+    let page = |pictures: &str| report::page(&points, &circumstances, pictures);
+    write(&directory.join("speed-against-error.md"), &page(""))?;
+    if let Some(docs) = &flags.docs {
+        write(&docs.join("speed-against-error.md"), &page("images/speed_against_error/"))?;
+    }
+    for study in Study::ALL {
+        let own: Vec<Point> = points.iter().filter(|point| point.study == study).cloned().collect();
+        if own.is_empty() || flags.output.no_pictures {
+            continue;
+        }
+        let figure = figures::figure(study, &own);
+        figure.write(&directory, study.name())?;
+        if let Some(docs) = &flags.docs {
+            let pictures = docs.join("images/speed_against_error");
+            support::make_directory(&pictures)?;
+            let path = pictures.join(format!("{}.svg", study.name()));
+            std::fs::copy(directory.join(format!("{}.svg", study.name())), &path)
+                .with_context(|| format!("writing {}", path.display()))?;
+        }
+    }
+    say(format_args!("{} points in {}", points.len(), directory.display()));
+    Ok(())
+}
+
+fn run((study, settings): &(Study, Settings)) -> Result<Summary> {
+    let (error, cost) = study.run(settings)?;
+    let mut summary = Summary::new();
+    summary.put("study", study.name(), "");
+    settings.put(&mut summary);
+    summary.put("error", error, "");
+    cost.put(&mut summary);
+    Ok(summary)
+}
+
+fn write(path: &std::path::Path, text: &str) -> Result<()> {
+    std::fs::write(path, text).with_context(|| format!("writing {}", path.display()))
+}
+
+fn command(flags: &Flags) -> String {
+    format!("cargo run --release --example speed_against_error{}", if flags.full { " -- --full" } else { "" })
+}
+
+/// The processor, as the system names it.
+fn machine() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let value = |name: &str| {
+        text.lines().find(|line| line.starts_with(name)).and_then(|line| line.split(':').nth(1)).map(str::trim)
+    };
+    let cores = text.lines().filter(|line| line.starts_with("processor")).count();
+    match value("model name") {
+        Some(model) => format!("{model}, {cores} shared cores"),
+        None => format!("{} on {}", std::env::consts::ARCH, std::env::consts::OS),
+    }
+}
+
+/// The commit that the working tree is at.
+fn commit() -> String {
+    let output = Command::new("git").args(["rev-parse", "--short", "HEAD"]).output();
+    output
+        .ok()
+        .filter(|output| output.status.success())
+        .and_then(|output| String::from_utf8(output.stdout).ok())
+        .map_or_else(|| "unknown".to_owned(), |text| text.trim().to_owned())
+}
