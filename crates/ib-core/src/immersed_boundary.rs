@@ -164,7 +164,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let transforms = |work: stokes_grid::Work| work.forward_transforms + work.inverse_transforms;
         self.work.stokes_solves += after.solves - before.solves;
         self.work.transforms += transforms(after) - transforms(before);
-        self.work.iterations += after.iterations - before.iterations;
+        let iterations = after.iterations - before.iterations;
+        self.work.iterations += iterations;
+        self.work.most_iterations = self.work.most_iterations.max(iterations);
         self.work.markers_spread += markers;
         Ok(report)
     }
@@ -278,15 +280,15 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
     }
 
     fn save(&self) -> Record {
-        self.contrast.as_ref().map_or_else(Record::default, |flow| flow.contrast.save())
+        self.contrast.as_ref().map_or_else(Record::default, ContrastFlow::save)
     }
 
     fn load(&mut self, record: &Record) {
         if !record.counts.is_empty()
-            && self.prepare_contrast().is_ok()
-            && let Some(flow) = &mut self.contrast
+            && let Ok(mut flow) = self.take_contrast()
         {
-            flow.contrast.restore(record);
+            flow.restore(record.clone());
+            self.contrast = Some(flow);
         }
     }
 }

@@ -131,6 +131,17 @@ impl Curves<'_> {
 }
 
 impl EquivalentForces {
+    /// The last solution, from which the next one starts.
+    pub(crate) fn guess(&self) -> &[f64] {
+        &self.unknown
+    }
+
+    /// Starts the next solution from this one, if it fits.
+    pub(crate) fn start_from(&mut self, guess: &[f64]) {
+        self.unknown.clear();
+        self.unknown.extend_from_slice(guess);
+    }
+
     /// Finds the forces for velocities times viscosity `target` at the droplets' nodes; `respond` gives those of forces.
     pub(crate) fn solve(
         &mut self,
@@ -146,10 +157,13 @@ impl EquivalentForces {
         }
         for (index, droplet) in droplets.iter().enumerate() {
             let count = droplet.nodes();
-            if self.filters.get(index).is_none_or(|filter| filter.values.len() != count) {
+            let known = self.filters.get(index).map(|filter| filter.values.len());
+            if known != Some(count) {
                 self.filters.truncate(index);
                 self.filters.push(Filter::new(count));
-                self.unknown.clear();
+                if known.is_some() {
+                    self.unknown.clear();
+                }
             }
             self.filters[index].wave = TAU / droplet.weights.iter().sum::<f64>();
         }

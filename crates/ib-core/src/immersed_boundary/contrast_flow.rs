@@ -5,7 +5,7 @@ use stokes_grid::{CentreField, StaggeredField, StokesSolver};
 use super::{ImmersedBoundary, add};
 use crate::contrast::{Contrast, Droplet, EquivalentForces, Images, Nearby, Outcome, RigidWalls};
 use crate::correction::Setting;
-use crate::{FlowError, FlowReport, FlowSample, Kernel, Markers, Transfer, Vec2, sampling};
+use crate::{FlowError, FlowReport, FlowSample, Kernel, Markers, Record, Transfer, Vec2, sampling};
 
 /// What interfaces to other viscosities need beside the grid.
 #[derive(Debug)]
@@ -40,6 +40,23 @@ struct Nodes {
 }
 
 impl<K: Kernel> ContrastFlow<K> {
+    /// The last solutions, from which the next ones start.
+    pub(super) fn save(&self) -> Record {
+        let mut record = self.contrast.save();
+        record.counts.push(self.equivalent.guess().len() as u64);
+        record.reals.extend_from_slice(self.equivalent.guess());
+        record
+    }
+
+    /// Takes back what [`ContrastFlow::save`] wrote.
+    pub(super) fn restore(&mut self, mut record: Record) {
+        let last = record.counts.pop().and_then(|count| usize::try_from(count).ok());
+        let Some(start) = last.and_then(|count| record.reals.len().checked_sub(count)) else { return };
+        self.equivalent.start_from(&record.reals[start..]);
+        record.reals.truncate(start);
+        self.contrast.restore(&record);
+    }
+
     /// Takes over the droplets.
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         self.contrast.load(markers)?;
@@ -62,7 +79,7 @@ impl<K: Kernel> ContrastFlow<K> {
 
 impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// Makes what interfaces to other viscosities need, once, and lends it.
-    fn take_contrast(&mut self) -> Result<ContrastFlow<K>, FlowError> {
+    pub(super) fn take_contrast(&mut self) -> Result<ContrastFlow<K>, FlowError> {
         if let Some(flow) = self.contrast.take() {
             return Ok(flow);
         }
@@ -130,7 +147,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             let nodes = droplet.first..droplet.first + droplet.nodes();
             markers.velocities[droplet.markers.clone()].copy_from_slice(&flow.nodes.velocities[nodes]);
         }
-        self.work.iterations += effort.iterations;
+        self.work.iterations += iterations;
+        self.work.most_iterations = self.work.most_iterations.max(iterations);
         add(&mut self.velocity, &flow.other, 1.0);
         add(&mut self.density, &flow.other_density, 1.0);
         Ok(FlowReport { iterations, residual, mean_pressure_gradient: gradient })
