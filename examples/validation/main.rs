@@ -6,6 +6,7 @@
 
 mod channels;
 mod contrast;
+mod interfaces;
 
 use clap::{Parser, ValueEnum};
 use motile::Swimmer;
@@ -42,6 +43,14 @@ enum Study {
     ContrastIterations,
     ContrastDecay,
     ContrastRuns,
+    InterfaceRelaxation,
+    InterfaceGrowth,
+    InterfaceTransient,
+    InterfaceChannel,
+    InterfaceLateral,
+    InterfaceSeveral,
+    InterfaceLongRuns,
+    Cost,
 }
 
 /// Compares motile with exact and independently computed values.
@@ -62,7 +71,7 @@ type Run = fn(bool) -> Tables;
 
 fn main() -> anyhow::Result<()> {
     let flags = Flags::parse();
-    let studies: [(Study, Run); 22] = [
+    let studies: [(Study, Run); 30] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -85,6 +94,14 @@ fn main() -> anyhow::Result<()> {
         (Study::ContrastIterations, contrast::iterations),
         (Study::ContrastDecay, contrast::decay),
         (Study::ContrastRuns, contrast::runs),
+        (Study::InterfaceRelaxation, interfaces::relaxation),
+        (Study::InterfaceGrowth, interfaces::growth),
+        (Study::InterfaceTransient, interfaces::transients),
+        (Study::InterfaceChannel, interfaces::channel),
+        (Study::InterfaceLateral, interfaces::lateral_modes),
+        (Study::InterfaceSeveral, interfaces::several),
+        (Study::InterfaceLongRuns, interfaces::long_runs),
+        (Study::Cost, interfaces::cost),
     ];
     for (study, run) in studies {
         if flags.study == Study::All || flags.study == study {
