@@ -6,6 +6,7 @@
 
 mod channels;
 mod contrast;
+mod interfaces;
 
 use clap::{Parser, ValueEnum};
 use motile::Swimmer;
@@ -43,6 +44,14 @@ enum Study {
     ContrastDecay,
     ContrastRuns,
     ContrastCost,
+    InterfaceRelaxation,
+    InterfaceGrowth,
+    InterfaceTransient,
+    InterfaceChannel,
+    InterfaceLateral,
+    InterfaceSeveral,
+    InterfaceLongRuns,
+    Cost,
 }
 
 /// Compares motile with exact and independently computed values.
@@ -63,7 +72,7 @@ type Run = fn(bool) -> Tables;
 
 fn main() -> anyhow::Result<()> {
     let flags = Flags::parse();
-    let studies: [(Study, Run); 23] = [
+    let studies: [(Study, Run); 31] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -87,6 +96,14 @@ fn main() -> anyhow::Result<()> {
         (Study::ContrastDecay, contrast::decay),
         (Study::ContrastRuns, contrast::runs),
         (Study::ContrastCost, contrast::cost),
+        (Study::InterfaceRelaxation, interfaces::relaxation),
+        (Study::InterfaceGrowth, interfaces::growth),
+        (Study::InterfaceTransient, interfaces::transients),
+        (Study::InterfaceChannel, interfaces::channel),
+        (Study::InterfaceLateral, interfaces::lateral_modes),
+        (Study::InterfaceSeveral, interfaces::several),
+        (Study::InterfaceLongRuns, interfaces::long_runs),
+        (Study::Cost, interfaces::cost),
     ];
     for (study, run) in studies {
         if flags.study == Study::All || flags.study == study {

@@ -123,10 +123,25 @@ fn compare<H: Hydrodynamics>(
 /// # Errors
 /// What a run can fail with.
 pub fn transient(base: &Swimmer, h: f64) -> Result<(f64, f64), StudyError> {
+    let (scene, droplet) = reference_swimmer(base, -1.0, h).build_on_grid()?;
+    compare_transient(scene, droplet)
+}
+
+/// As [`transient`], without a grid.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn transient_without_grid(base: &Swimmer) -> Result<(f64, f64), StudyError> {
+    let (scene, droplet) = reference_swimmer(base, -1.0, base.spacing).build_without_grid()?;
+    compare_transient(scene, droplet)
+}
+
+fn compare_transient<H: Hydrodynamics>(
+    mut scene: Scene<H>,
+    droplet: Handle<ActiveDroplet>,
+) -> Result<(f64, f64), StudyError> {
     let reference = Reference::read(ReferenceFile::Transient)?;
     let (times, speeds) = (reference.column("t")?, reference.column("speed")?);
-    let swimmer = reference_swimmer(base, -1.0, h);
-    let (mut scene, droplet) = swimmer.build_on_grid()?;
     let mut worst = (0.0_f64, 0.0);
     for (&time, speed) in times.iter().zip(speeds) {
         if time > 0.0 {
