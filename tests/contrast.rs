@@ -118,10 +118,12 @@ fn beside_an_interface_of_equal_viscosity() {
     for gap in [0.5, 0.075] {
         let x = 1.0 + 0.5 * gap;
         let droplets = [Droplet::circle(1, 100.0).at(-x, 0.02), Droplet::circle(1, 1.0).at(x, -0.01)];
-        for errors in errors(Region::Box(6.0), &droplets) {
+        let all = errors(Region::Box(6.0), &droplets);
+        for errors in &all {
             assert!(errors[1].speed < 3e-3 && errors[1].rms < 3e-3, "{gap}: {errors:?}");
-            assert!(orders(&errors).iter().all(|order| *order > 1.7), "{gap}: {errors:?}");
+            assert!(orders(errors)[1] > 1.7, "{gap}: {errors:?}");
         }
+        assert!(orders(&all[0])[0] > 1.7 && all[1][1..].iter().all(|e| e.speed < 1e-3), "{gap}: {all:?}");
     }
 }
 
@@ -149,9 +151,7 @@ fn the_flow_beside_the_markers() {
                     fine.pressure < 0.01 && fine.pressure < coarse.pressure,
                     "{region:?} {ratio} {class}: {fine:?}"
                 );
-                // Near the interface gradients are a parabola's.
-                let bound = if class < 2 { 0.2 } else { 0.01 };
-                assert!(fine.gradient < bound, "{region:?} {ratio} {class}: {fine:?}");
+                assert!(fine.gradient < if class < 2 { 0.15 } else { 0.01 }, "{region:?} {ratio} {class}: {fine:?}");
             }
         }
     }
@@ -194,13 +194,8 @@ fn other_markers_move_with_the_flow() {
         for _ in 0..3 {
             flow.velocities(&mut markers).unwrap();
         }
-        assert_eq!(
-            measure(|| {
-                flow.velocities(&mut markers).unwrap();
-            })
-            .count_total,
-            0
-        );
+        let allocated = measure(|| assert!(flow.velocities(&mut markers).is_ok()));
+        assert_eq!(allocated.count_total, 0);
         assert!(flow.work().stokes_solves - before <= 12, "a solve for the forces and one for the flow each");
     }
 }
@@ -246,14 +241,13 @@ fn work_is_counted_and_nothing_is_allocated() {
     let (mut scene, _) = equal.build_on_grid().unwrap();
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     let work = scene.system().hydrodynamics().work();
-    // Two a step, and the flow of the last state.
-    assert_eq!((work.iterations, work.stokes_solves, work.evaluations), (0, 7, 7));
+    assert_eq!((work.iterations, work.stokes_solves, work.evaluations), (0, 6, 6));
 
     let thick = Swimmer { viscosity_inside: Some(1000.0), ..equal };
     let (mut scene, _) = thick.build_on_grid().unwrap();
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     let before = scene.system().hydrodynamics().work();
-    assert_eq!((before.stokes_solves, before.evaluations), (7, 7));
+    assert_eq!((before.stokes_solves, before.evaluations), (6, 6));
     assert_eq!(measure(|| (0..10).for_each(|_| scene.step(0.01).unwrap())).count_total, 0);
     let after = scene.system().hydrodynamics().work();
     let iterations = (after.iterations - before.iterations) as f64 / (after.evaluations - before.evaluations) as f64;

@@ -12,6 +12,8 @@ pub(crate) struct Nearby {
     /// Between which nodes that lies, and how far along.
     nodes: [usize; 2],
     fraction: f64,
+    /// From the one to the other (length).
+    along: Vec2,
     /// Unit vector away from the interface on the point's side.
     away: Vec2,
     distance: f64,
@@ -28,32 +30,47 @@ impl Nearby {
         self.distance
     }
 
-    /// Values on the nodes where the foot is.
-    pub(crate) fn on_the_interface(&self, values: &[Vec2]) -> Vec2 {
-        values[self.nodes[0]].lerp(&values[self.nodes[1]], self.fraction)
-    }
-
-    /// Velocity and its gradient from the velocity `surface` on the interface and the flow `at` places that are `reach` (length) and
-    /// more away from it: farther away as they are, else by a parabola along the normal.
+    /// Velocity and its gradient from the velocities `on_nodes` and the flow `at` places that are `reach` (length) and more away
+    /// from the interface. Nearer than that the velocity is a parabola along the normal, through a value a `step` farther away. The
+    /// gradient, which needs more room, is taken from twice the reach: across the interface by the same parabola, along it
+    /// on a straight line to that on the interface.
     pub(crate) fn flow(
         &self,
         point: Vec2,
         [reach, step]: [f64; 2],
-        surface: Vec2,
+        on_nodes: &[Vec2],
         at: impl Fn(Vec2) -> (Vec2, [[f64; 2]; 2]),
     ) -> (Vec2, [[f64; 2]; 2]) {
-        if self.distance >= reach {
+        if self.distance >= 2.0 * reach {
             return at(point);
         }
-        let (near, mut gradient) = at(self.retreat(reach));
-        let (beyond, _) = at(self.retreat(reach + step));
+        let [start, end] = self.nodes.map(|node| on_nodes[node]);
+        let surface = start.lerp(&end, self.fraction);
+        let (near, beyond) = (at(self.retreat(reach)).0, at(self.retreat(reach + step)).0);
         let (rise, slope) = ((near - surface) / reach, (beyond - near) / step);
         let bend = (slope - rise) / (reach + step);
-        let change = 2.0 * (self.distance - reach) * bend;
-        for (row, change) in gradient.iter_mut().zip([change.x, change.y]) {
-            *row = [row[0] + change * self.away.x, row[1] + change * self.away.y];
+        let mut gradient = at(self.retreat(2.0 * reach)).1;
+        let change = 2.0 * (self.distance - 2.0 * reach) * bend;
+        // The interface's own direction, without what is not at right angles to `away`.
+        let along = self.along - self.along.dot(&self.away) * self.away;
+        let length = along.norm();
+        let tangent = if length > 0.0 { along / length } else { along };
+        let left = 1.0 - 0.5 * self.distance / reach;
+        let stretching = (end - start) / self.along.norm().max(f64::MIN_POSITIVE);
+        for (row, (change, stretching)) in gradient.iter_mut().zip([(change.x, stretching.x), (change.y, stretching.y)])
+        {
+            let turned = left * (stretching - row[0] * tangent.x - row[1] * tangent.y);
+            *row = [
+                row[0] + change * self.away.x + turned * tangent.x,
+                row[1] + change * self.away.y + turned * tangent.y,
+            ];
         }
-        (surface + self.distance * (rise + (self.distance - reach) * bend), gradient)
+        let velocity = if self.distance >= reach {
+            at(point).0
+        } else {
+            surface + self.distance * (rise + (self.distance - reach) * bend)
+        };
+        (velocity, gradient)
     }
 
     /// A value from those at the distances `reach` and `reach + step` (length), on a straight line.
@@ -85,6 +102,7 @@ impl Contrast {
             foot: point - relative + place,
             nodes: [droplet.first + foot.node, droplet.first + next],
             fraction: foot.fraction,
+            along: droplet.positions[next] - droplet.positions[foot.node],
             away: side * normal,
             distance: foot.distance,
         })

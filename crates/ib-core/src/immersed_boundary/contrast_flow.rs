@@ -282,7 +282,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             let velocity = |point| sampling::smooth_velocity(&self.velocity, point);
             let near = self.close_to(contrast, *point);
             (out.velocity, out.gradient) = match &near {
-                Some(near) => near.flow(*point, reach, near.on_the_interface(&nodes.velocities), velocity),
+                Some(near) => near.flow(*point, reach, &nodes.velocities, velocity),
                 None => velocity(*point),
             };
             let smeared = near.filter(|near| near.distance() < 2.0 * reach[0]);
@@ -319,18 +319,21 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// The interface within four times whose reach a point lies, unless a wall is in the way of its neighbourhood.
     fn close_to(&self, contrast: &Contrast, point: Vec2) -> Option<Nearby> {
         let [reach, step] = self.reach();
-        contrast.nearby(point, 4.0 * reach).filter(|near| self.between_walls(&near.retreat(reach + step)))
+        contrast
+            .nearby(point, 4.0 * reach)
+            .filter(|near| self.between_walls(&near.retreat((2.0 * reach).max(reach + step))))
     }
 
     /// Adds the flow of the equivalent forces, which is on the grid, at the markers that are not on droplets.
     fn add_to_others(&self, flow: &mut ContrastFlow<K>, markers: &mut Markers) {
         self.transfer.interpolate(&self.velocity, &mut flow.all);
         let (reach, inverse) = (self.reach(), 1.0 / self.solver.viscosity());
+        flow.nodes.target.iter_mut().for_each(|velocity| *velocity *= inverse);
         let velocity = |point| sampling::smooth_velocity(&self.velocity, point);
         for &marker in flow.contrast.others() {
             let point = markers.positions[marker];
             markers.velocities[marker] += match self.close_to(&flow.contrast, point) {
-                Some(near) => near.flow(point, reach, inverse * near.on_the_interface(&flow.nodes.target), velocity).0,
+                Some(near) => near.flow(point, reach, &flow.nodes.target, velocity).0,
                 None => flow.all[marker],
             };
         }
