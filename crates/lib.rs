@@ -46,7 +46,7 @@ mod solid_gap;
 mod swimmer;
 mod swimmer_scenes;
 
-pub use elastic_channel::{BuiltElastic, ElasticChannel, WallMaterial, WallMesh};
+pub use elastic_channel::{BuiltElastic, ElasticChannel, WallMaterial, WallMesh, WallSurface};
 pub use method::{ContrastMethod, Method};
 pub use setup_error::SetupError;
 pub use solid_gap::{SolidEntered, SolidGap};

@@ -13,8 +13,9 @@ use std::any::Any;
 /// use motile::prelude::*;
 ///
 /// let swimmer = Swimmer { lengths: [6.0, 2.4], spacing: 0.1, ..Swimmer::default() };
-/// let (mut scene, _, _) = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e5)?).build()?;
-/// let mut gap = motile::SolidGap::new(0.25 * 0.1);
+/// let channel = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e5)?);
+/// let (mut scene, _, _) = channel.build()?;
+/// let mut gap = motile::SolidGap::new(0.25 * 0.1).with_set_back(channel.set_back());
 /// scene.run(0.5).observe(Every::Steps(1), &mut gap).go()?;
 /// let (least, time) = gap.smallest().expect("a droplet between walls");
 /// println!("smallest gap {least:.3} R0 at t = {time}");
@@ -24,6 +25,7 @@ use std::any::Any;
 #[derive(Debug, Clone)]
 pub struct SolidGap {
     allowed: f64,
+    set_back: f64,
     surfaces: Option<SurfaceGap>,
     present: Option<f64>,
     smallest: Option<(f64, f64)>,
@@ -53,7 +55,15 @@ impl SolidGap {
     /// grid spacing.
     #[must_use]
     pub fn new(allowed: f64) -> Self {
-        Self { allowed, surfaces: None, present: None, smallest: None }
+        Self { allowed, set_back: 0.0, surfaces: None, present: None, smallest: None }
+    }
+
+    /// The same for solids that are meshed this far behind the surfaces where they stop the fluid (length, see
+    /// [`crate::ElasticChannel::set_back`]): gaps are those from there.
+    #[must_use]
+    pub fn with_set_back(mut self, set_back: f64) -> Self {
+        self.set_back = set_back;
+        self
     }
 
     /// The gap at the last look (length; negative inside a solid); `None` before the first and without solids.
@@ -87,7 +97,8 @@ impl SolidGap {
         }
         let Some(droplet) = droplet.filter(|_| any) else { return Ok(None) };
         surfaces.sort();
-        surfaces.smallest(droplet.markers()).map(Some)
+        let (gap, marker) = surfaces.smallest(droplet.markers())?;
+        Ok(Some((gap - self.set_back, marker)))
     }
 }
 
@@ -121,8 +132,9 @@ mod tests {
     #[test]
     fn a_droplet_inside_a_wall_is_an_error() {
         let swimmer = Swimmer { lengths: [4.0, 2.2], spacing: 0.2, ..Swimmer::default() };
-        let (mut scene, _, walls) = ElasticChannel::new(swimmer, Moduli::new(1.0, 2.0).unwrap()).build().unwrap();
-        let mut gap = SolidGap::new(0.05);
+        let channel = ElasticChannel::new(swimmer, Moduli::new(1.0, 2.0).unwrap());
+        let (mut scene, _, walls) = channel.build().unwrap();
+        let mut gap = SolidGap::new(0.05).with_set_back(channel.set_back());
         gap.observe(scene.system_mut()).unwrap();
         assert!((gap.present().unwrap() - 0.1).abs() < 2e-3, "{gap:?}");
         let lower = scene.body_mut(walls[0]);

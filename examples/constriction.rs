@@ -55,7 +55,8 @@ fn meet(flags: &Flags) -> Result<()> {
 
     // The run, with all that watches it, until the verdict.
     let title = format!("{},  {}", caption(swimmer), wall_caption(&channel));
-    let mut run = WatchedRun::new(&mut scene, droplet, swimmer, patience, &flags.output, "constriction", title)?;
+    let run = WatchedRun::new(&mut scene, droplet, swimmer, patience, &flags.output, "constriction", title)?;
+    let mut run = run.with_set_back(channel.set_back());
     let mut passage = Passage::new(0.5 * throat_length + ramp);
     let outcome = run.go_until(&mut scene, &mut passage)?;
 

@@ -43,7 +43,8 @@ fn swim(flags: &Flags) -> Result<()> {
     // The run, with all that watches it.
     let title = format!("{},  {}", caption(swimmer), wall_caption(&channel));
     let end = flags.method.time;
-    let mut run = WatchedRun::new(&mut scene, droplet, swimmer, end, &flags.output, "elastic_channel", title)?;
+    let run = WatchedRun::new(&mut scene, droplet, swimmer, end, &flags.output, "elastic_channel", title)?;
+    let mut run = run.with_set_back(channel.set_back());
     let outcome = run.go(&mut scene)?;
 
     // The results, also of a run that broke off.

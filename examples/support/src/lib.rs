@@ -93,7 +93,7 @@ pub use svg::Svg;
 pub use trajectory::Trajectory;
 pub use vtk::{VtkFile, VtkSeries};
 pub use vtk_output::VtkOutput;
-pub use wall_flags::{ElasticFlags, Material, Mesh, wall_caption};
+pub use wall_flags::{ElasticFlags, Material, Mesh, SurfaceRule, wall_caption};
 pub use watched_run::{WatchedRun, caption};
 
 /// A point or vector in the plane.

@@ -46,6 +46,7 @@ pub fn solid_shape(solid: &AnySolid) -> SolidShape {
 #[derive(Debug)]
 pub struct SolidMeter {
     gap: SolidGap,
+    set_back: f64,
 }
 
 impl SolidMeter {
@@ -67,7 +68,14 @@ impl SolidMeter {
     /// A meter for a system with solids; `None` for one without.
     #[must_use]
     pub fn of<H: Hydrodynamics>(system: &System<H>) -> Option<Self> {
-        solids(system).next().map(|_| Self { gap: SolidGap::new(f64::INFINITY) })
+        solids(system).next().map(|_| Self { gap: SolidGap::new(f64::INFINITY), set_back: 0.0 })
+    }
+
+    /// For solids that are meshed this far behind the surfaces where they stop the fluid (length): widths and gaps are
+    /// those between these surfaces.
+    pub fn set_back(&mut self, set_back: f64) {
+        self.gap = SolidGap::new(f64::INFINITY).with_set_back(set_back);
+        self.set_back = set_back;
     }
 
     /// The values of [`SolidMeter::NAMES`] at the present state; not a number where there is none.
@@ -89,7 +97,8 @@ impl SolidMeter {
             energy += solid.elastic_energy()?;
             jacobian = jacobian.min(solid.smallest_jacobian().0);
         }
-        let [narrowest, widest] = width.map_or([f64::NAN; 2], |width| [width.minimum, width.maximum]);
+        let [narrowest, widest] =
+            width.map_or([f64::NAN; 2], |width| [width.minimum, width.maximum].map(|w| w - 2.0 * self.set_back));
         Ok([narrowest, widest, gap, total, normal, drift, energy, jacobian])
     }
 }
@@ -202,7 +211,9 @@ mod tests {
     #[test]
     fn walls_of_a_channel() {
         let swimmer = Swimmer { lengths: [4.0, 2.4], spacing: 0.2, ..Swimmer::default() };
-        let (scene, _, _) = ElasticChannel::new(swimmer, Moduli::new(100.0, 200.0).unwrap()).build().unwrap();
+        let channel = ElasticChannel::new(swimmer, Moduli::new(100.0, 200.0).unwrap());
+        let (scene, _, _) = channel.build().unwrap();
+        let thickness = 1.5 - channel.set_back();
         let system = scene.system();
         let area = |ring: &[Vec2]| {
             let next = ring.iter().cycle().skip(1);
@@ -211,9 +222,11 @@ mod tests {
         for solid in solids(system) {
             let shape = solid_shape(solid);
             assert_eq!((shape.area.len(), shape.edges.len()), (1, 2));
-            assert!((area(&shape.area[0]) - 4.0 * 1.5).abs() < 1e-9, "{}", area(&shape.area[0]));
+            assert!((area(&shape.area[0]) - 4.0 * thickness).abs() < 1e-9, "{}", area(&shape.area[0]));
         }
-        let measured = SolidMeter::of(system).unwrap().measure(system).unwrap();
+        let mut meter = SolidMeter::of(system).unwrap();
+        meter.set_back(channel.set_back());
+        let measured = meter.measure(system).unwrap();
         let value = |name: &str| measured[SolidMeter::NAMES.iter().position(|known| *known == name).unwrap()];
         assert!((value("channel_width_min") - 2.4).abs() < 1e-12 && (value("channel_width_max") - 2.4).abs() < 1e-12);
         assert!((value("droplet_gap") - 0.2).abs() < 5e-3 && value("elastic_energy") < 1e-18);
@@ -227,7 +240,7 @@ mod tests {
         };
         // None is stretched over the period, and together they are both walls.
         assert!(pieces.triangles.iter().all(|t| size(t) > 0.0 && size(t) < 0.03));
-        assert!((pieces.triangles.iter().map(size).sum::<f64>() - 2.0 * 4.0 * 1.5).abs() < 1e-9);
+        assert!((pieces.triangles.iter().map(size).sum::<f64>() - 2.0 * 4.0 * thickness).abs() < 1e-9);
         assert!(pieces.stress.iter().flatten().all(|s| s.abs() < 1e-9));
     }
 }

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
-use motile::{ElasticChannel, Swimmer, WallMaterial, WallMesh, elastic_solids::Moduli};
+use motile::{ElasticChannel, Swimmer, WallMaterial, WallMesh, WallSurface, elastic_solids::Moduli};
 
 use crate::flags::RADIUS;
 use crate::method_flags::FlowMethod;
@@ -32,6 +32,17 @@ pub enum Mesh {
     Unstructured,
 }
 
+/// What is done about the smearing of the walls' surfaces over the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SurfaceRule {
+    /// The walls are meshed as much further back.
+    SetBack,
+    /// A mobility correction, for droplets that keep away from the walls.
+    Corrected,
+    /// Nothing.
+    Plain,
+}
+
 /// A channel with elastic walls, periodic in x.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct ElasticFlags {
@@ -56,9 +67,9 @@ pub struct ElasticFlags {
     /// Thickness of each wall (R0)
     #[arg(long, default_value_t = 1.5, value_parser = positive, allow_hyphen_values = true)]
     pub wall_thickness: f64,
-    /// Leave out the mobility correction of the walls' surfaces
-    #[arg(long)]
-    pub no_surface_correction: bool,
+    /// What is done about the smearing of the walls' surfaces over the grid; without it the preset's
+    #[arg(long, value_enum)]
+    pub surface: Option<SurfaceRule>,
     /// Width of the channel (R0); in one narrower than the droplet this starts squeezed
     #[arg(long, default_value_t = 2.0, value_parser = positive, allow_hyphen_values = true)]
     pub width: f64,
@@ -109,7 +120,12 @@ impl ElasticFlags {
             },
             mesh_spacing: self.mesh_spacing,
             thickness,
-            surface_corrected: channel.surface_corrected && !self.no_surface_correction,
+            surface: match self.surface {
+                Some(SurfaceRule::SetBack) => WallSurface::SetBack,
+                Some(SurfaceRule::Corrected) => WallSurface::Corrected,
+                Some(SurfaceRule::Plain) => WallSurface::Plain,
+                None => channel.surface,
+            },
             drive: self.drive.into(),
             ..channel
         })

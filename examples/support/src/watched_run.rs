@@ -95,6 +95,15 @@ impl WatchedRun {
         })
     }
 
+    /// The same where solids are meshed this far behind the surfaces where they stop the fluid (length): widths and gaps
+    /// are those between these surfaces.
+    #[must_use]
+    pub fn with_set_back(mut self, set_back: f64) -> Self {
+        self.gap = self.gap.with_set_back(set_back);
+        self.recorder.set_back(set_back);
+        self
+    }
+
     /// Runs. What the scene has come to is recorded even where it breaks off.
     ///
     /// # Errors
