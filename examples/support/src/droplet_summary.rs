@@ -1,6 +1,9 @@
 //! The results of a run with a droplet.
 
-use motile::{active_interface::Observables, ib_core::FlowWork};
+use motile::{
+    active_interface::Observables,
+    ib_core::{FlowWork, StepReport},
+};
 
 use crate::{Steadiness, Summary};
 
@@ -15,6 +18,10 @@ pub struct RunCost {
     pub seconds: f64,
     /// Work for the flow.
     pub work: FlowWork,
+    /// How long the steps were, what made them so, and how many were taken back.
+    pub report: StepReport,
+    /// Stages of the integrator.
+    pub stages: usize,
     /// Why the run broke off, if it did.
     pub failure: Option<String>,
 }
@@ -56,6 +63,17 @@ pub fn droplet_summary(
     summary.put("time", cost.time, "simulated");
     summary.put("steps", cost.steps, "");
     summary.put("dt", cost.time / cost.steps as f64, "mean time step");
+    let report = &cost.report;
+    summary.put("dt_shortest", report.shortest, "");
+    summary.put("dt_longest", report.longest, "");
+    let limiting = report.most_limiting().map(|limiting| match limiting.body.as_str() {
+        "" => limiting.reason.clone(),
+        body => format!("{} of {body}", limiting.reason),
+    });
+    summary.put("dt_set_by", limiting, "for most steps");
+    summary.put("steps_rejected", report.rejections, "for their error");
+    summary.put("steps_failed", report.failures, "and taken anew");
+    summary.put("stages", cost.stages, "of all steps");
     let work = cost.work;
     summary.put("stokes_solves", work.stokes_solves, "on the grid");
     let mean = work.iterations as f64 / work.evaluations.max(1) as f64;

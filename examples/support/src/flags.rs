@@ -9,8 +9,8 @@ use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 use motile::{InitialState, Swimmer};
 
-use crate::MethodFlags;
 use crate::parse::{activity, finite, not_negative, pair, positive, seed};
+use crate::{CheckpointFlags, MethodFlags};
 
 /// Radius of a droplet, the unit of length.
 pub(crate) const RADIUS: f64 = 1.0;
@@ -168,6 +168,9 @@ pub struct OutputFlags {
     /// Directory of the results; without it that of the example in out/
     #[arg(long, value_name = "DIRECTORY")]
     pub out: Option<PathBuf>,
+    /// Checkpoints
+    #[command(flatten)]
+    pub checkpoints: CheckpointFlags,
 }
 
 impl OutputFlags {

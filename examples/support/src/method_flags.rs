@@ -51,7 +51,7 @@ pub struct MethodFlags {
     /// Grid spacing h (R0); without a grid, that of pictures [default: 0.05]
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub spacing: Option<f64>,
-    /// Time step, or 'auto'; without it the preset's
+    /// Time step, 'auto' (half of what is stable), 'adaptive' or 'adaptive:TOLERANCE'; without it the preset's
     #[arg(long, allow_hyphen_values = true)]
     pub dt: Option<TimeStep>,
     /// Time to be simulated
@@ -124,6 +124,7 @@ impl MethodFlags {
     pub fn step(&self) -> StepSize {
         match (self.dt, self.preset) {
             (Some(TimeStep::Fixed(dt)), _) => StepSize::Fixed(dt),
+            (Some(TimeStep::Adaptive(tolerance)), _) => StepSize::Adaptive { tolerance },
             (None, Preset::Thesis) => Swimmer::thesis().step,
             (Some(TimeStep::Auto), _) | (None, Preset::Accurate) => StepSize::OfLimit(STEP_OF_LIMIT),
         }

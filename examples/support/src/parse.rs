@@ -4,11 +4,16 @@ use std::{fmt, str::FromStr};
 
 use motile::ib_core::{AnyKernel, Kernel};
 
+/// Largest error of an adaptive step unless something else is said.
+const TOLERANCE: f64 = 1e-5;
+
 /// The time step that is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum TimeStep {
-    /// As large as stability and accuracy allow.
+    /// Half of what is stable.
     Auto,
+    /// As long as accuracy and stability allow, with this largest error of a step.
+    Adaptive(f64),
     /// This one (time).
     Fixed(f64),
 }
@@ -20,9 +25,17 @@ impl FromStr for TimeStep {
         if text == "auto" {
             return Ok(Self::Auto);
         }
-        match text.parse::<f64>() {
-            Ok(step) if step.is_finite() && step > 0.0 => Ok(Self::Fixed(step)),
-            _ => Err("must be a number above 0 or 'auto'".into()),
+        let (kind, number) = match text.strip_prefix("adaptive") {
+            Some("") => return Ok(Self::Adaptive(TOLERANCE)),
+            Some(rest) => (Self::Adaptive as fn(f64) -> Self, rest.strip_prefix(':').unwrap_or("none")),
+            None => (Self::Fixed as fn(f64) -> Self, text),
+        };
+        match number.parse::<f64>() {
+            Ok(number) if number.is_finite() && number > 0.0 => match kind(number) {
+                Self::Adaptive(tolerance) if tolerance >= 1.0 => Err("must have a tolerance below 1".into()),
+                step => Ok(step),
+            },
+            _ => Err("must be a number above 0, 'auto', 'adaptive' or 'adaptive:' and a tolerance".into()),
         }
     }
 }
@@ -31,6 +44,7 @@ impl fmt::Display for TimeStep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Auto => f.write_str("auto"),
+            Self::Adaptive(tolerance) => write!(f, "adaptive:{tolerance}"),
             Self::Fixed(step) => write!(f, "{step}"),
         }
     }

@@ -6,12 +6,12 @@ use anyhow::{Context, Result};
 use motile::{
     Method, SolidGap, Swimmer,
     active_interface::{ActiveDroplet, ConcentrationProfile, Frame, concentration_profile},
-    ib_core::{Every, Handle, Hydrodynamics, Observer, Scene, SceneError, System, Vec2},
+    ib_core::{Every, Handle, Hydrodynamics, Integrator, Observer, Scene, SceneError, StepSize, System, Vec2},
 };
 
 use crate::{
-    Decided, Dial, Film, Look, OutputFlags, Raster, Recorder, RunCost, Snapshot, Steadiness, Summary, VtkOutput,
-    check_run, concentration_plot, domain_raster, droplet_summary, put_solids, time_series,
+    CheckpointFlags, Decided, Dial, Film, Look, OutputFlags, Raster, Recorder, RunCost, Snapshot, Steadiness, Summary,
+    VtkOutput, check_run, concentration_plot, domain_raster, droplet_summary, put_solids, time_series,
 };
 
 /// Rows of the trajectory and files for ParaView in a run.
@@ -43,6 +43,8 @@ pub struct WatchedRun {
     pictures: Option<(Film, VtkOutput)>,
     cost: RunCost,
     gap: SolidGap,
+    checkpoints: CheckpointFlags,
+    description: String,
 }
 
 impl WatchedRun {
@@ -51,8 +53,8 @@ impl WatchedRun {
     ///
     /// # Errors
     /// A time step that is not stable, before anything is written; a directory that cannot be made.
-    pub fn new<H: Hydrodynamics>(
-        scene: &mut Scene<H>,
+    pub fn new<H: Hydrodynamics, I: Integrator>(
+        scene: &mut Scene<H, I>,
         droplet: Handle<ActiveDroplet>,
         swimmer: &Swimmer,
         end: f64,
@@ -61,6 +63,9 @@ impl WatchedRun {
         caption: String,
     ) -> Result<Self> {
         check_run(scene, end, swimmer.step)?;
+        // The time step may change on the way.
+        let description = format!("{name}: {:?}", Swimmer { step: StepSize::default(), ..swimmer.clone() });
+        output.checkpoints.resume(scene, &description, end)?;
         let body = scene.body(droplet);
         let frame = Frame::new(Vec2::new(swimmer.offset[0], swimmer.offset[1]), swimmer.angle)?;
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
@@ -92,6 +97,8 @@ impl WatchedRun {
             pictures,
             cost: RunCost::default(),
             gap: SolidGap::new(SOLID_OVERLAP * swimmer.spacing),
+            checkpoints: output.checkpoints.clone(),
+            description,
         })
     }
 
@@ -108,7 +115,7 @@ impl WatchedRun {
     ///
     /// # Errors
     /// What made the run break off, as the inner result; files that cannot be written.
-    pub fn go<H: Hydrodynamics>(&mut self, scene: &mut Scene<H>) -> Result<Result<(), SceneError>> {
+    pub fn go<H: Hydrodynamics, I: Integrator>(&mut self, scene: &mut Scene<H, I>) -> Result<Result<(), SceneError>> {
         self.go_until(scene, &mut |_: &mut System<H>| Ok::<(), std::convert::Infallible>(()))
     }
 
@@ -116,9 +123,9 @@ impl WatchedRun {
     ///
     /// # Errors
     /// As [`WatchedRun::go`].
-    pub fn go_until<H: Hydrodynamics>(
+    pub fn go_until<H: Hydrodynamics, I: Integrator>(
         &mut self,
-        scene: &mut Scene<H>,
+        scene: &mut Scene<H, I>,
         end: &mut dyn Observer<H>,
     ) -> Result<Result<(), SceneError>> {
         let mut run = scene
@@ -132,6 +139,7 @@ impl WatchedRun {
             let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
             run = run.observe(Every::Time(self.end / frames), film).observe(Every::Time(self.end / FILES), vtk);
         }
+        let run = self.checkpoints.watch(run, &self.description)?;
         let outcome = match run.go() {
             Err(SceneError::Observer { source, .. }) if source.is::<Decided>() => Ok(()),
             outcome => outcome,
@@ -141,8 +149,11 @@ impl WatchedRun {
             steps: scene.steps(),
             seconds: self.dial.finish(),
             work: scene.system().hydrodynamics().work(),
-            failure: outcome.as_ref().err().map(ToString::to_string),
+            report: scene.step_report().clone(),
+            stages: scene.integrator_work().stages,
+            failure: outcome.as_ref().err().map(SceneError::explanation),
         };
+        self.checkpoints.save(scene, &self.description, &outcome)?;
         self.recorder.finish(scene.system_mut())?;
         Ok(outcome)
     }
@@ -191,7 +202,7 @@ impl WatchedRun {
     ///
     /// # Errors
     /// Files that cannot be written.
-    pub fn write_pictures<H: Hydrodynamics>(&self, scene: &mut Scene<H>) -> Result<()> {
+    pub fn write_pictures<H: Hydrodynamics, I: Integrator>(&self, scene: &mut Scene<H, I>) -> Result<()> {
         let (Some((film, _)), Some(last)) = (&self.pictures, self.recorder.last()) else { return Ok(()) };
         let (directory, trajectory) = (&self.directory, self.recorder.table());
         time_series(trajectory)?.write(directory, "time_series")?;

@@ -1,0 +1,140 @@
+//! Checkpoints of a run: where they are saved, and from which one it goes on.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use motile::ib_core::{Checkpoint, Hydrodynamics, Integrator, Run, Scene, SceneError};
+
+use crate::parse::count;
+
+/// Steps between checkpoints unless something else is said.
+const EVERY: usize = 500;
+
+/// Whether the user has asked the run to stop.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// Checkpoints.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+pub struct CheckpointFlags {
+    /// File to save checkpoints to; Ctrl-C then saves one and ends the run
+    #[arg(long, value_name = "FILE")]
+    pub checkpoint: Option<PathBuf>,
+    /// Steps between checkpoints [default: 500]
+    #[arg(long, value_name = "STEPS", value_parser = count, requires = "checkpoint", allow_hyphen_values = true)]
+    pub checkpoint_every: Option<usize>,
+    /// Checkpoint to go on from; give the flags of the run that saved it
+    #[arg(long, value_name = "FILE")]
+    pub resume: Option<PathBuf>,
+}
+
+impl CheckpointFlags {
+    /// Brings the scene to the state to go on from, if there is one. A checkpoint whose description is another one was saved with other
+    /// flags: the run goes on with those that are given now, and says so.
+    ///
+    /// # Errors
+    /// A checkpoint that cannot be read or is of another scene, or one that is not before `end`.
+    pub fn resume<H: Hydrodynamics, I: Integrator>(
+        &self,
+        scene: &mut Scene<H, I>,
+        description: &str,
+        end: f64,
+    ) -> Result<()> {
+        let Some(path) = &self.resume else { return Ok(()) };
+        let checkpoint = Checkpoint::read(path).with_context(|| format!("--resume {}", path.display()))?;
+        ensure!(
+            checkpoint.time() < end,
+            "--resume {}: the checkpoint is of t = {}, give a --time after that",
+            path.display(),
+            checkpoint.time()
+        );
+        scene.resume(&checkpoint).with_context(|| format!("--resume {}", path.display()))?;
+        if checkpoint.description() != description {
+            eprintln!(
+                "note: the checkpoint was saved with other settings ({}), the run goes on with those given now",
+                checkpoint.description()
+            );
+        }
+        Ok(())
+    }
+
+    /// The run with checkpoints and Ctrl-C as the flags say.
+    ///
+    /// # Errors
+    /// Ctrl-C that cannot be listened to.
+    pub fn watch<'a, H: Hydrodynamics, I: Integrator>(
+        &'a self,
+        run: Run<'a, H, I>,
+        description: &'a str,
+    ) -> Result<Run<'a, H, I>> {
+        let Some(path) = &self.checkpoint else { return Ok(run) };
+        match ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed)) {
+            // A second run of the same program is listened to already.
+            Ok(()) | Err(ctrlc::Error::MultipleHandlers) => {}
+            Err(error) => return Err(error).context("Ctrl-C cannot be listened to"),
+        }
+        Ok(run.save(self.checkpoint_every.unwrap_or(EVERY), path, description).stop_on(&STOP))
+    }
+
+    /// Saves what a run has come to: to the file of the flags where it ended or was stopped, and beside it, with `.last` added to
+    /// the name, where it failed, so that the last periodic checkpoint stays.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn save<H: Hydrodynamics, I: Integrator>(
+        &self,
+        scene: &Scene<H, I>,
+        description: &str,
+        outcome: &Result<(), SceneError>,
+    ) -> Result<()> {
+        let Some(path) = &self.checkpoint else { return Ok(()) };
+        let path = match outcome {
+            Ok(()) | Err(SceneError::Stopped { .. }) => path.clone(),
+            Err(_) => last(path),
+        };
+        Ok(scene.checkpoint(description).write(&path)?)
+    }
+}
+
+/// The file for the last state before a failure.
+fn last(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".last");
+    PathBuf::from(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motile::Swimmer;
+    use motile::ib_core::StepSize;
+
+    #[test]
+    fn a_run_in_two_parts_is_a_whole_one() {
+        let directory = std::env::temp_dir().join(format!("motile-flags-{}", std::process::id()));
+        crate::make_directory(&directory).unwrap();
+        let path = directory.join("state");
+        let swimmer = Swimmer { spacing: 0.25, ..Swimmer::default() };
+        let flags = CheckpointFlags { checkpoint: Some(path.clone()), ..CheckpointFlags::default() };
+        let make = || swimmer.build_on_grid().unwrap().0;
+        let mut first = make();
+        let run = first.run(0.25).step_size(StepSize::Fixed(0.025));
+        let outcome = flags.watch(run, "a droplet").unwrap().go();
+        assert!(!path.exists(), "there were fewer than 500 steps");
+        flags.save(&first, "a droplet", &outcome).unwrap();
+
+        let again = CheckpointFlags { resume: Some(path.clone()), ..CheckpointFlags::default() };
+        let mut second = make();
+        again.resume(&mut second, "a droplet", 0.5).unwrap();
+        second.run(0.5).step_size(StepSize::Fixed(0.025)).go().unwrap();
+        first.run(0.5).step_size(StepSize::Fixed(0.025)).go().unwrap();
+        assert_eq!(first.checkpoint(""), second.checkpoint(""));
+        let error = again.resume(&mut make(), "a droplet", 0.2).unwrap_err();
+        assert!(format!("{error:#}").contains("--time after"), "{error:#}");
+        std::fs::write(&path, "nothing").unwrap();
+        let error = again.resume(&mut make(), "a droplet", 0.5).unwrap_err();
+        assert!(format!("{error:#}").contains("not a checkpoint"), "{error:#}");
+        std::fs::remove_dir_all(&directory).unwrap();
+    }
+}

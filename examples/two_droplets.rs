@@ -1,0 +1,163 @@
+//! Two active droplets meet in a periodic box: head-on, side by side, or one behind the other.
+//!
+//! `cargo run --release --example two_droplets` simulates two droplets that swim towards each other, prints where they
+//! are in the end and how close they came, and writes to `out/two_droplets/`:
+//!
+//! * `final.png`, a picture of the final state;
+//! * `trajectory.csv`, positions, speeds and the distance over time, and `summary.json`, the results.
+//!
+//! `--help` lists the flags.
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use clap::{Parser, ValueEnum};
+use motile::active_interface::{ActiveDroplet, centroid_velocity, polygon_moments};
+use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
+use motile::{PeriodicBox, Swimmer};
+use support::{
+    DropletFlags, MethodFlags, OutputFlags, Progress, Summary, Trajectory, pair, positive, say, write_scene_picture,
+};
+
+/// How the droplets start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Meeting {
+    /// Towards each other.
+    HeadOn,
+    /// Abreast, the same way.
+    SideBySide,
+    /// One behind the other, the same way.
+    LeaderAndFollower,
+}
+
+/// Two active droplets meet in a periodic box.
+#[derive(Debug, Parser)]
+struct Flags {
+    /// How the droplets start
+    #[arg(long, value_enum, default_value_t = Meeting::HeadOn)]
+    meeting: Meeting,
+    /// Distance of their centres at the start (R0)
+    #[arg(long, default_value_t = 4.0, value_parser = positive, allow_hyphen_values = true)]
+    distance: f64,
+    /// Sides of the box (R0)
+    #[arg(long = "box", value_name = "X,Y", default_value = "12,6", value_parser = pair, allow_hyphen_values = true)]
+    sides: [f64; 2],
+    /// Activity of the second droplet; without it that of the first
+    #[arg(long, value_parser = support::activity, allow_hyphen_values = true)]
+    second_activity: Option<f64>,
+    /// Viscosity of the second droplet; without it that of the first
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    second_viscosity_in: Option<f64>,
+    /// Strength and range of a short-range repulsion between the droplets; without it there is none
+    #[arg(long, value_name = "STRENGTH,RANGE", value_parser = pair, allow_hyphen_values = true)]
+    repulsion: Option<[f64; 2]>,
+    #[command(flatten)]
+    droplet: DropletFlags,
+    #[command(flatten)]
+    method: MethodFlags,
+    #[command(flatten)]
+    output: OutputFlags,
+}
+
+/// Rows of the trajectory.
+const ROWS: f64 = 1000.0;
+
+fn main() -> ExitCode {
+    support::run(meet)
+}
+
+fn meet(flags: &Flags) -> Result<()> {
+    // Both droplets: where they start and which way they swim.
+    let half = 0.5 * flags.distance;
+    let (places, second_angle) = match flags.meeting {
+        Meeting::HeadOn => ([[-half, 0.0], [half, 0.0]], 180.0),
+        Meeting::SideBySide => ([[0.0, -half], [0.0, half]], 0.0),
+        Meeting::LeaderAndFollower => ([[-half, 0.0], [half, 0.0]], 0.0),
+    };
+    let first = Swimmer { lengths: flags.sides, offset: places[0], ..flags.droplet.swimmer(&flags.method) };
+    let second = Swimmer {
+        offset: places[1],
+        angle: first.angle + f64::to_radians(second_angle),
+        activity: flags.second_activity.unwrap_or(first.activity),
+        viscosity_inside: flags.second_viscosity_in.or(first.viscosity_inside),
+        ..first.clone()
+    };
+    let mut scene = first.scene()?;
+    if let Some([strength, range]) = flags.repulsion {
+        scene = scene.with_repulsion(Repulsion::new(strength, range)?);
+    }
+    let droplets = [("first droplet", &first), ("second droplet", &second)]
+        .map(|(name, swimmer)| swimmer.droplet().map(|droplet| scene.add(droplet.with_name(name))));
+    let [one, two] = droplets;
+    let droplets = [one?, two?];
+
+    // The run, observed.
+    let end = flags.method.time;
+    let description = format!("two_droplets: {first:?} {second:?}");
+    flags.output.checkpoints.resume(&mut scene, &description, end)?;
+    let directory = flags.output.directory("two_droplets")?;
+    let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
+    let mut table = Trajectory::create(&directory.join("trajectory.csv"), &names)?;
+    let mut progress = Progress::new(end, flags.output.quiet);
+    let mut record = |system: &mut System<PeriodicBox>| table.push(&look(system, droplets)?);
+    let mut tell = |system: &mut System<PeriodicBox>| -> Result<()> {
+        let [_, _, _, speed, ..] = look(system, droplets)?;
+        progress.update(system.time(), system.steps(), speed);
+        Ok(())
+    };
+    let run = scene.run(end).observe(Every::Time(end / ROWS), &mut record).observe(Every::Steps(1), &mut tell);
+    let outcome = flags.output.checkpoints.watch(run, &description)?.go();
+    progress.finish();
+    flags.output.checkpoints.save(&scene, &description, &outcome)?;
+
+    // The results, also of a run that broke off.
+    let [_, x1, y1, speed1, x2, y2, speed2, distance] = look(scene.system_mut(), droplets)?;
+    let mut summary = Summary::new();
+    summary.put("first", [x1, y1].to_vec(), "position of the first droplet (R0)");
+    summary.put("second", [x2, y2].to_vec(), "position of the second droplet (R0)");
+    summary.put("first_speed", speed1, "(R0 per time)");
+    summary.put("second_speed", speed2, "(R0 per time)");
+    summary.put("distance", distance, "of the centres (R0)");
+    summary.put("minimum_gap", scene.system().minimum_gap(), "between the interfaces, over the run (R0)");
+    summary.put("repulsion", flags.repulsion.map(|values| values.to_vec()), "strength and range, if there was one");
+    for (name, droplet) in ["first_area_change", "second_area_change"].into_iter().zip(droplets) {
+        let body = scene.body(droplet);
+        summary.put(
+            name,
+            polygon_moments(body.markers())?.area / body.initial_area() - 1.0,
+            "relative, since the start",
+        );
+    }
+    summary.put("time", scene.time(), "simulated");
+    summary.put("steps", scene.steps(), "");
+    summary.put("seconds", progress.seconds(), "of computation");
+    summary.put("failure", outcome.as_ref().err().map(SceneError::explanation), "if the run broke off");
+    summary.write(&directory.join("summary.json"))?;
+    say(summary.table().trim_end());
+    if !flags.output.no_pictures {
+        let title = format!("t = {:.1}", scene.time());
+        let path = directory.join("final.png");
+        write_scene_picture(scene.system_mut(), first.spacing, first.mean_concentration, &title, &path)?;
+    }
+    say(format_args!("results in {}", directory.display()));
+    Ok(outcome?)
+}
+
+/// Time, position and speed of both droplets, and the distance of their centres or nearest images.
+fn look(system: &mut System<PeriodicBox>, droplets: [Handle<ActiveDroplet>; 2]) -> Result<[f64; 8]> {
+    let domain = system.hydrodynamics().medium().domain;
+    let time = system.time();
+    system.evaluate()?;
+    let mut seen = [(Vec2::zeros(), 0.0); 2];
+    for ((place, speed), (body, droplet)) in seen.iter_mut().zip(support::droplets(system).zip(droplets)) {
+        let state = body.interface_state(system, droplet.index());
+        *place = polygon_moments(state.markers)?.centroid;
+        *speed = centroid_velocity(state.markers, state.velocities)?.norm();
+    }
+    let [(a, speed1), (b, speed2)] = seen;
+    let mut apart = b - a;
+    for (component, period) in apart.iter_mut().zip(domain.periods) {
+        *component -= period.map_or(0.0, |period| period * (*component / period).round());
+    }
+    Ok([time, a.x, a.y, speed1, b.x, b.y, speed2, apart.norm()])
+}

@@ -1,0 +1,125 @@
+//! What is fuzzed: the readers of checkpoints, of Gmsh files and of command lines. Each function takes any bytes and must neither
+//! panic nor run out of memory or time.
+
+use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
+use clap::Parser;
+use elastic_solids::TriangleMesh;
+use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
+use stokes_grid::{Grid, PeriodicStokes};
+use support::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, OutputFlags};
+
+type Small = Scene<ImmersedBoundary<PeriodicStokes, CubicQuadratic>>;
+
+/// A scene that checkpoints are resumed in.
+///
+/// # Panics
+/// Never: its numbers are good ones.
+#[must_use]
+pub fn scene() -> Small {
+    let make = || -> Result<Small, Box<dyn std::error::Error>> {
+        let solver = PeriodicStokes::new(Grid::periodic(16, 16, 0.25)?, 10.0)?;
+        let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+        let markers = Curve::circle(1.0)?.markers(32)?;
+        let numbers = InitialConcentration::polarised(100.0, 0.0)?.particle_numbers(&markers)?;
+        let tension = ContractileTension::thesis(10.0, -2.0, 10.0, 100.0)?;
+        scene.add(ActiveDroplet::new(&markers, numbers, tension, 0.1)?);
+        Ok(scene)
+    };
+    make().expect("a scene of good numbers")
+}
+
+/// Reads a checkpoint, as a whole file and as contents whose checksum is right, and goes on from it where a scene takes it.
+pub fn checkpoint(bytes: &[u8]) {
+    let file = Checkpoint::from_bytes(bytes);
+    let contents = Checkpoint::from_contents(bytes);
+    for checkpoint in [file, contents].into_iter().flatten() {
+        // What is read is written as it was.
+        let again = checkpoint.to_bytes().expect("a checkpoint has bytes");
+        let twice = Checkpoint::from_bytes(&again).expect("what was written can be read");
+        assert_eq!(twice.to_bytes().expect("a checkpoint has bytes"), again);
+        let mut scene = scene();
+        let before = scene.checkpoint("");
+        if scene.resume(&checkpoint).is_err() {
+            assert!(scene.checkpoint("") == before, "a refused checkpoint leaves the scene as it was");
+        } else {
+            let _ = scene.step(1e-3);
+        }
+    }
+}
+
+/// Reads a Gmsh file, plain and periodic; what is a mesh is written and read again.
+pub fn gmsh(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let _ = TriangleMesh::from_periodic_text(text, 2.0);
+    if let Ok(mesh) = TriangleMesh::from_text(text) {
+        let written = mesh.to_text().expect("a mesh that is not periodic can be written");
+        let again = TriangleMesh::from_text(&written).expect("what was written can be read");
+        assert_eq!(again.triangles().len(), mesh.triangles().len());
+    }
+}
+
+/// All flags of scenes.
+#[derive(Debug, Parser)]
+struct Flags {
+    #[command(flatten)]
+    droplet: DropletFlags,
+    #[command(flatten)]
+    method: MethodFlags,
+    #[command(flatten)]
+    output: OutputFlags,
+    #[command(subcommand)]
+    region: Option<Region>,
+}
+
+/// Where the droplet is: their flags have names in common.
+#[derive(Debug, clap::Subcommand)]
+enum Region {
+    Box(BoxFlags),
+    Channel(ChannelFlags),
+    Elastic(ElasticFlags),
+}
+
+/// Parses a command line, one flag or value a line or between spaces, checks it as the examples do, and makes the droplet where that is
+/// cheap.
+pub fn flags(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let words = std::iter::once("scene").chain(text.split_whitespace());
+    let Ok(Flags { droplet, method, output: _, region }) = Flags::try_parse_from(words) else { return };
+    let checked = match &region {
+        None => Ok(()),
+        Some(Region::Box(region)) => region.check(&method),
+        Some(Region::Channel(channel)) => channel.check(&method),
+        Some(Region::Elastic(walls)) => walls.channel(&droplet, &method, 0.0).map(|_| ()),
+    };
+    let swimmer = droplet.swimmer(&method);
+    if checked.is_ok() && swimmer.spacing > 0.02 {
+        let _ = swimmer.droplet();
+    }
+}
+
+/// Inputs to start from: valid ones.
+#[must_use]
+pub fn corpus(target: &str) -> Vec<Vec<u8>> {
+    match target {
+        "checkpoint" => {
+            let mut scene = scene();
+            let fresh = scene.checkpoint("fresh").to_bytes();
+            let stepped = scene.step(0.01).ok().map(|()| scene.checkpoint("stepped").to_bytes());
+            let files: Vec<Vec<u8>> = [Some(fresh), stepped].into_iter().flatten().flatten().collect();
+            let contents = files.iter().map(|file| file[24..].to_vec());
+            files.clone().into_iter().chain(contents).collect()
+        }
+        "gmsh" => {
+            let strip = |columns, rows| elastic_solids::equilateral_block(ib_core::Vec2::zeros(), columns, rows, 0.5);
+            [strip(2, 2), strip(4, 3)].into_iter().flatten().flat_map(|mesh| mesh.to_text()).map(String::into_bytes).collect()
+        }
+        _ => [
+            "--activity -4 --excluded-volume 8 --viscosity 10 --spacing 0.1 --dt auto --time 250 box --box 12 --offset -0.03,0.01",
+            "--kernel gaussian6 --preset thesis --initial perturbed --seed 7 --no-pictures --out somewhere channel --width 2 --length 8",
+            "--dt adaptive:1e-4 --checkpoint file --checkpoint-every 10 --resume other --spacing 0.1 elastic --width 3 --material neo-hookean",
+            "--method boundary-integral --nodes 64 --concentration-cells 256 --viscosity-in 1000 --viscosity-out 10",
+        ]
+        .map(|line| line.as_bytes().to_vec())
+        .to_vec(),
+    }
+}

@@ -1,0 +1,168 @@
+//! Scenes that are hard to compute: what is hard about each, and what must come of it.
+//!
+//! [`cases`] lists them. Each is a number of runs, by the methods that apply, in a quick version for tests and a longer one for
+//! the example `hard_cases`. A run must finish with its area and particles, or end in the error that is right for it;
+//! nothing else counts.
+
+mod drive;
+mod droplets;
+mod ending;
+mod pairs;
+mod shapes;
+mod steps;
+mod walls;
+mod weight;
+
+pub use drive::{Drift, drift};
+pub use ending::{CaseError, Ending};
+pub use weight::Weight;
+
+use std::fmt;
+
+use motile::AnyFlow;
+use motile::ib_core::System;
+
+/// How long runs are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// Seconds at most, for tests.
+    Quick,
+    /// Long enough to show creep and late failures, for the example.
+    Long,
+}
+
+impl Extent {
+    /// One of two values.
+    pub(crate) fn pick<T>(self, quick: T, long: T) -> T {
+        match self {
+            Self::Quick => quick,
+            Self::Long => long,
+        }
+    }
+}
+
+/// How a run is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// On a grid, by the accurate method.
+    Grid,
+    /// Without a grid.
+    Integral,
+    /// On a grid, by the method of the thesis, with steps of half the stability limit.
+    Thesis,
+    /// On a grid, by the Runge-Kutta-Chebyshev method with adaptive steps.
+    Chebyshev,
+}
+
+impl fmt::Display for Way {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Grid => "immersed boundary",
+            Self::Integral => "boundary integral",
+            Self::Thesis => "thesis",
+            Self::Chebyshev => "RKC, adaptive",
+        })
+    }
+}
+
+/// What a run came to.
+#[derive(Debug)]
+pub struct Outcome {
+    /// How it ended.
+    pub ending: Ending,
+    /// The error in full, if there was one.
+    pub explanation: Option<String>,
+    /// Time reached.
+    pub time: f64,
+    /// Steps.
+    pub steps: usize,
+    /// Steps taken back.
+    pub taken_back: usize,
+    /// Evaluations of the flow.
+    pub evaluations: usize,
+    /// What changed.
+    pub drift: Drift,
+    /// Wall clock time (seconds).
+    pub seconds: f64,
+}
+
+/// Looks at the last state of a run.
+pub type Look<'a> = &'a mut dyn FnMut(&mut System<AnyFlow>);
+
+/// One run of a case.
+pub struct Trial {
+    /// Number of the case.
+    pub number: usize,
+    /// What is hard.
+    pub name: &'static str,
+    /// How it is computed.
+    pub way: Way,
+    /// Endings that are right; `Finished` asks for area and particles too.
+    pub expected: &'static [Ending],
+    /// Largest relative change of the area of a run that finishes.
+    pub area: f64,
+    run: fn(Way, Extent, Look<'_>) -> Result<Outcome, CaseError>,
+}
+
+impl fmt::Debug for Trial {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "case {} ({}), {}", self.number, self.name, self.way)
+    }
+}
+
+/// Largest relative change of the number of particles.
+pub const PARTICLES: f64 = 1e-9;
+
+impl Trial {
+    /// Runs it; `look` sees the last state.
+    ///
+    /// # Errors
+    /// A scene that could not be made, unless that is what is right for it.
+    pub fn run(&self, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
+        (self.run)(self.way, extent, look)
+    }
+
+    /// What is wrong with an outcome, if anything is.
+    #[must_use]
+    pub fn complaint(&self, outcome: &Outcome) -> Option<String> {
+        if !self.expected.contains(&outcome.ending) {
+            let why = outcome.explanation.as_deref().unwrap_or_default();
+            return Some(format!("{self:?} ended as {:?}, not as one of {:?}: {why}", outcome.ending, self.expected));
+        }
+        let Drift { area, particles, .. } = outcome.drift;
+        if outcome.ending == Ending::Finished && !(area.abs() <= self.area && particles.abs() <= PARTICLES) {
+            return Some(format!("{self:?} changed its area by {area:e} and its particles by {particles:e}"));
+        }
+        None
+    }
+}
+
+/// All runs of all cases, in their order.
+#[must_use]
+pub fn cases() -> Vec<Trial> {
+    let mut all = droplets::trials();
+    all.extend(shapes::trials());
+    all.extend(pairs::trials());
+    all.extend(walls::trials());
+    all.extend(steps::trials());
+    all.sort_by_key(|trial| trial.number);
+    all
+}
+
+/// What makes [`Trial`]s of the same case.
+pub(crate) struct Recipe {
+    number: usize,
+    name: &'static str,
+    ways: &'static [Way],
+    expected: &'static [Ending],
+    area: f64,
+    run: fn(Way, Extent, Look<'_>) -> Result<Outcome, CaseError>,
+}
+
+pub(crate) fn expand(recipes: &[Recipe]) -> Vec<Trial> {
+    let trial = |recipe: &Recipe, way: Way| {
+        let &Recipe { number, name, expected, area, run, .. } = recipe;
+        Trial { number, name, way, expected, area, run }
+    };
+    recipes.iter().flat_map(|recipe| recipe.ways.iter().map(move |&way| trial(recipe, way))).collect()
+}

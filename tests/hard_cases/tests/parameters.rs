@@ -1,0 +1,264 @@
+//! Not a number, infinity, negative numbers and zero in every parameter of the constructors: an error or something that works, never a
+//! panic, and never something that is made of a value that is not finite.
+
+use motile::active_interface::{
+    ActiveDroplet, ConstantTension, ContractileTension, Curve, Frame, InitialConcentration, LinearTheory,
+    NoExcludedVolume, QuadraticExcludedVolume, RoundDroplet, SquirmerFlow, StepExcludedVolume, Units,
+};
+use motile::boundary_integral::{BoundaryIntegral, Channel, FreeSpace, PeriodicBox, Settings};
+use motile::elastic_solids::{
+    Constriction, Mesher, Moduli, MooneyRivlin, NeoHookean, Outline, SaintVenantKirchhoff, SinusoidalChannel,
+    SpringLattice, StraightChannel, Valve, equilateral_block, equilateral_strip, fitted_strip,
+};
+use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Repulsion, Scene, SmearedContrast, StepSize, Vec2};
+use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StokesSolver, TwoPhaseStokes, WallMotion};
+use motile::{ElasticChannel, Swimmer};
+use proptest::prelude::*;
+
+/// A constructor: good values of its parameters, whether each may be zero or negative, and whether it takes values.
+struct Maker {
+    name: &'static str,
+    good: &'static [f64],
+    /// `+` for above zero only, `0` for zero too, `-` for any sign.
+    signs: &'static str,
+    make: fn(&[f64]) -> bool,
+}
+
+fn markers() -> Vec<Vec2> {
+    Curve::circle(1.0).and_then(|curve| curve.markers(32)).expect("markers")
+}
+
+fn grid() -> Grid {
+    Grid::periodic(8, 8, 0.5).expect("a grid")
+}
+
+fn channel_grid() -> Grid {
+    Grid::channel(8, 8, 0.5).expect("a grid")
+}
+
+fn settings() -> Settings {
+    Settings { nodes: 16, ..Settings::default() }
+}
+
+fn coarse() -> Swimmer {
+    Swimmer { spacing: 0.25, nodes: 16, concentration_cells: 32, ..Swimmer::default() }
+}
+
+/// A swimmer with one parameter changed, by both methods.
+fn swims(change: impl Fn(&mut Swimmer)) -> bool {
+    let mut swimmer = coarse();
+    change(&mut swimmer);
+    swimmer.build().is_ok() && swimmer.build_on_grid().is_ok()
+}
+
+fn makers() -> Vec<Maker> {
+    let maker = |name, good, signs, make| Maker { name, good, signs, make };
+    vec![
+        maker("Grid::periodic", &[0.5], "+", |v| Grid::periodic(8, 8, v[0]).is_ok()),
+        maker("Grid::channel", &[0.5], "+", |v| Grid::channel(8, 8, v[0]).is_ok()),
+        maker("PeriodicStokes", &[1.0], "+", |v| PeriodicStokes::new(grid(), v[0]).is_ok()),
+        maker("ChannelStokes", &[1.0], "+", |v| ChannelStokes::new(channel_grid(), v[0]).is_ok()),
+        maker("Drive::Gradient", &[1.0], "-", |v| {
+            ChannelStokes::new(channel_grid(), 1.0).and_then(|mut s| s.set_drive(Drive::Gradient(v[0]))).is_ok()
+        }),
+        maker("Drive::Flux", &[1.0], "-", |v| {
+            ChannelStokes::new(channel_grid(), 1.0).and_then(|mut s| s.set_drive(Drive::Flux(v[0]))).is_ok()
+        }),
+        maker("WallMotion::uniform", &[1.0, 0.5], "--", |v| WallMotion::uniform(&channel_grid(), v[0], v[1]).is_ok()),
+        maker("TwoPhaseStokes tolerance", &[1e-6], "+", |v| {
+            PeriodicStokes::new(grid(), 1.0)
+                .and_then(TwoPhaseStokes::new)
+                .and_then(|solver| solver.with_tolerance(v[0]))
+                .is_ok()
+        }),
+        maker("TwoPhaseStokes viscosity", &[2.0], "+", |v| {
+            PeriodicStokes::new(grid(), 1.0)
+                .and_then(TwoPhaseStokes::new)
+                .and_then(|mut solver| solver.set_viscosity(|x, _| if x > 0.0 { v[0] } else { 1.0 }))
+                .is_ok()
+        }),
+        maker("SmearedContrast tolerance", &[1e-6], "+", |v| {
+            let solver = PeriodicStokes::new(grid(), 1.0).expect("a solver");
+            SmearedContrast::with_tolerance(solver, CubicQuadratic::default(), v[0]).is_ok()
+        }),
+        maker("Repulsion", &[1.0, 0.2], "++", |v| Repulsion::new(v[0], v[1]).is_ok()),
+        maker("Scene::with_least_gap", &[0.1], "-", |v| {
+            let solver = PeriodicStokes::new(grid(), 1.0).expect("a solver");
+            Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default())).with_least_gap(v[0]).is_ok()
+        }),
+        maker("StepSize::Fixed and the time of a run", &[0.01, 0.02], "+0", |v| {
+            let solver = PeriodicStokes::new(grid(), 1.0).expect("a solver");
+            let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+            scene.run(v[1]).step_size(StepSize::Fixed(v[0])).most_steps(10).go().is_ok()
+        }),
+        maker("StepSize::Adaptive", &[1e-4], "+", |v| {
+            let (mut scene, _) = coarse().build_on_grid().expect("a scene");
+            scene.run(0.02).step_size(StepSize::Adaptive { tolerance: v[0] }).most_steps(1000).go().is_ok()
+        }),
+        maker("Curve::circle", &[1.0], "+", |v| Curve::circle(v[0]).is_ok()),
+        maker("Curve::ellipse", &[1.0, 0.5], "++", |v| Curve::ellipse(v[0], v[1]).is_ok()),
+        maker("Curve::fourier", &[1.0, 0.1, 0.1], "+--", |v| Curve::fourier(v[0], &[0.0, v[1]], &[v[2]]).is_ok()),
+        maker("markers of a moved curve", &[0.5, 0.1, 0.2], "---", |v| {
+            let curve = Curve::circle(1.0).expect("a curve").rotated(v[0]).translated(Vec2::new(v[1], v[2]));
+            curve.markers(16).is_ok()
+        }),
+        maker("markers_with_spacing", &[0.1], "+", |v| {
+            Curve::circle(1.0).and_then(|curve| curve.markers_with_spacing(v[0])).is_ok()
+        }),
+        maker("ConstantTension", &[1.0], "0", |v| ConstantTension::new(v[0]).is_ok()),
+        maker("ContractileTension", &[10.0, -1.0], "0-", |v| {
+            ContractileTension::new(v[0], v[1], NoExcludedVolume).is_ok()
+        }),
+        maker("ContractileTension::thesis", &[10.0, -1.0, 10.0, 100.0], "0-0+", |v| {
+            ContractileTension::thesis(v[0], v[1], v[2], v[3]).is_ok()
+        }),
+        maker("StepExcludedVolume", &[10.0, 200.0, 0.1], "0++", |v| StepExcludedVolume::new(v[0], v[1], v[2]).is_ok()),
+        maker("QuadraticExcludedVolume", &[0.1], "0", |v| QuadraticExcludedVolume::new(v[0]).is_ok()),
+        maker("InitialConcentration::uniform", &[100.0], "0", |v| InitialConcentration::uniform(v[0]).is_ok()),
+        maker("InitialConcentration::polarised", &[100.0, 0.3], "0-", |v| {
+            InitialConcentration::polarised(v[0], v[1]).is_ok()
+        }),
+        maker("InitialConcentration::perturbed", &[100.0, 0.1], "00", |v| {
+            InitialConcentration::perturbed(v[0], v[1], 1).is_ok()
+        }),
+        maker("ActiveDroplet", &[1.0, 0.1], "00", |v| {
+            let tension = ConstantTension::new(1.0).expect("a tension");
+            ActiveDroplet::new(&markers(), vec![v[0]; 32], tension, v[1]).is_ok()
+        }),
+        maker("ActiveDroplet::with_viscosity_inside", &[10.0], "+", |v| {
+            ActiveDroplet::passive(&markers(), 1.0).and_then(|droplet| droplet.with_viscosity_inside(v[0])).is_ok()
+        }),
+        maker("Frame", &[0.1, 0.2, 0.3], "---", |v| Frame::new(Vec2::new(v[0], v[1]), v[2]).is_ok()),
+        maker("SquirmerFlow", &[1.0, 0.5, -0.5], "+--", |v| SquirmerFlow::new(v[0], v[1], v[2]).is_ok()),
+        maker("Units", &[1e-5, 1.0, 1.0], "+++", |v| Units::new(v[0], v[1], v[2]).is_ok()),
+        maker("LinearTheory", &[1.0, 1.0, 2.0, 10.0, -1.0, 100.0, 0.1], "+++0-00", |v| {
+            LinearTheory::new(RoundDroplet {
+                radius: v[0],
+                viscosity_inside: v[1],
+                viscosity_outside: v[2],
+                tension: v[3],
+                activity: v[4],
+                concentration: v[5],
+                diffusivity: v[6],
+            })
+            .is_ok()
+        }),
+        maker("PeriodicBox", &[4.0, 4.0], "++", |v| PeriodicBox::new(v[0], v[1]).is_ok()),
+        maker("Channel", &[4.0, 4.0], "++", |v| Channel::new(v[0], v[1]).is_ok()),
+        maker("BoundaryIntegral", &[1.0, 1e-8, 6.0], "+++", |v| {
+            let settings = Settings { tolerance: v[1], reference_perimeter: v[2], ..settings() };
+            BoundaryIntegral::new(FreeSpace, v[0], settings).is_ok()
+        }),
+        maker("Moduli", &[1.0, 2.0], "++", |v| Moduli::new(v[0], v[1]).is_ok()),
+        maker("Moduli::of_springs", &[1.0], "+", |v| Moduli::of_springs(v[0]).is_ok()),
+        maker("Moduli::from_thesis_spring_constant", &[1e4], "+", |v| {
+            Moduli::from_thesis_spring_constant(v[0]).is_ok()
+        }),
+        maker("Moduli::from_young", &[1.0, 0.3], "+-", |v| Moduli::from_young(v[0], v[1]).is_ok()),
+        maker("NeoHookean", &[1.0, 2.0], "++", |v| NeoHookean::new(v[0], v[1]).is_ok()),
+        maker("SaintVenantKirchhoff", &[1.0, 2.0], "++", |v| SaintVenantKirchhoff::new(v[0], v[1]).is_ok()),
+        maker("MooneyRivlin", &[1.0, 2.0, 0.5], "++0", |v| MooneyRivlin::new(v[0], v[1], v[2]).is_ok()),
+        maker("SpringLattice", &[1.0], "+", |v| {
+            let mesh = equilateral_block(Vec2::zeros(), 3, 3, 0.5).expect("a mesh");
+            SpringLattice::new(mesh, v[0]).is_ok()
+        }),
+        maker("equilateral_strip", &[0.0, 0.0, 0.5], "--+", |v| {
+            equilateral_strip(Vec2::new(v[0], v[1]), 4, 3, v[2]).is_ok()
+        }),
+        maker("fitted_strip", &[2.0, 1.0], "++", |v| fitted_strip(Vec2::zeros(), [v[0], v[1]], 0.5).is_ok()),
+        maker("Mesher", &[0.1], "+", |v| Mesher::new(v[0]).is_ok()),
+        maker("Outline::circle", &[0.0, 0.0, 1.0], "--+", |v| Outline::circle(Vec2::new(v[0], v[1]), v[2]).is_ok()),
+        maker("StraightChannel", &[6.0, 2.0], "++", |v| {
+            StraightChannel { period: v[0], width: v[1] }.channel().is_ok()
+        }),
+        maker("SinusoidalChannel", &[6.0, 2.0, 0.3], "++-", |v| {
+            SinusoidalChannel { period: v[0], width: v[1], amplitude: v[2] }.channel().is_ok()
+        }),
+        maker("Constriction", &[8.0, 2.0, 1.0, 1.0, 1.0, 0.0], "++++0-", |v| {
+            Constriction { period: v[0], width: v[1], throat: v[2], throat_length: v[3], ramp: v[4], centre: v[5] }
+                .channel()
+                .is_ok()
+        }),
+        maker("Valve", &[8.0, 3.0, 1.0, 2.0, 0.1, 0.0], "+++++-", |v| {
+            Valve { period: v[0], width: v[1], gap: v[2], base: v[3], radius: v[4], centre: v[5] }.channel().is_ok()
+        }),
+        maker("Swimmer activity", &[-2.0], "-", |v| swims(|s| s.activity = v[0])),
+        maker("Swimmer excluded volume", &[10.0], "0", |v| swims(|s| s.excluded_volume = v[0])),
+        maker("Swimmer viscosity", &[100.0], "+", |v| swims(|s| s.viscosity = v[0])),
+        maker("Swimmer viscosity inside", &[100.0], "+", |v| swims(|s| s.viscosity_inside = Some(v[0]))),
+        maker("Swimmer diffusion", &[0.1], "0", |v| swims(|s| s.diffusion = v[0])),
+        maker("Swimmer mean concentration", &[100.0], "+", |v| swims(|s| s.mean_concentration = v[0])),
+        maker("Swimmer bare tension", &[10.0], "0", |v| swims(|s| s.bare_tension = v[0])),
+        maker("Swimmer radius", &[1.0], "+", |v| swims(|s| s.radius = v[0])),
+        maker("Swimmer lengths", &[6.0, 6.0], "++", |v| swims(|s| s.lengths = [v[0], v[1]])),
+        maker("Swimmer spacing", &[0.25], "+", |v| Swimmer { spacing: v[0], ..coarse() }.build_on_grid().is_ok()),
+        maker("Swimmer marker spacing", &[0.1], "+", |v| {
+            Swimmer { marker_spacing: Some(v[0]), ..coarse() }.build_on_grid().is_ok()
+        }),
+        maker("Swimmer angle", &[0.3], "-", |v| swims(|s| s.angle = v[0])),
+        maker("Swimmer offset", &[0.3, 0.2], "--", |v| swims(|s| s.offset = [v[0], v[1]])),
+        maker("ElasticChannel thickness", &[1.5], "+", |v| {
+            let swimmer = Swimmer { lengths: [6.0, 3.0], ..coarse() };
+            let moduli = Moduli::of_springs(100.0).expect("moduli");
+            ElasticChannel { thickness: v[0], ..ElasticChannel::new(swimmer, moduli) }.build().is_ok()
+        }),
+    ]
+}
+
+#[test]
+fn good_values_are_taken_and_bad_ones_refused() {
+    let mut wrong = Vec::new();
+    for Maker { name, good, signs, make } in makers() {
+        assert_eq!(good.len(), signs.len(), "{name}");
+        if !make(good) {
+            wrong.push(format!("{name} does not take {good:?}"));
+        }
+        for (index, sign) in signs.chars().enumerate() {
+            let mut bad = vec![f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+            bad.extend((sign != '-').then_some(-1.0));
+            bad.extend((sign == '+').then_some([0.0, -0.0]).into_iter().flatten());
+            for value in bad {
+                let mut values = good.to_vec();
+                values[index] = value;
+                if make(&values) {
+                    wrong.push(format!("{name} takes {value} for parameter {index}"));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Constructors whose work does not grow with their parameters.
+fn cheap() -> Vec<Maker> {
+    let dear = ["Swimmer", "ElasticChannel", "markers_with", "StepSize", "fitted_strip", "Drive"];
+    makers().into_iter().filter(|maker| !dear.iter().any(|name| maker.name.starts_with(name))).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+
+    /// Any numbers at all, also tiny and huge ones.
+    #[test]
+    fn nothing_panics(which in any::<prop::sample::Index>(), values in prop::collection::vec(any::<f64>(), 8)) {
+        let makers = cheap();
+        let Maker { good, make, .. } = &makers[which.index(makers.len())];
+        make(&values[..good.len()]);
+    }
+
+    /// One number out of its usual size.
+    #[test]
+    fn extreme_numbers_do_not_panic(
+        which in any::<prop::sample::Index>(),
+        parameter in any::<prop::sample::Index>(),
+        exponent in -320_i32..308,
+        negative in any::<bool>(),
+    ) {
+        let makers = cheap();
+        let Maker { good, make, .. } = &makers[which.index(makers.len())];
+        let mut values = good.to_vec();
+        let size = 10_f64.powi(exponent);
+        values[parameter.index(good.len())] = if negative { -size } else { size };
+        make(&values);
+    }
+}
