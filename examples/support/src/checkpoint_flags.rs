@@ -7,7 +7,7 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use motile::ib_core::{Checkpoint, Hydrodynamics, Integrator, Run, Scene, SceneError};
 
-use crate::parse::count;
+use crate::parse::steps;
 
 /// Steps between checkpoints unless something else is said.
 const EVERY: usize = 500;
@@ -22,7 +22,7 @@ pub struct CheckpointFlags {
     #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,
     /// Steps between checkpoints [default: 500]
-    #[arg(long, value_name = "STEPS", value_parser = count, requires = "checkpoint", allow_hyphen_values = true)]
+    #[arg(long, value_name = "STEPS", value_parser = steps, requires = "checkpoint", allow_hyphen_values = true)]
     pub checkpoint_every: Option<usize>,
     /// Checkpoint to go on from; give the flags of the run that saved it
     #[arg(long, value_name = "FILE")]

@@ -157,7 +157,7 @@ impl ChannelFlags {
 }
 
 /// What is written where.
-#[derive(Debug, Clone, PartialEq, Eq, Args)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub struct OutputFlags {
     /// Draw no pictures, plots and animations
     #[arg(long)]

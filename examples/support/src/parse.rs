@@ -88,6 +88,17 @@ pub fn count(text: &str) -> Result<usize, String> {
     }
 }
 
+/// A number of steps.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub(crate) fn steps(text: &str) -> Result<usize, String> {
+    match text.trim().parse::<usize>() {
+        Ok(steps) if (1..=1_000_000_000).contains(&steps) => Ok(steps),
+        _ => Err("must be a whole number from 1 to 1e9".into()),
+    }
+}
+
 /// A number from zero to a million.
 ///
 /// # Errors

@@ -10,7 +10,7 @@ fn directory(name: &str) -> PathBuf {
 }
 
 fn output(directory: &Path, no_pictures: bool) -> OutputFlags {
-    OutputFlags { no_pictures, quiet: true, out: Some(directory.to_path_buf()) }
+    OutputFlags { no_pictures, quiet: true, out: Some(directory.to_path_buf()), ..OutputFlags::default() }
 }
 
 #[test]

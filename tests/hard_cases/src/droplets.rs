@@ -13,8 +13,8 @@ fn coarse() -> Swimmer {
     Swimmer { spacing: 0.1, ..Swimmer::default() }
 }
 
-fn in_box(way: Way, base: Swimmer, until: f64, look: Look<'_>) -> Result<Outcome, CaseError> {
-    run_way(way, swimmer(way, &base).build()?.0, until, look)
+fn in_box(way: Way, base: &Swimmer, until: f64, look: Look<'_>) -> Result<Outcome, CaseError> {
+    run_way(way, swimmer(way, base).build()?.0, until, look)
 }
 
 pub(crate) fn trials() -> Vec<Trial> {
@@ -27,7 +27,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             area: 1e-3,
             run: |way, extent, look| {
                 let base = Swimmer { activity: -15.0, excluded_volume: 30.0, viscosity: 750.0, ..coarse() };
-                in_box(way, base, extent.pick(5.0, 60.0), look)
+                in_box(way, &base, extent.pick(5.0, 60.0), look)
             },
         },
         Recipe {
@@ -36,7 +36,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             ways: ALL,
             expected: &[Ending::Collapsed],
             area: 1e-3,
-            run: |way, _, look| in_box(way, Swimmer { activity: -5.0, excluded_volume: 3.0, ..coarse() }, 200.0, look),
+            run: |way, _, look| in_box(way, &Swimmer { activity: -5.0, excluded_volume: 3.0, ..coarse() }, 200.0, look),
         },
         Recipe {
             number: 2,
@@ -46,7 +46,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             area: 1e-3,
             run: |way, extent, look| {
                 let base = Swimmer { activity: -3.0, viscosity: 10.0, viscosity_inside: Some(1e4), ..coarse() };
-                in_box(way, base, extent.pick(4.0, 40.0), look)
+                in_box(way, &base, extent.pick(4.0, 40.0), look)
             },
         },
         Recipe {
@@ -57,7 +57,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             area: 1e-3,
             run: |way, extent, look| {
                 let base = Swimmer { activity: -3.0, viscosity: 100.0, viscosity_inside: Some(0.1), ..coarse() };
-                in_box(way, base, extent.pick(1.0, 20.0), look)
+                in_box(way, &base, extent.pick(1.0, 20.0), look)
             },
         },
         Recipe {
@@ -68,7 +68,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             area: 1e-3,
             run: |way, extent, look| {
                 let base = Swimmer { activity: -5.0, excluded_volume: 10.0, viscosity: 10.0, ..coarse() };
-                in_box(way, base, extent.pick(0.5, 10.0), look)
+                in_box(way, &base, extent.pick(0.5, 10.0), look)
             },
         },
         Recipe {
@@ -78,7 +78,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             expected: FINISHED,
             area: 1e-3,
             run: |way, extent, look| {
-                in_box(way, Swimmer { activity: -4.0, spacing: 0.2, ..coarse() }, extent.pick(20.0, 100.0), look)
+                in_box(way, &Swimmer { activity: -4.0, spacing: 0.2, ..coarse() }, extent.pick(20.0, 100.0), look)
             },
         },
         Recipe {
@@ -88,7 +88,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             expected: FINISHED,
             area: 1e-3,
             run: |way, extent, look| {
-                in_box(way, Swimmer { activity: -3.0, lengths: [2.2, 2.2], ..coarse() }, extent.pick(5.0, 60.0), look)
+                in_box(way, &Swimmer { activity: -3.0, lengths: [2.2, 2.2], ..coarse() }, extent.pick(5.0, 60.0), look)
             },
         },
         Recipe {
@@ -109,7 +109,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             ways: ALL,
             expected: FINISHED,
             area: 1e-3,
-            run: |way, extent, look| in_box(way, coarse(), extent.pick(40.0, 1000.0), look),
+            run: |way, extent, look| in_box(way, &coarse(), extent.pick(40.0, 1000.0), look),
         },
         Recipe {
             number: 11,
@@ -135,7 +135,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             area: 1e-2,
             run: |way, extent, look| {
                 let base = Swimmer { spacing: 0.3, lengths: [2.1, 300.0], ..coarse() };
-                in_box(way, base, extent.pick(1.0, 10.0), look)
+                in_box(way, &base, extent.pick(1.0, 10.0), look)
             },
         },
         Recipe {
@@ -146,7 +146,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             area: 1e-3,
             run: |way, extent, look| {
                 let base = Swimmer { spacing: 0.0125, lengths: [12.4625, 12.3875], ..coarse() };
-                in_box(way, base, extent.pick(0.01, 0.1), look)
+                in_box(way, &base, extent.pick(0.01, 0.1), look)
             },
         },
         Recipe {
@@ -156,7 +156,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             expected: FINISHED,
             area: 2e-2,
             run: |way, extent, look| {
-                in_box(way, Swimmer { marker_spacing: Some(0.2), ..coarse() }, extent.pick(5.0, 60.0), look)
+                in_box(way, &Swimmer { marker_spacing: Some(0.2), ..coarse() }, extent.pick(5.0, 60.0), look)
             },
         },
         Recipe {
@@ -166,7 +166,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             expected: FINISHED,
             area: 1e-3,
             run: |way, extent, look| {
-                in_box(way, Swimmer { marker_spacing: Some(0.01), ..coarse() }, extent.pick(0.5, 20.0), look)
+                in_box(way, &Swimmer { marker_spacing: Some(0.01), ..coarse() }, extent.pick(0.5, 20.0), look)
             },
         },
     ])

@@ -11,7 +11,7 @@ use motile::elastic_solids::{
     SpringLattice, StraightChannel, Valve, equilateral_block, equilateral_strip, fitted_strip,
 };
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Repulsion, Scene, SmearedContrast, StepSize, Vec2};
-use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StokesSolver, TwoPhaseStokes, WallMotion};
+use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, TwoPhaseStokes, WallMotion};
 use motile::{ElasticChannel, Swimmer};
 use proptest::prelude::*;
 
@@ -172,7 +172,7 @@ fn makers() -> Vec<Maker> {
             StraightChannel { period: v[0], width: v[1] }.channel().is_ok()
         }),
         maker("SinusoidalChannel", &[6.0, 2.0, 0.3], "++-", |v| {
-            SinusoidalChannel { period: v[0], width: v[1], amplitude: v[2] }.channel().is_ok()
+            SinusoidalChannel { period: v[0], width: v[1], amplitude: v[2], waves: 1, phase: 0.0 }.channel().is_ok()
         }),
         maker("Constriction", &[8.0, 2.0, 1.0, 1.0, 1.0, 0.0], "++++0-", |v| {
             Constriction { period: v[0], width: v[1], throat: v[2], throat_length: v[3], ramp: v[4], centre: v[5] }
