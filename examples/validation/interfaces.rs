@@ -107,7 +107,7 @@ pub(crate) fn channel(quick: bool) -> Tables {
         &["width", "activity", "nodes", "cells", "errors", "area change", "seconds"],
     );
     for (width, activity, time) in
-        [(2.0, -2.0, 120.0), (2.0, -4.0, 120.0), (3.0, -2.0, 60.0), (5.0, -2.0, 60.0), (5.0, -4.0, 60.0)]
+        [(2.0, -2.0, 400.0), (2.0, -4.0, 400.0), (3.0, -2.0, 60.0), (5.0, -2.0, 60.0), (5.0, -4.0, 60.0)]
     {
         for &(nodes, concentration_cells) in if quick { &RESOLUTIONS[1..3] } else { &RESOLUTIONS[..4] } {
             let lengths = [12.0, width];
@@ -219,8 +219,8 @@ pub(crate) fn several(quick: bool) -> Tables {
 
 /// Distances of the lines on which two swimmers come towards each other, less two radii, for which they pass at a gap of about
 /// 0.05.
-const EQUAL_OFFSET: f64 = 0.05;
-const THICK_OFFSET: f64 = 0.05;
+const EQUAL_OFFSET: f64 = 0.0;
+const THICK_OFFSET: f64 = 0.14;
 
 pub(crate) fn long_runs(quick: bool) -> Tables {
     let mut table = Table::new(

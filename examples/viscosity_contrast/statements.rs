@@ -88,8 +88,8 @@ pub(crate) fn table(points: &Points) -> String {
 type Measure = fn(&Points) -> String;
 
 /// Figure or section, statement, and what the runs say to it.
-const STATEMENTS: [(&str, &str, Measure); 16] = [
-    ("2.8", "equal viscosities: speeds do not collapse over |zeta_dmu| c0/4(eta_in + eta_ext)", |points| {
+const STATEMENTS: [(&str, &str, Measure); 18] = [
+    ("2.8", "equal viscosities: speeds do not collapse over abs(zeta_dmu) c0/4(eta_in + eta_ext)", |points| {
         let speeds = pairs(points, |job, _| job.estimate(), |_, s| s.number("speed"), equal);
         format!("spread at the same abscissa {:.1} %", 100.0 * spread(speeds))
     }),
@@ -109,21 +109,32 @@ const STATEMENTS: [(&str, &str, Measure); 16] = [
         )
     }),
     ("2.3.3.3", "contrast lowers the threshold", |points| thresholds(points, |job| !equal(job))),
-    ("2.11", "equal viscosities: speed proportional to |N_xyy|/(eta_in + eta_ext)", |points| {
+    ("2.11", "equal viscosities: speed proportional to abs(N_xyy)/(eta_in + eta_ext)", |points| {
         line(&pairs(points, |job, s| s.number("n_xyy").abs() / job.sum(), |_, s| s.number("speed"), equal))
     }),
     ("2.12", "all droplets: linear, with slopes that depend on the difference", |points| {
         conventions(points, |s, suffix| s.number(&format!("n_xyy{suffix}")).abs())
     }),
     ("2.13", "the correction (2.60) restores one line", |points| conventions(points, source_dipole)),
-    ("2.3.1", "equal viscosities: nearly circles", |points| {
-        let off = pairs(points, |job, _| job.sum(), |_, s| (s.number("aspect_ratio_moments") - 1.0).abs(), equal);
-        format!("aspect ratios within {:.3} of 1", off.iter().map(|p| p.1).fold(0.0, f64::max))
-    }),
+    (
+        "2.13",
+        "(not in the thesis) the factor a for which abs(N_xyy) + a (N_yxy - N_yyx) comes closest to one line",
+        |points| {
+            let with = |suffix: &str| {
+                let scatter = |a: f64| slope(&source_dipoles(points, a, suffix)).1;
+                let factors = (-100..=100).map(|k| 0.01 * f64::from(k));
+                let best = factors.min_by(|a, b| scatter(*a).total_cmp(&scatter(*b))).unwrap_or(0.0);
+                format!("a = {best:.2}: {}", line(&source_dipoles(points, best, suffix)))
+            };
+            format!("far field: {}; as printed: {}", with(""), with("_printed"))
+        },
+    ),
+    ("2.3.1", "equal viscosities: nearly circles", |points| deformation(points, equal)),
+    ("2.3.1", "contrast: pronounced deformation", |points| deformation(points, |job| !equal(job))),
     ("2.15", "aspect ratio falls with the stresslet", |points| {
         related(points, |s| s.number("stresslet_xx"), |s| s.number("aspect_ratio_moments"))
     }),
-    ("2.17", "active fraction falls with S_xx/|S_xxx|", |points| {
+    ("2.17", "active fraction falls with S_xx/abs(S_xxx)", |points| {
         related(points, |s| s.number("stresslet_xx") / s.number("s_xxx").abs(), |s| s.number("active_fraction"))
     }),
     ("2.18", "F_yyx - F_yxy is negative where the active region is concave, and only there", |points| {
@@ -146,7 +157,7 @@ const STATEMENTS: [(&str, &str, Measure); 16] = [
     }),
     (
         "2.25, 2.26",
-        "beta proportional to S_xx over the source dipole: |N_yxy| for equal viscosities, (2.60) for all",
+        "beta proportional to S_xx over the source dipole: abs(N_yxy) for equal viscosities, (2.60) for all",
         |points| {
             let same = pairs(
                 points,
@@ -192,6 +203,20 @@ fn constant_sum(points: &Points, value: impl Fn(&Job, &Summary) -> f64) -> Strin
     rises.sort_by(|a, b| a.0.total_cmp(&b.0));
     let list: Vec<String> = rises.iter().map(|(d, v)| format!("{v:.4} ({d:+})")).collect();
     format!("spread {:.1} %; at -5: {}", 100.0 * spread(values), list.join(", "))
+}
+
+/// Speeds over `(|N_xyy| + a (N_yxy - N_yyx))/(eta_in + eta_ext)`.
+fn source_dipoles(points: &Points, a: f64, suffix: &str) -> Vec<(f64, f64)> {
+    let dipole = |s: &Summary| {
+        let n = |name: &str| s.number(&format!("{name}{suffix}"));
+        n("n_xyy").abs() + a * (n("n_yxy") - n("n_yyx"))
+    };
+    pairs(points, |job, s| dipole(s) / job.sum(), |_, s| s.number("speed"), |_| true)
+}
+
+fn deformation(points: &Points, wanted: impl Fn(&Job) -> bool) -> String {
+    let off = pairs(points, |job, _| job.sum(), |_, s| (s.number("aspect_ratio_moments") - 1.0).abs(), wanted);
+    format!("aspect ratios within {:.3} of 1", off.iter().map(|p| p.1).fold(0.0, f64::max))
 }
 
 fn line(points: &[(f64, f64)]) -> String {

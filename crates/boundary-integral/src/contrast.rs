@@ -83,8 +83,9 @@ impl Contrast {
             // A uniform expansion is multiplied by eta_in alone. The velocity has none, so the operator may do with it
             // as it likes: what is added makes the factor that of the rest.
             self.deflation.push((1.0 - interface.viscosity * scale).max(0.0) / interface.perimeter());
-            self.normals.extend(interface.tangent.iter().map(|t| t.im / t.norm()));
-            self.normals.extend(interface.tangent.iter().map(|t| -t.re / t.norm()));
+            // Not `norm`, whose care for overflow is slow.
+            self.normals.extend(interface.tangent.iter().map(|t| t.im / t.norm_sqr().sqrt()));
+            self.normals.extend(interface.tangent.iter().map(|t| -t.re / t.norm_sqr().sqrt()));
         }
         parts.layers.prepare_stress();
         let Self { gmres, contrasts, scales, right, normals, deflation } = self;

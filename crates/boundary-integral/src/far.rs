@@ -14,7 +14,7 @@ use crate::{
 /// Fewest terms of a series.
 const LEAST_DEGREE: usize = 4;
 /// Safety factor of an accuracy that is asked for.
-const MARGIN: f64 = 0.02;
+const MARGIN: f64 = 1e-3;
 
 /// The part of the Green's function between two interfaces that does not go by sums over nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

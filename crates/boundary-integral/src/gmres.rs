@@ -4,6 +4,8 @@ use crate::recycled::Recycled;
 
 /// Basis vectors before a restart.
 const BASIS: usize = 60;
+/// The same where directions of earlier solutions precondition.
+const SHORT: usize = 30;
 
 /// What an iteration did.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,7 +66,10 @@ impl Gmres {
         }
         let goal = tolerance * scale;
         let mut iterations = 0;
+        // A first cycle that does not converge is taken for the fault of what it relies on: the next does without.
+        let mut slack = goal;
         loop {
+            let longest = if self.recycled.is_empty() { BASIS } else { SHORT };
             let first = &mut self.basis[..len];
             product(x, first, tolerance);
             for (r, b) in first.iter_mut().zip(b) {
@@ -78,8 +83,8 @@ impl Gmres {
             first.iter_mut().for_each(|r| *r /= start);
             self.projected[0] = start;
             let mut size = 0;
-            while size < BASIS && iterations < most && self.projected[size].abs() > goal {
-                self.extend(&mut product, size, len, goal);
+            while size < longest && iterations < most && self.projected[size].abs() > goal {
+                self.extend(&mut product, size, len, slack);
                 size += 1;
                 iterations += 1;
             }
@@ -88,24 +93,22 @@ impl Gmres {
                 axpy(self.projected[j], &self.directions[j * len..(j + 1) * len], x);
             }
             let left = self.projected[size].abs();
-            if size == BASIS {
-                // What earlier solutions left is of no use.
-                self.recycled.forget();
-            }
             if left <= goal {
                 self.recycled.renew(&mut self.directions[..size * len], &self.images[..size * len]);
                 return Outcome { iterations, residual: left / scale };
             }
+            self.recycled.forget();
+            slack = 0.0;
         }
     }
 
     /// Adds a vector to the basis and a column to the triangular factor.
-    fn extend(&mut self, product: &mut impl FnMut(&[f64], &mut [f64], f64), size: usize, len: usize, goal: f64) {
+    fn extend(&mut self, product: &mut impl FnMut(&[f64], &mut [f64], f64), size: usize, len: usize, slack: f64) {
         let (done, free) = self.basis.split_at_mut((size + 1) * len);
         let next = &mut free[..len];
         let direction = &mut self.directions[size * len..(size + 1) * len];
         self.recycled.apply(&done[size * len..], direction);
-        let accuracy = goal / (self.projected[size].abs() * norm(direction));
+        let accuracy = slack / (self.projected[size].abs() * norm(direction));
         product(direction, next, accuracy);
         self.images[size * len..(size + 1) * len].copy_from_slice(next);
         let column = &mut self.columns[size * (BASIS + 1)..(size + 1) * (BASIS + 1)];

@@ -177,7 +177,7 @@ impl Interface {
 
     /// Length of the curve (length).
     pub(crate) fn perimeter(&self) -> f64 {
-        self.weight() * self.tangent.iter().map(|t| t.norm()).sum::<f64>()
+        self.weight() * self.tangent.iter().map(|t| t.norm_sqr().sqrt()).sum::<f64>()
     }
 
     /// Largest distance between neighbouring nodes along the curve (length).

@@ -178,7 +178,7 @@ fn with_two(
 /// `xx = v_x n_x` and so on through `kappa tau (tau.v) |n ds|`.
 fn add_diagonal(interface: &Interface, dipoles: &Dipoles, out: &mut Vectors) {
     for (i, (tangent, curvature)) in interface.tangent.iter().zip(&interface.curvature).enumerate() {
-        let speed = tangent.norm();
+        let speed = tangent.norm_sqr().sqrt();
         let (tx, ty) = (tangent.re / speed, tangent.im / speed);
         let (nx, ny) = (ty, -tx);
         // tau.v |n ds| = tau.(P n) with the symmetric P, less the normal part that P holds twice.

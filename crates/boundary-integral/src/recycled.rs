@@ -3,7 +3,7 @@
 use crate::gmres::{axpy, dot};
 
 /// Directions that are kept.
-const MOST: usize = 20;
+const MOST: usize = 16;
 /// A solution that needed no more directions than this changes nothing: what there is serves.
 const FEW: usize = 3;
 /// What is left of an older image beside newer ones must be more than this part of it.
@@ -68,6 +68,11 @@ impl Recycled {
     /// only as far as they add something: so all images stay fresh.
     pub(crate) fn renew(&mut self, directions: &mut [f64], images: &[f64]) {
         let len = self.len;
+        if directions.len() > MOST * len {
+            // Where so many matter, some of them serve worse than none.
+            self.forget();
+            return;
+        }
         if directions.len() <= FEW * len && !self.is_empty() {
             return;
         }

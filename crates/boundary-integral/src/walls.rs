@@ -90,7 +90,7 @@ impl WallModes {
 
     /// Clears the sources for targets no closer to a wall than `target_gap` and sources no closer than `source_gap`.
     pub(crate) fn begin(&mut self, source_gap: f64, target_gap: f64, accuracy: f64) {
-        self.exponent = 3.0 - accuracy.ln();
+        self.exponent = 2.5 - accuracy.ln();
         self.modes = self.count(source_gap + target_gap);
         let chunks = self.modes.div_ceil(LANES);
         while self.factors.len() < chunks * LANES {
