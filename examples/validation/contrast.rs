@@ -1,9 +1,9 @@
 //! Droplets of another viscosity than their surroundings, on the grid.
 
-use motile::Swimmer;
+use motile::{ContrastMethod, Method, Swimmer};
 use motile_validation::contrast::{
-    CostScene, Droplet, Errors, Exact, Region, Way, cold_iterations, field_errors, growth, iterations_in_a_run,
-    layer_errors, ratio_ten,
+    CostScene, Droplet, Errors, Exact, Region, Way, cold_iterations, decaying_speeds, field_errors, growth,
+    iterations_in_a_run, layer_errors, ratio_ten,
 };
 use motile_validation::growth::Mode;
 use motile_validation::swimmers::{long_run, reference_swimmer, steady};
@@ -232,7 +232,23 @@ pub(crate) fn decay(quick: bool) -> Tables {
             push("arithmetic", h.to_string(), growth(&at(&thesis, h), Way::Smeared)?);
         }
     }
-    Ok(vec![table])
+    let mut polarised = Table::new(
+        "The same from the polarised start, 6 x 6 box: speed at three times",
+        &["way", "h", "t = 20", "t = 40", "t = 60"],
+    );
+    let fine = if quick { 0.1 } else { 0.05 };
+    for (way, method, contrast, spacing) in [
+        ("without a grid", Method::BoundaryIntegral, ContrastMethod::Sharp, 0.05),
+        ("sharp", Method::ImmersedBoundary, ContrastMethod::Sharp, 0.1),
+        ("sharp", Method::ImmersedBoundary, ContrastMethod::Sharp, fine),
+        ("arithmetic", Method::ImmersedBoundary, ContrastMethod::Arithmetic, 0.1),
+        ("arithmetic", Method::ImmersedBoundary, ContrastMethod::Arithmetic, fine),
+    ] {
+        let speeds = decaying_speeds(&Swimmer { method, contrast, spacing, ..base.clone() }, &[20.0, 40.0, 60.0])?;
+        let spacing = if method == Method::BoundaryIntegral { "-".to_owned() } else { spacing.to_string() };
+        polarised.push([way.to_owned(), spacing].into_iter().chain(speeds.iter().map(|v| format!("{v:.2e}"))));
+    }
+    Ok(vec![table, polarised])
 }
 
 pub(crate) fn runs(quick: bool) -> Tables {

@@ -30,8 +30,12 @@ const WALL_TOLERANCE: f64 = 0.25;
 ///
 /// gives its velocity v from the grid's velocity u, with the stress T of the Green's function of the box or channel, n outward
 /// (Pozrikidis, Boundary Integral and Singularity Methods, 1992). It is solved on the markers by GMRES, to errors that do
-/// not grow with the ratio of viscosities and are of second order in h. All other markers receive the flow that goes with it.
-/// Without such groups none of this costs anything.
+/// not grow with the ratio of viscosities and are of second order in h.
+///
+/// All other markers, and samples, get the flow of forces on the interfaces that, in a fluid of one viscosity, leave the same
+/// velocities there: by uniqueness it is the same flow, and its errors do not grow with the ratio either. These forces take a few
+/// solves on the grid, starting from the last ones. Samples are interpolated cubically, and next to such an interface along
+/// its normal, so that velocities are of second order there too. Without such groups none of this costs anything.
 #[derive(Debug)]
 pub struct ImmersedBoundary<S, K> {
     solver: S,

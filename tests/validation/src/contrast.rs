@@ -22,7 +22,7 @@ pub use cost::{Cost, CostScene};
 pub use field::{FieldErrors, exact_flow, field_errors};
 pub use iterations::{Iterations, cold_iterations, iterations_in_a_run};
 pub use layer::{LayerErrors, layer_errors};
-pub use runs::{Way, growth};
+pub use runs::{Way, decaying_speeds, growth};
 pub use tables::{RatioTen, ratio_ten};
 
 /// An ellipse with a tension along it and a viscosity inside, in surroundings of viscosity one.

@@ -7,6 +7,7 @@ use motile::stokes_grid::{Grid, PeriodicStokes};
 
 use crate::StudyError;
 use crate::growth::{Mode, amplitude, perturbed};
+use crate::swimmers::look;
 
 /// Amplitude: second-order effects are the square of this.
 const EPSILON: f64 = 1e-3;
@@ -59,4 +60,18 @@ fn run<H: Hydrodynamics>(scene: &mut Scene<H>, swimmer: &Swimmer, epsilon: f64) 
     let start = amplitude(scene.body(droplet), mode)?;
     scene.run(DURATION).step_size(StepSize::Fixed(DURATION / 20.0)).go()?;
     Ok((start, amplitude(scene.body(droplet), mode)?))
+}
+
+/// Speeds of a swimmer at given times, by the method that it names.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn decaying_speeds(swimmer: &Swimmer, times: &[f64]) -> Result<Vec<f64>, StudyError> {
+    let (mut scene, droplet) = swimmer.build()?;
+    let mut speeds = Vec::new();
+    for &time in times {
+        scene.run(time).go()?;
+        speeds.push(look(&mut scene, droplet)?.speed());
+    }
+    Ok(speeds)
 }
