@@ -101,10 +101,12 @@ impl MobilityCorrection {
         Self { deficit, planner: Planner(RealFftPlanner::new()), plan: None }
     }
 
-    /// Adds the correction of one equally spaced closed interface to `velocities`.
+    /// Adds the correction of one equally spaced closed interface to `velocities`; `gaps` are the distances of its markers from
+    /// elastic solids (grid spacings), empty without.
     pub(crate) fn apply(
         &mut self,
         setting: &Setting,
+        gaps: &[f64],
         positions: &[Vec2],
         forces: &[Vec2],
         velocities: &mut [Vec2],
@@ -168,7 +170,7 @@ impl MobilityCorrection {
                 let normal = Vec2::new(tau.y, -tau.x);
                 // n_x^4 + n_y^4 - 3/4 = 1/4 - 2 (n_x n_y)^2
                 let direction = 0.25 - 2.0 * (normal.x * normal.y).powi(2);
-                let fade = setting.fade(positions[k].y, part);
+                let fade = setting.fade(positions[k].y, gaps.get(k), part);
                 velocities[k] += fade
                     * plan.real[k]
                     * match part {
@@ -180,11 +182,18 @@ impl MobilityCorrection {
                     };
             }
         }
-        self.take_off_harmonics(setting, step, positions, velocities);
+        self.take_off_harmonics(setting, step, gaps, positions, velocities);
         Ok(())
     }
 
-    fn take_off_harmonics(&mut self, setting: &Setting, step: f64, positions: &[Vec2], velocities: &mut [Vec2]) {
+    fn take_off_harmonics(
+        &mut self,
+        setting: &Setting,
+        step: f64,
+        gaps: &[f64],
+        positions: &[Vec2],
+        velocities: &mut [Vec2],
+    ) {
         let Some(plan) = self.plan.as_mut() else { return };
         let count = positions.len();
         let scale = 2.0 * setting.spacing / setting.viscosity / count as f64;
@@ -215,7 +224,7 @@ impl MobilityCorrection {
                 let first = plan.phases[k] * plan.modulated[k];
                 // The second harmonic from the first: e^{-i phi} takes the first one's phase off.
                 let harmonics = first.re + second * (first * phase.conj()).re * (phase * phase).re;
-                let amount = setting.fade(positions[k].y, Part::Tangential) * harmonics;
+                let amount = setting.fade(positions[k].y, gaps.get(k), Part::Tangential) * harmonics;
                 *velocity -= amount * (tau + mirrored - tau.dot(&mirrored) * tau);
             }
         }
@@ -223,11 +232,15 @@ impl MobilityCorrection {
 }
 
 impl Setting {
-    /// How much of the correction is left at height y: the image of the force in the wall cancels it at the wall.
+    /// How much of the correction is left at height y and at the distance `to_solids` (grid spacings) from elastic solids, if
+    /// there are any: the image of the force in the wall cancels it at the wall, and so do the forces of a solid.
     /// Tangential `1 - exp(-x^2) + sqrt(pi) x erfc(x)`, x = gap/(h sqrt(variance)); normal `(1 - exp(-gap/2h))^2`.
-    fn fade(&self, y: f64, part: Part) -> f64 {
-        let Some([bottom, top]) = self.walls else { return 1.0 };
-        let gap = (y - bottom).min(top - y).max(0.0) / self.spacing;
+    fn fade(&self, y: f64, to_solids: Option<&f64>, part: Part) -> f64 {
+        let to_walls = self.walls.map(|[bottom, top]| (y - bottom).min(top - y).max(0.0) / self.spacing);
+        let gap = to_walls.unwrap_or(f64::INFINITY).min(to_solids.copied().unwrap_or(f64::INFINITY));
+        if gap == f64::INFINITY {
+            return 1.0;
+        }
         match part {
             Part::Tangential | Part::TangentialSlope | Part::TangentialCurvature => {
                 let x = gap / self.variance.sqrt();

@@ -46,6 +46,7 @@
 
 mod band_limit;
 mod body;
+mod clearance;
 mod contrast;
 mod correction;
 mod error;
