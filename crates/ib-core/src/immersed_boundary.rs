@@ -4,6 +4,7 @@ mod contrast_flow;
 
 use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, StokesSolver};
 
+use crate::clearance::Clearance;
 use crate::contrast::other_viscosity;
 use crate::correction::MobilityCorrection;
 use crate::sampling;
@@ -43,6 +44,7 @@ pub struct ImmersedBoundary<S, K> {
     density: StaggeredField,
     velocity: StaggeredField,
     correction: Option<MobilityCorrection>,
+    clearance: Clearance,
     stiffness: f64,
     variance: f64,
     contrast: Option<ContrastFlow<K>>,
@@ -86,6 +88,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             correction: corrected.then(|| MobilityCorrection::new(deficit)),
             stiffness,
             variance: std::f64::consts::PI * constant * constant,
+            clearance: Clearance::default(),
             contrast: None,
             varying: false,
             work: FlowWork::default(),
@@ -178,13 +181,16 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// Adds the mobility correction of a group to its velocities.
     fn correct(&mut self, group: usize, markers: &mut Markers) -> Result<(), FlowError> {
         let setting = self.setting();
+        let (spacing, period) = (self.grid().spacing(), self.grid().lengths()[0]);
+        let group_index = group;
         let group = &markers.groups()[group];
         if let Some(correction) = self.correction.as_mut()
             && matches!(group.kind, MarkerKind::Interface { .. })
         {
             let range = group.range.clone();
             let (positions, forces) = (&markers.positions[range.clone()], &markers.forces[range.clone()]);
-            correction.apply(&setting, positions, forces, &mut markers.velocities[range])?;
+            let gaps = self.clearance.gaps(markers, group_index, spacing, period);
+            correction.apply(&setting, gaps, positions, forces, &mut markers.velocities[range])?;
             self.work.corrections += 1;
         }
         Ok(())

@@ -47,6 +47,7 @@
 mod band_limit;
 mod body;
 mod checkpoint;
+mod clearance;
 mod contact;
 mod contrast;
 mod correction;

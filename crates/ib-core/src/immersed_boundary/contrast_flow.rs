@@ -1,8 +1,9 @@
 //! Interfaces to other viscosities on the grid.
 
-use stokes_grid::{CentreField, StaggeredField, StokesSolver};
+use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
 
 use super::{ImmersedBoundary, add};
+use crate::clearance::Clearance;
 use crate::contrast::{Contrast, Droplet, EquivalentForces, Images, Nearby, Outcome, RigidWalls};
 use crate::correction::Setting;
 use crate::{FlowError, FlowReport, FlowSample, Kernel, Markers, Record, Transfer, Vec2, sampling};
@@ -18,6 +19,7 @@ pub(super) struct ContrastFlow<K> {
     imposed: Option<(StaggeredField, [f64; 2])>,
     /// At the droplets' nodes.
     nodes: Nodes,
+    clearance: Clearance,
     /// Forces of all markers but the droplets'; then velocities of all markers.
     all: Vec<Vec2>,
     /// The flow of these forces and what is imposed.
@@ -29,6 +31,8 @@ pub(super) struct ContrastFlow<K> {
 #[derive(Debug, Default)]
 struct Nodes {
     positions: Vec<Vec2>,
+    /// Distances from solids (grid spacings); empty without solids.
+    gaps: Vec<f64>,
     forces: Vec<Vec2>,
     /// Velocities of one viscosity: of the droplets' own forces, and of all others.
     own: Vec<Vec2>,
@@ -58,9 +62,10 @@ impl<K: Kernel> ContrastFlow<K> {
     }
 
     /// Takes over the droplets.
-    fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+    fn load(&mut self, grid: &Grid, markers: &Markers) -> Result<(), FlowError> {
         self.contrast.load(markers)?;
-        let Nodes { positions, forces, own, other, velocities, target } = &mut self.nodes;
+        let Nodes { positions, gaps, forces, own, other, velocities, target } = &mut self.nodes;
+        gaps.clear();
         for array in [&mut *positions, &mut *forces, &mut *velocities] {
             array.clear();
         }
@@ -68,6 +73,8 @@ impl<K: Kernel> ContrastFlow<K> {
             positions.extend_from_slice(&markers.positions[droplet.markers.clone()]);
             forces.extend_from_slice(&markers.forces[droplet.markers.clone()]);
             velocities.extend_from_slice(&markers.velocities[droplet.markers.clone()]);
+            let group = markers.groups().iter().position(|group| group.range == droplet.markers).unwrap_or_default();
+            gaps.extend_from_slice(self.clearance.gaps(markers, group, grid.spacing(), grid.lengths()[0]));
         }
         for array in [own, other, target] {
             array.resize(positions.len(), Vec2::zeros());
@@ -101,6 +108,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             transfer: Transfer::new(grid, self.transfer.kernel().clone()),
             imposed,
             nodes: Nodes::default(),
+            clearance: Clearance::default(),
             all: Vec::new(),
             other: velocity,
             other_density: density,
@@ -117,7 +125,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     }
 
     fn contrast_with(&mut self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<FlowReport, FlowError> {
-        flow.load(markers)?;
+        flow.load(self.solver.grid(), markers)?;
         self.work.evaluations += 1;
         let mut gradient = self.solve_others(flow, markers)?;
         let own = self.solve_on(&flow.transfer, &flow.nodes.forces)?;
@@ -130,7 +138,13 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         }
         flow.transfer.interpolate(&self.velocity, &mut flow.nodes.own);
         let droplets = flow.contrast.droplets();
-        self.correct_droplets(droplets, &flow.nodes.positions, &flow.nodes.forces, &mut flow.nodes.own)?;
+        self.correct_droplets(
+            droplets,
+            &flow.nodes.gaps,
+            &flow.nodes.positions,
+            &flow.nodes.forces,
+            &mut flow.nodes.own,
+        )?;
         let effort = flow.contrast.solve(&flow.nodes.own, &flow.nodes.other, &mut flow.nodes.velocities)?;
         gradient[0] += effort.pressure_gradient;
         let (mut iterations, mut residual) = (effort.iterations, effort.residual);
@@ -202,6 +216,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     fn correct_droplets(
         &mut self,
         droplets: &[Droplet],
+        gaps: &[f64],
         positions: &[Vec2],
         forces: &[Vec2],
         velocities: &mut [Vec2],
@@ -211,7 +226,13 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         for droplet in droplets.iter().filter(|droplet| droplet.even) {
             let nodes = droplet.first..droplet.first + droplet.nodes();
             let (positions, forces) = (&positions[nodes.clone()], &forces[nodes.clone()]);
-            correction.apply(&setting, positions, forces, &mut velocities[nodes])?;
+            correction.apply(
+                &setting,
+                gaps.get(nodes.clone()).unwrap_or(&[]),
+                positions,
+                forces,
+                &mut velocities[nodes],
+            )?;
             self.work.corrections += 1;
         }
         Ok(())
@@ -220,7 +241,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// Finds the forces that take the place of the other viscosities.
     fn find_equivalent(&mut self, flow: &mut ContrastFlow<K>) -> Result<Outcome, FlowError> {
         let viscosity = self.solver.viscosity();
-        let Nodes { positions, other, velocities, target, .. } = &mut flow.nodes;
+        let Nodes { positions, gaps, other, velocities, target, .. } = &mut flow.nodes;
         for ((target, velocity), other) in target.iter_mut().zip(velocities).zip(other) {
             *target = viscosity * (*velocity - *other);
         }
@@ -232,7 +253,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
                 add(&mut self.velocity, imposed, -1.0);
             }
             transfer.interpolate(&self.velocity, out);
-            self.correct_droplets(droplets, positions, forces, out)?;
+            self.correct_droplets(droplets, gaps, positions, forces, out)?;
             out.iter_mut().for_each(|velocity| *velocity *= viscosity);
             Ok(())
         })
@@ -259,7 +280,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         points: &[Vec2],
         out: &mut [FlowSample],
     ) -> Result<(), FlowError> {
-        flow.load(markers)?;
+        flow.load(self.solver.grid(), markers)?;
         let mut scratch = markers.clone();
         self.solve_others(flow, &mut scratch)?;
         self.find_equivalent(flow)?;

@@ -1,0 +1,90 @@
+//! How far the markers of an interface are from solids.
+
+use crate::{MarkerKind, Markers, Vec2};
+
+/// Distance up to which it is measured, in grid spacings.
+const REACH: f64 = 6.0;
+/// A stiff lattice stops the fluid this far in front of its outermost row, in grid spacings.
+const OFFSET: f64 = 0.37;
+
+/// Distances of the markers of an interface from the nearest points of solids.
+#[derive(Debug, Default)]
+pub(crate) struct Clearance {
+    squared: Vec<f64>,
+    gaps: Vec<f64>,
+    /// Markers sorted by x.
+    order: Vec<(f64, u32)>,
+}
+
+impl Clearance {
+    /// The gaps between the markers of an interface and where solids stop the fluid, in grid spacings; infinite beyond the
+    /// reach. Empty without solids.
+    pub(crate) fn gaps(&mut self, markers: &Markers, interface: usize, spacing: f64, period: f64) -> &[f64] {
+        self.gaps.clear();
+        if markers.groups().iter().all(|group| group.kind != MarkerKind::Points) {
+            return &self.gaps;
+        }
+        let positions = &markers.positions[markers.groups()[interface].range.clone()];
+        self.squared.clear();
+        self.squared.resize(positions.len(), f64::INFINITY);
+        self.order.clear();
+        self.order.extend(positions.iter().zip(0..).map(|(p, k)| (p.x, k)));
+        self.order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        let reach = REACH * spacing;
+        let (low, high) =
+            positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.y), b.max(p.y)));
+        let (Some(&(first, _)), Some(&(last, _))) = (self.order.first(), self.order.last()) else { return &self.gaps };
+        let middle = 0.5 * (first + last);
+        let solids = markers.groups().iter().filter(|group| group.kind == MarkerKind::Points);
+        for point in solids.flat_map(|group| &markers.positions[group.range.clone()]) {
+            if point.y < low - reach || point.y > high + reach {
+                continue;
+            }
+            let x = point.x - period * ((point.x - middle) / period).round();
+            if x < first - reach || x > last + reach {
+                continue;
+            }
+            let point = Vec2::new(x, point.y);
+            let start = self.order.partition_point(|(at, _)| *at < x - reach);
+            for &(at, marker) in &self.order[start..] {
+                if at > x + reach {
+                    break;
+                }
+                let marker = marker as usize;
+                let squared = (positions[marker] - point).norm_squared();
+                self.squared[marker] = self.squared[marker].min(squared);
+            }
+        }
+        let gap = |squared: &f64| {
+            if *squared > reach * reach { f64::INFINITY } else { (squared.sqrt() / spacing - OFFSET).max(0.0) }
+        };
+        self.gaps.extend(self.squared.iter().map(gap));
+        &self.gaps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_row_beside_a_few_markers() {
+        let mut markers = Markers::new();
+        markers.push_group(3, MarkerKind::Interface { viscosity_inside: None });
+        markers.push_group(40, MarkerKind::Points);
+        let heights = [0.1, 0.03, 1.5];
+        for (k, height) in heights.iter().enumerate() {
+            markers.positions[k] = Vec2::new(8.0 + 0.1 * k as f64, *height);
+        }
+        for k in 0..40 {
+            markers.positions[3 + k] = Vec2::new(0.1 * k as f64, 0.0);
+        }
+        let mut clearance = Clearance::default();
+        // The row repeats itself with the period of 4.
+        let gaps = clearance.gaps(&markers, 0, 0.1, 4.0).to_vec();
+        assert!((gaps[0] - 0.63).abs() < 1e-9 && gaps[1] == 0.0 && gaps[2] == f64::INFINITY, "{gaps:?}");
+        let mut alone = Markers::new();
+        alone.push_group(3, MarkerKind::Interface { viscosity_inside: None });
+        assert!(clearance.gaps(&alone, 0, 0.1, 4.0).is_empty());
+    }
+}

@@ -1,0 +1,193 @@
+//! The tables of the study.
+
+use support::{Summary, say};
+
+use crate::run::{Job, Purpose};
+
+/// Runs and their results.
+pub(crate) type Points = [(Job, Summary)];
+
+pub(crate) fn of(points: &Points, purpose: Purpose) -> Vec<&(Job, Summary)> {
+    let mut chosen: Vec<_> = points.iter().filter(|(job, _)| job.purpose == purpose).collect();
+    let key = |job: &Job| (job.width, -job.activity, job.stiffness);
+    chosen.sort_by(|(a, _), (b, _)| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal));
+    chosen
+}
+
+fn text<'a>(summary: &'a Summary, name: &str) -> &'a str {
+    summary.values().get(name).and_then(|value| value.as_str()).unwrap_or("-")
+}
+
+pub(crate) fn print(points: &Points) {
+    speeds(points);
+    fits(points);
+    lateral(points);
+    passages(points);
+    comparison(points);
+    narrow(points);
+}
+
+/// Speed between rigid walls or unconfined, if it was computed.
+fn speed_of(points: &Points, purpose: Purpose, width: f64, activity: f64) -> Option<f64> {
+    let found = points.iter().find(|(job, _)| {
+        job.purpose == purpose && job.activity == activity && (purpose == Purpose::Unconfined || job.width == width)
+    });
+    found.map(|(_, summary)| summary.number("speed"))
+}
+
+fn speeds(points: &Points) {
+    let chosen = of(points, Purpose::Speed);
+    if chosen.is_empty() {
+        return;
+    }
+    say("Speed between walls of springs (figures 4.4 to 4.9)");
+    say(format_args!(
+        "  {:>5} {:>8} {:>8} {:>6}  {:>8} {:>8} {:>7}  {:>6} {:>6} {:>6}  {:>12} {:>6}",
+        "width", "activity", "k", "h", "speed", "rigid", "", "aspect", "narrow", "wide", "displacement", "gap"
+    ));
+    for (job, summary) in chosen {
+        let rigid = speed_of(points, Purpose::Rigid, job.width, job.activity);
+        let excess =
+            rigid.map_or(String::new(), |rigid| format!("{:+.1} %", 100.0 * (summary.number("speed") / rigid - 1.0)));
+        say(format_args!(
+            "  {:>5} {:>8} {:>8} {:>6}  {:>8.5} {:>8.5} {excess:>7}  {:>6.3} {:>6.3} {:>6.3}  {:>12.4} {:>6.3}{}",
+            job.width,
+            job.activity,
+            job.stiffness,
+            job.spacing,
+            summary.number("speed"),
+            rigid.unwrap_or(f64::NAN),
+            summary.number("aspect_ratio"),
+            summary.number("channel_width_min"),
+            summary.number("channel_width_max"),
+            summary.number("largest_displacement"),
+            summary.number("minimum_gap"),
+            failure(summary)
+        ));
+    }
+}
+
+fn failure(summary: &Summary) -> String {
+    summary.values().get("failure").and_then(|value| value.as_str()).map_or(String::new(), |text| format!("  {text}"))
+}
+
+/// The constant b of (4.3), `v = (v_unconfined - v_rigid) exp(-k/b) + v_rigid`, by least squares.
+pub(crate) fn fitted(points: &Points, width: f64, activity: f64) -> Option<(f64, f64, f64)> {
+    let rigid = speed_of(points, Purpose::Rigid, width, activity)?;
+    let free = speed_of(points, Purpose::Unconfined, width, activity)?;
+    let speeds: Vec<(f64, f64)> = of(points, Purpose::Speed)
+        .into_iter()
+        .filter(|(job, _)| (job.width, job.activity) == (width, activity))
+        .map(|(job, summary)| (job.stiffness, summary.number("speed")))
+        .collect();
+    if speeds.len() < 2 {
+        return None;
+    }
+    let error =
+        |b: f64| -> f64 { speeds.iter().map(|(k, v)| ((free - rigid) * (-k / b).exp() + rigid - v).powi(2)).sum() };
+    let candidates = (0..=4000).map(|n| 10_f64.powf(3.0 + 0.001 * f64::from(n)));
+    let b = candidates.min_by(|a, b| error(*a).total_cmp(&error(*b)))?;
+    Some((free, rigid, b))
+}
+
+fn fits(points: &Points) {
+    let mut cases: Vec<(f64, f64)> =
+        of(points, Purpose::Rigid).iter().map(|(job, _)| (job.width, job.activity)).collect();
+    cases.dedup();
+    for (width, activity) in cases {
+        if let Some((free, rigid, b)) = fitted(points, width, activity) {
+            say(format_args!(
+                "  fit (4.3) at width {width}, activity {activity}: unconfined {free:.4}, rigid {rigid:.4}, b = {b:.3e}"
+            ));
+        }
+    }
+}
+
+fn lateral(points: &Points) {
+    let chosen = of(points, Purpose::Lateral);
+    if !chosen.is_empty() {
+        say("Droplets that start 0.3 R0 off the centre line (figure 4.17)");
+    }
+    for (job, summary) in chosen {
+        say(format_args!(
+            "  width {} activity {} k {:>8}: {}, amplitude {:.4}, growth rate {:+.4}{}",
+            job.width,
+            job.activity,
+            job.stiffness,
+            text(summary, "regime"),
+            summary.number("amplitude"),
+            summary.number("growth_rate"),
+            failure(summary)
+        ));
+    }
+}
+
+fn passages(points: &Points) {
+    let chosen = of(points, Purpose::Passage);
+    if chosen.is_empty() {
+        return;
+    }
+    say("Passage through the constriction (figure 4.19)");
+    say(format_args!(
+        "  {:>8} {:>8} {:>6}  {:>12} {:>7} {:>8} {:>7} {:>7}",
+        "k", "activity", "h", "verdict", "time", "furthest", "gap", "J"
+    ));
+    for (job, summary) in chosen {
+        say(format_args!(
+            "  {:>8} {:>8} {:>6}  {:>12} {:>7.1} {:>8.2} {:>7.3} {:>7.3}{}{}",
+            job.stiffness,
+            job.activity,
+            job.spacing,
+            text(summary, "verdict"),
+            summary.number("verdict_time"),
+            summary.number("furthest_x"),
+            summary.number("minimum_gap"),
+            summary.number("smallest_jacobian"),
+            if job.thesis { "  thesis" } else { "" },
+            failure(summary)
+        ));
+    }
+}
+
+fn comparison(points: &Points) {
+    let chosen = of(points, Purpose::Comparison);
+    if !chosen.is_empty() {
+        say("Kinds of walls, viscosity 1000, activity -10, k = 1e4 (figures 4.2, 4.3, 4.22, 4.23)");
+    }
+    for (job, summary) in chosen {
+        say(format_args!(
+            "  {:<11} {:<13} h {:<5} speed {:.5}  width {:.4} to {:.4}  J {:.3}{}",
+            format!("{:?}", job.material),
+            format!("{:?}", job.mesh),
+            job.spacing,
+            summary.number("speed"),
+            summary.number("channel_width_min"),
+            summary.number("channel_width_max"),
+            summary.number("smallest_jacobian"),
+            failure(summary)
+        ));
+    }
+}
+
+fn narrow(points: &Points) {
+    let chosen = of(points, Purpose::Narrow);
+    if !chosen.is_empty() {
+        say("Neo-Hookean channel of width 1 R0 (figure 4.25)");
+    }
+    for (job, summary) in chosen {
+        say(format_args!(
+            "  activity {:>3} E {:>6} h {:<5} speed {:.5} (+- {:.1e})  aspect {:.3}  width {:.3} to {:.3}  J {:.3}  gap {:.3}{}",
+            job.activity,
+            job.stiffness,
+            job.spacing,
+            summary.number("speed"),
+            summary.number("speed_deviation"),
+            summary.number("aspect_ratio"),
+            summary.number("channel_width_min"),
+            summary.number("channel_width_max"),
+            summary.number("smallest_jacobian"),
+            summary.number("minimum_gap"),
+            failure(summary)
+        ));
+    }
+}
