@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release --example scaling` times the solver of a periodic box from 64 to 2048 cells squared, and bodies of 100 to 100,000
 //! markers, prints time and memory per cell and per marker, and writes `scaling.json` to `out/scaling/`. A minute; where the
-//! tables bend, the data no longer fit into a cache.
+//! tables bend, the data no longer fit into a cache. Times are those of the turn least disturbed.
 
 use std::hint::black_box;
 use std::path::PathBuf;
@@ -77,7 +77,8 @@ fn solver(n: usize, budget: Duration) -> Result<Value> {
     let cells = (n * n) as f64;
     // Force and velocity, two components each, beside what the solver keeps.
     let bytes = used.bytes_current as f64 / cells + 4.0 * 8.0;
-    let (pair, time, ratio) = (turns.time(0), turns.time(1), turns.ratio(1));
+    let (pair, time) = (turns.least(0), turns.least(1));
+    let ratio = time / pair;
     say(format_args!(
         "{n:>6} {:>10.1} {:>10.1} {ratio:>8.2} {:>10.2} {bytes:>12.1} {:>10.2}",
         1e6 * pair,
@@ -125,7 +126,7 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
     let mut interpolate = || transfer.interpolate(black_box(&velocity), &mut velocities);
     let mut force = || drop(black_box(solid.write_forces(&medium, &mut forces)));
     let turns = Turns::measure(budget, &mut [&mut locate, &mut spread, &mut interpolate, &mut force]);
-    let per_marker = |work: usize| 1e9 * turns.time(work) / markers as f64;
+    let per_marker = |work: usize| 1e9 * turns.least(work) / markers as f64;
     let [locate, spread, interpolate, force] = [0, 1, 2, 3].map(per_marker);
     let bytes = used.bytes_current as f64 / markers as f64;
     say(format_args!(
