@@ -41,6 +41,7 @@
 
 mod elastic_channel;
 mod method;
+mod recommend;
 mod setup_error;
 mod solid_gap;
 mod swimmer;
@@ -48,6 +49,7 @@ mod swimmer_scenes;
 
 pub use elastic_channel::{BuiltElastic, ElasticChannel, WallMaterial, WallMesh, WallSurface};
 pub use method::{ContrastMethod, Method};
+pub use recommend::{SceneKind, recommend};
 pub use setup_error::SetupError;
 pub use solid_gap::{SolidEntered, SolidGap};
 pub use swimmer::{InitialState, Swimmer};

@@ -47,4 +47,14 @@ pub enum SetupError {
         /// What is wrong, and the remedy.
         problem: &'static str,
     },
+    /// An error that no settings were measured for.
+    #[error("no settings are known for an error of {target:e}: ask for one from {smallest:e} to {largest}")]
+    TargetError {
+        /// The error asked for (no dimension).
+        target: f64,
+        /// The smallest that was measured.
+        smallest: f64,
+        /// The largest that is given settings for.
+        largest: f64,
+    },
 }

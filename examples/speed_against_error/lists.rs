@@ -12,6 +12,7 @@ pub(crate) fn settings(study: Study, full: bool) -> Vec<Settings> {
         Study::FixedEllipse => fixed(),
         Study::Relaxation => relaxation(),
         Study::Steady | Study::Strong | Study::Transient => swimmer(study, full),
+        Study::Oblique => oblique(full),
         Study::Ratio10 | Study::Ratio100 => contrast(full),
         Study::Channel => channel(full),
         Study::ElasticLayer => elastic(),
@@ -91,6 +92,23 @@ fn swimmer(study: Study, full: bool) -> Vec<Settings> {
     let thesis = thesis(study == Study::Steady && full);
     let preset = |settings: &Settings| study == Study::Steady || !matches!(settings.step, StepSize::Fixed(_));
     list.extend(thesis.into_iter().filter(preset));
+    list
+}
+
+fn oblique(full: bool) -> Vec<Settings> {
+    let mut list = vec![Settings::integrals(96, 384)];
+    for cells in [2, 4] {
+        list.extend(nodes(&[16, 24, 32, 48, 64], cells).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
+    }
+    let spacings: &[f64] = if full { &[0.15, 0.1, 0.075, 0.05, 0.025] } else { &[0.15, 0.1, 0.075, 0.05] };
+    for ratio in [1.0, 0.5] {
+        list.extend(grids(spacings, ratio));
+    }
+    for kernel in [AnyKernel::Peskin4, AnyKernel::Gaussian6, AnyKernel::BSpline6] {
+        list.extend(grids(&[0.1, 0.05], 0.5).map(|settings| settings.with_kernel(kernel)));
+    }
+    list.extend(grids(&[0.1, 0.05], 0.5).map(Settings::uncorrected));
+    list.extend([0.1, 0.05].map(|h| Settings::thesis(h, StepSize::OfLimit(0.5))));
     list
 }
 

@@ -31,7 +31,7 @@ pub(crate) fn page(points: &[Point], circumstances: &Circumstances, pictures: &s
         page,
         "# Speed against error\n\nMade by `{}`.\n\n{}, commit {}, one thread. The unit of cost is one real transform of {UNIT} x {UNIT} values there and \
          back, done plainly with realfft by turns with the steps; here it takes {pair:.0} us (median). Seconds are medians over the steps \
-         of a run. A point is on the front, marked *, if no other one of its scene is both cheaper and more accurate. All points are in \
+         of a run, or the mean processor time where that is less. A point is on the front, marked *, if no other one of its scene is both cheaper and more accurate. All points are in \
          `points.csv`.\n",
         circumstances.command, circumstances.machine, circumstances.commit
     );

@@ -1,5 +1,7 @@
 //! Errors of swimmers.
 
+use std::sync::OnceLock;
+
 use anyhow::{Result, anyhow};
 use motile::active_interface::{ActiveDroplet, Convention, observe};
 use motile::ib_core::{StepSize, System};
@@ -47,13 +49,29 @@ pub(crate) fn steady(settings: &Settings, activity: f64) -> Result<(f64, Cost)> 
     against(&boxed(settings, activity, None), settings, reference.value("speed")?)
 }
 
-/// The same at activity -1, ten times as viscous as its surroundings.
+/// Speed of a swimmer that is not along the grid, against far finer boundary integrals.
+pub(crate) fn oblique(settings: &Settings) -> Result<(f64, Cost)> {
+    static REFERENCE: OnceLock<f64> = OnceLock::new();
+    let scene = |settings: &Settings| Swimmer { angle: 0.4, offset: [0.013, 0.027], ..boxed(settings, -3.0, None) };
+    let reference = match REFERENCE.get() {
+        Some(&speed) => speed,
+        None => {
+            let fine = Settings::integrals(96, 512);
+            let swimmer = scene(&fine);
+            let found = march(|| Ok(swimmer.build()?.0), fine.stepper, STEADY, speed)?.1;
+            *REFERENCE.get_or_init(|| found)
+        }
+    };
+    against(&scene(settings), settings, reference)
+}
+
+/// The swimmer of activity -1, ten times as viscous as its surroundings.
 pub(crate) fn ratio_10(settings: &Settings) -> Result<(f64, Cost)> {
     let reference = Reference::read(ReferenceFile::SteadySwimmerContrast)?.select("zeta_dmu", "-1.0");
     against(&boxed(settings, -1.0, Some(10.0)), settings, reference.value("speed")?)
 }
 
-/// The same, a hundred times as viscous.
+/// The same swimmer a hundred times as viscous.
 pub(crate) fn ratio_100(settings: &Settings) -> Result<(f64, Cost)> {
     against(&boxed(settings, -1.0, Some(1.0)), settings, RATIO_100)
 }

@@ -34,7 +34,7 @@ pub(crate) const PHASES: [&str; 9] =
 const WARM_UP: usize = 5;
 
 impl<H: Hydrodynamics> Case<H> {
-    /// Steps the scene for about `budget` by turns with the bare transforms of its grid; medians over the steps.
+    /// Steps the scene for about `budget` by turns with the bare transforms of its grid; medians over the third of the steps that went fastest.
     pub(crate) fn measure(mut self, budget: Duration) -> Result<Summary> {
         for _ in 0..WARM_UP {
             self.scene.step(self.dt)?;
@@ -43,7 +43,6 @@ impl<H: Hydrodynamics> Case<H> {
         let walls = self.grid.has_walls();
         let mut pair = PlainPair::new(self.grid.nx(), self.grid.ny());
         let mut phases: Vec<[f64; PHASES.len()]> = Vec::new();
-        let mut ratios = Vec::new();
         let mut times = (Vec::new(), Vec::new());
         let before = self.scene.system().hydrodynamics().work();
         let start = Instant::now();
@@ -82,14 +81,12 @@ impl<H: Hydrodynamics> Case<H> {
                 upkeep,
                 integrator,
             ]);
-            ratios.push(total / bare);
             times.0.push(total);
             times.1.push(bare);
         }
         let after = self.scene.system().hydrodynamics().work();
         Ok(self.summary(
             &phases,
-            &mut ratios,
             times,
             (after.iterations - before.iterations) as f64,
             after.evaluations - before.evaluations,
@@ -108,13 +105,13 @@ impl<H: Hydrodynamics> Case<H> {
     fn summary(
         &self,
         phases: &[[f64; PHASES.len()]],
-        ratios: &mut [f64],
-        (mut steps, mut pairs): (Vec<f64>, Vec<f64>),
+        (steps, pairs): (Vec<f64>, Vec<f64>),
         iterations: f64,
         evaluations: usize,
     ) -> Summary {
         let mut summary = Summary::new();
-        let (step, pair) = (median(&mut steps), median(&mut pairs));
+        let fast = fastest(&steps);
+        let (step, pair) = (median_of(&fast, &steps), median_of(&fastest(&pairs), &pairs));
         summary.put("scene", self.kind, "");
         summary.put("nx", self.grid.nx(), "");
         summary.put("ny", self.grid.ny(), "");
@@ -125,11 +122,11 @@ impl<H: Hydrodynamics> Case<H> {
         summary.put("dt", self.dt, "");
         summary.put("pair_us", 1e6 * pair, "");
         summary.put("step_us", 1e6 * step, "");
-        summary.put("step_pairs", median(ratios), "");
+        summary.put("step_pairs", step / pair, "");
         summary.put("iterations_per_evaluation", iterations / evaluations.max(1) as f64, "");
         for (index, name) in PHASES.iter().enumerate() {
-            let mut times: Vec<f64> = phases.iter().map(|phases| phases[index]).collect();
-            summary.put(&format!("{name}_us"), 1e6 * median(&mut times), "");
+            let times: Vec<f64> = phases.iter().map(|phases| phases[index]).collect();
+            summary.put(&format!("{name}_us"), 1e6 * median_of(&fast, &times), "");
         }
         summary
     }
@@ -177,6 +174,18 @@ impl Pieces {
         });
         [spread, transform, interpolate]
     }
+}
+
+/// The fastest third of the samples: those that the rest of the machine disturbed least.
+fn fastest(times: &[f64]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..times.len()).collect();
+    order.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
+    order.truncate(times.len().div_ceil(3));
+    order
+}
+
+fn median_of(chosen: &[usize], times: &[f64]) -> f64 {
+    median(&mut chosen.iter().map(|&k| times[k]).collect::<Vec<_>>())
 }
 
 /// The shorter time of two runs: the first may find the caches cold.

@@ -1,0 +1,97 @@
+//! Settings for an error that is asked for.
+
+use active_interface::Motion;
+use ib_core::StepSize;
+
+use crate::{Method, SetupError, Swimmer};
+
+/// What a scene contains, as far as its errors are concerned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SceneKind {
+    /// Droplets in a periodic box.
+    Box,
+    /// Droplets in a periodic box, more viscous than their surroundings by a factor of up to a hundred.
+    ViscosityContrast,
+    /// Droplets in a channel with rigid walls, with films of some hundredths of the radius.
+    Channel,
+}
+
+/// What was measured: the largest error of the speed and the settings that have it.
+struct Entry {
+    error: f64,
+    settings: Settings,
+}
+
+#[derive(Clone, Copy)]
+enum Settings {
+    /// Shape nodes and cells of the concentration.
+    Integrals(usize, usize),
+    /// Spacing of the grid over the radius; markers half of that apart.
+    Grid(f64),
+}
+
+/// Part of the stability limit that a step takes: below it the errors of time are far below those of space.
+const OF_LIMIT: f64 = 0.9;
+/// In a channel films drain and the limit falls on the way.
+const OF_LIMIT_IN_CHANNELS: f64 = 0.5;
+
+/// The largest error over the scenes of docs/speed-against-error.md of that kind (activities -1 to -4 in boxes, along the grid and not,
+/// ratios of 10 and 100, width 2), of these settings and of all finer ones of the same kind. From coarse to fine.
+fn measured(scene: SceneKind, method: Method) -> &'static [Entry] {
+    use Settings::{Grid, Integrals};
+    const fn entry(error: f64, settings: Settings) -> Entry {
+        Entry { error, settings }
+    }
+    const BOX: [Entry; 3] =
+        [entry(0.0053, Integrals(24, 48)), entry(0.0013, Integrals(64, 128)), entry(0.0006, Integrals(64, 256))];
+    const BOX_GRID: [Entry; 1] = [entry(0.0097, Grid(0.05))];
+    const CONTRAST: [Entry; 2] = [entry(0.0052, Integrals(24, 48)), entry(0.0009, Integrals(48, 192))];
+    const CONTRAST_GRID: [Entry; 2] = [entry(0.0075, Grid(0.1)), entry(0.0045, Grid(0.075))];
+    const CHANNEL: [Entry; 3] =
+        [entry(0.0082, Integrals(32, 128)), entry(0.0025, Integrals(64, 128)), entry(0.0007, Integrals(96, 192))];
+    const CHANNEL_GRID: [Entry; 2] = [entry(0.0045, Grid(0.08)), entry(0.0028, Grid(0.05))];
+    match (scene, method) {
+        (SceneKind::Box, Method::BoundaryIntegral) => &BOX,
+        (SceneKind::Box, Method::ImmersedBoundary) => &BOX_GRID,
+        (SceneKind::ViscosityContrast, Method::BoundaryIntegral) => &CONTRAST,
+        (SceneKind::ViscosityContrast, Method::ImmersedBoundary) => &CONTRAST_GRID,
+        (SceneKind::Channel, Method::BoundaryIntegral) => &CHANNEL,
+        (SceneKind::Channel, Method::ImmersedBoundary) => &CHANNEL_GRID,
+    }
+}
+
+/// A swimmer with the cheapest settings (nodes and cells, or spacings, and the time step) that are known to give its steady
+/// speed with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of scene by a method. All else is the
+/// default; the grid spacing is that for a radius of one.
+///
+/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the thesis' units; a sharper edge
+/// of the concentration needs more cells ([`active_interface::DropletWarning::CellPeclet`] tells).
+///
+/// ```
+/// use motile::prelude::*;
+/// use motile::{SceneKind, recommend};
+///
+/// let swimmer = recommend(SceneKind::Box, Method::BoundaryIntegral, 0.01)?;
+/// assert!(swimmer.nodes < Swimmer::default().nodes);
+/// // Nothing that was measured is this accurate.
+/// assert!(recommend(SceneKind::Box, Method::ImmersedBoundary, 1e-7).is_err());
+/// # Ok::<(), motile::SetupError>(())
+/// ```
+///
+/// # Errors
+/// A target below the smallest error that was measured, above 5 %, or not a number.
+pub fn recommend(scene: SceneKind, method: Method, target_error: f64) -> Result<Swimmer, SetupError> {
+    const LARGEST: f64 = 0.05;
+    let entries = measured(scene, method);
+    let found = entries.iter().find(|entry| entry.error <= target_error).filter(|_| target_error <= LARGEST);
+    let Some(entry) = found else {
+        let smallest = entries.iter().map(|entry| entry.error).fold(f64::INFINITY, f64::min);
+        return Err(SetupError::TargetError { target: target_error, smallest, largest: LARGEST });
+    };
+    let fraction = if scene == SceneKind::Channel { OF_LIMIT_IN_CHANNELS } else { OF_LIMIT };
+    let base = Swimmer { method, motion: Motion::default(), step: StepSize::OfLimit(fraction), ..Swimmer::default() };
+    Ok(match entry.settings {
+        Settings::Integrals(nodes, cells) => Swimmer { nodes, concentration_cells: cells, ..base },
+        Settings::Grid(spacing) => Swimmer { spacing, marker_spacing: Some(0.5 * spacing), ..base },
+    })
+}
