@@ -17,13 +17,16 @@ fn list(errors: impl Iterator<Item = f64>) -> String {
     errors.map(per_cent).collect::<Vec<_>>().join(" / ")
 }
 
+/// A droplet of a ratio of viscosities.
+type Shape = fn(f64) -> Droplet;
+
 pub(crate) fn shapes(quick: bool) -> Tables {
     let spacings = spacings(quick);
     let mut table = Table::new(
         "Fixed shapes of another viscosity in a 6 x 6 box, errors in % at h = R/10, R/20, R/40: velocity of the centroid, root mean square and largest over the markers",
         &["shape, tension", "ratio", "way", "centroid", "rms", "largest", "orders"],
     );
-    let shapes: [(&str, fn(f64) -> Droplet); 4] = [
+    let shapes: [(&str, Shape); 4] = [
         ("circle, 1 + 0.5 cos", |ratio| Droplet::circle(1, ratio)),
         ("circle, 1 + 0.5 cos 2", |ratio| Droplet::circle(2, ratio)),
         ("circle, 1 + 0.5 cos 3", |ratio| Droplet::circle(3, ratio)),

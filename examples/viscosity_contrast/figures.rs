@@ -1,6 +1,6 @@
 //! The figures of the study.
 
-use support::{AxisScale, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series, Summary};
+use support::{AxisScale, Figure, Marker, Plot, SERIES_COLOURS, Series, Summary};
 
 use crate::run::{Job, Surroundings};
 use crate::statements::{Points, equal, pairs, source_dipole};
@@ -16,16 +16,19 @@ pub(crate) fn all(points: &Points) -> [(&'static str, Figure); 5] {
     ]
 }
 
-/// Families of droplets, with their colours.
-fn families() -> [(&'static str, fn(&Job) -> bool, Rgb); 4] {
-    let family: [(&'static str, fn(&Job) -> bool); 4] = [
-        ("equal viscosities", equal),
-        ("thicker inside, sum 1000", |job| job.inside > job.outside && job.sum() == 1000.0),
-        ("thicker inside", |job| job.inside > job.outside && job.sum() != 1000.0),
-        ("thicker outside", |job| job.inside < job.outside),
-    ];
-    std::array::from_fn(|k| (family[k].0, family[k].1, SERIES_COLOURS[k]))
+/// A family of droplets.
+struct Family {
+    name: &'static str,
+    has: fn(&Job) -> bool,
 }
+
+/// All families, in the order of their colours.
+const FAMILIES: [Family; 4] = [
+    Family { name: "equal viscosities", has: equal },
+    Family { name: "thicker inside, sum 1000", has: |job| job.inside > job.outside && job.sum() == 1000.0 },
+    Family { name: "thicker inside", has: |job| job.inside > job.outside && job.sum() != 1000.0 },
+    Family { name: "thicker outside", has: |job| job.inside < job.outside },
+];
 
 /// Discs for unbounded fluid, circles for the box, in the colours of the families.
 fn by_family(
@@ -34,10 +37,10 @@ fn by_family(
     x: impl Fn(&Job, &Summary) -> f64 + Copy,
     y: impl Fn(&Job, &Summary) -> f64 + Copy,
 ) -> Plot {
-    for (name, wanted, colour) in families() {
+    for (family, colour) in FAMILIES.iter().zip(SERIES_COLOURS) {
         for (surroundings, marker) in [(Surroundings::Unbounded, Marker::Disc), (Surroundings::Box, Marker::Circle)] {
-            let label = if surroundings == Surroundings::Unbounded { name } else { "" };
-            let values = pairs(points, x, y, |job| job.surroundings == surroundings && wanted(job));
+            let label = if surroundings == Surroundings::Unbounded { family.name } else { "" };
+            let values = pairs(points, x, y, |job| job.surroundings == surroundings && (family.has)(job));
             plot = plot.series(Series::points(label, values).marker(marker).colour(colour));
         }
     }
