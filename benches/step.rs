@@ -14,7 +14,7 @@ use motile_timing::{PlainPair, print_ratios};
 /// A step small enough that thousands of them stay in the same regime.
 const DT: f64 = 1e-4;
 
-fn step(c: &mut Criterion, name: &str, [nx, ny]: [usize; 2], scene: motile::ib_core::Scene<AnyFlow>) {
+fn step(c: &mut Criterion, name: &str, [nx, ny]: [usize; 2], scene: Scene<AnyFlow>) {
     let mut scene = scene;
     scene.step(DT).expect("a good scene");
     let mut step = || black_box(&mut scene).step(DT).expect("a good scene");

@@ -105,8 +105,8 @@ fn in_channel(kind: &'static str, swimmer: Swimmer, layers: Option<f64>) -> Resu
 }
 
 /// A droplet without a grid; the grid of spacing 0.05 is the measure.
-fn without_grid(kind: &'static str, swimmer: Swimmer, nodes: usize, walls: bool) -> Result<Job> {
-    let swimmer = Swimmer { nodes, concentration_cells: 4 * nodes, ..swimmer };
+fn without_grid(kind: &'static str, swimmer: &Swimmer, nodes: usize, walls: bool) -> Result<Job> {
+    let swimmer = Swimmer { nodes, concentration_cells: 4 * nodes, ..swimmer.clone() };
     let grid = if walls { between_walls(&swimmer)? } else { periodic(&swimmer)? };
     let run = move |budget| {
         let watches = Stopwatches::default();
@@ -170,11 +170,11 @@ pub(crate) fn jobs() -> Result<Vec<Job>> {
         jobs.push(smeared(swimmer([6.0; 2], 6.0 / cells, Some(THICK)))?);
     }
     for nodes in [64, 128, 256] {
-        jobs.push(without_grid("integrals, box", swimmer([6.0; 2], 0.05, None), nodes, false)?);
-        jobs.push(without_grid("integrals, box, ratio 100", swimmer([6.0; 2], 0.05, Some(THICK)), nodes, false)?);
-        jobs.push(without_grid("integrals, channel", swimmer([12.0, 3.0], 0.05, None), nodes, true)?);
+        jobs.push(without_grid("integrals, box", &swimmer([6.0; 2], 0.05, None), nodes, false)?);
+        jobs.push(without_grid("integrals, box, ratio 100", &swimmer([6.0; 2], 0.05, Some(THICK)), nodes, false)?);
+        jobs.push(without_grid("integrals, channel", &swimmer([12.0, 3.0], 0.05, None), nodes, true)?);
         let thick = swimmer([12.0, 3.0], 0.05, Some(THICK));
-        jobs.push(without_grid("integrals, channel, ratio 100", thick, nodes, true)?);
+        jobs.push(without_grid("integrals, channel, ratio 100", &thick, nodes, true)?);
     }
     Ok(jobs)
 }
