@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use motile::elastic_solids::Moduli;
+use motile::ib_core::Scene;
 use motile::stokes_grid::Drive;
 use motile::{AnyFlow, ContrastMethod, ElasticChannel, Method, Swimmer};
 use motile_timing::{PlainPair, print_ratios};
