@@ -171,8 +171,8 @@ fn makers() -> Vec<Maker> {
         maker("StraightChannel", &[6.0, 2.0], "++", |v| {
             StraightChannel { period: v[0], width: v[1] }.channel().is_ok()
         }),
-        maker("SinusoidalChannel", &[6.0, 2.0, 0.3], "++-", |v| {
-            SinusoidalChannel { period: v[0], width: v[1], amplitude: v[2], waves: 1, phase: 0.0 }.channel().is_ok()
+        maker("SinusoidalChannel", &[6.0, 2.0, 0.3, 0.1], "++--", |v| {
+            SinusoidalChannel { period: v[0], width: v[1], amplitude: v[2], phase: v[3], waves: 2 }.channel().is_ok()
         }),
         maker("Constriction", &[8.0, 2.0, 1.0, 1.0, 1.0, 0.0], "++++0-", |v| {
             Constriction { period: v[0], width: v[1], throat: v[2], throat_length: v[3], ramp: v[4], centre: v[5] }
