@@ -12,13 +12,13 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile_hard_cases::{Extent, Outcome, Trial, cases};
-use support::{Summary, count, make_directory, say, write_results, write_scene_picture};
+use support::{Summary, make_directory, say, write_results, write_scene_picture};
 
 /// Scenes that are hard to compute.
 #[derive(Debug, Parser)]
 struct Flags {
     /// Numbers of the cases to run; without it all
-    #[arg(long = "case", value_name = "NUMBER", value_parser = count, value_delimiter = ',')]
+    #[arg(long = "case", value_name = "NUMBER", value_delimiter = ',')]
     cases: Vec<usize>,
     /// Run the short version, as the tests do
     #[arg(long)]

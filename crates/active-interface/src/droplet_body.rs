@@ -202,7 +202,8 @@ impl Body for ActiveDroplet {
             }
         }
         if let Some((first, second)) = self.crossing.first_crossing(&self.markers)? {
-            return Err(BodyError::SelfCrossing { first, second });
+            let place = self.markers[first];
+            return Err(BodyError::SelfCrossing { x: place.x, y: place.y, first, second });
         }
         self.check_bounds()
     }

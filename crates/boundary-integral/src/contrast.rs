@@ -45,6 +45,16 @@ impl Contrast {
         self.gmres.forget();
     }
 
+    /// What earlier solutions left for the next.
+    pub(crate) fn save(&self) -> (usize, Vec<f64>) {
+        self.gmres.save()
+    }
+
+    /// Takes back what [`Contrast::save`] wrote.
+    pub(crate) fn restore(&mut self, len: usize, kept: &[f64]) {
+        self.gmres.restore(len, kept);
+    }
+
     /// Takes over the viscosities; whether any differs from that of the surroundings.
     pub(crate) fn load(&mut self, interfaces: &[Interface], viscosity: f64) -> bool {
         self.contrasts.clear();

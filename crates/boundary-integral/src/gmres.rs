@@ -37,6 +37,16 @@ impl Gmres {
         self.recycled.forget();
     }
 
+    /// What earlier solutions left; see [`Recycled::save`].
+    pub(crate) fn save(&self) -> (usize, Vec<f64>) {
+        self.recycled.save()
+    }
+
+    /// Takes back what [`Gmres::save`] wrote.
+    pub(crate) fn restore(&mut self, len: usize, kept: &[f64]) {
+        self.recycled.restore(len, kept);
+    }
+
     /// Solves `A x = b`, x holding a guess on entry, until the residual is below `tolerance` of b or `most` products have
     /// been made.
     ///

@@ -51,6 +51,25 @@ impl Recycled {
         self.now.size = 0;
     }
 
+    /// Length of the vectors and what is kept of them, row after row: differences, then images.
+    pub(crate) fn save(&self) -> (usize, Vec<f64>) {
+        let kept = self.now.size * self.len;
+        (self.len, [&self.now.differences[..kept], &self.now.images[..kept]].concat())
+    }
+
+    /// Takes back what [`Recycled::save`] wrote.
+    pub(crate) fn restore(&mut self, len: usize, kept: &[f64]) {
+        self.fit(len);
+        self.forget();
+        let size = kept.len() / (2 * len.max(1));
+        if len > 0 && size <= MOST && kept.len() == 2 * size * len {
+            let (differences, images) = kept.split_at(size * len);
+            self.now.differences[..size * len].copy_from_slice(differences);
+            self.now.images[..size * len].copy_from_slice(images);
+            self.now.size = size;
+        }
+    }
+
     pub(crate) fn is_empty(&self) -> bool {
         self.now.size == 0
     }

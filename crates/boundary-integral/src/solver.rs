@@ -269,15 +269,27 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
     }
 
     fn save(&self) -> Record {
+        let (len, kept) = self.contrast.save();
         let mut reals = vec![self.stiffness];
         reals.extend_from_slice(&self.velocities);
-        Record { reals, counts: Vec::new() }
+        reals.extend_from_slice(&kept);
+        Record { reals, counts: vec![self.velocities.len() as u64, len as u64] }
     }
 
     fn load(&mut self, record: &Record) {
-        if let ([stiffness, velocities @ ..], []) = (record.reals.as_slice(), record.counts.as_slice()) {
-            self.stiffness = *stiffness;
-            self.velocities = velocities.to_vec();
+        let ([stiffness, rest @ ..], &[count, len]) = (record.reals.as_slice(), record.counts.as_slice()) else {
+            return;
+        };
+        let count = usize::try_from(count).unwrap_or(usize::MAX);
+        let (Some(velocities), Some(kept)) = (rest.get(..count), rest.get(count..)) else { return };
+        self.stiffness = *stiffness;
+        self.velocities = velocities.to_vec();
+        // Vectors of another length than those of the velocities are of something else.
+        let len = usize::try_from(len).unwrap_or(usize::MAX);
+        if kept.is_empty() {
+            self.contrast.forget();
+        } else if len == count {
+            self.contrast.restore(len, kept);
         }
     }
 }

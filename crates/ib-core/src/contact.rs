@@ -32,6 +32,11 @@ pub(crate) struct ContactFinder {
 }
 
 impl ContactFinder {
+    /// Where a marker of an interface was when gaps were looked for.
+    pub(crate) fn place(&self, body: usize, marker: usize) -> Vec2 {
+        self.positions[body][marker]
+    }
+
     /// The narrowest gap of less than four times `scale` (length), if there is one.
     pub(crate) fn narrowest(&mut self, bodies: &[Box<dyn Body>], domain: &Domain, scale: f64) -> Option<Gap> {
         let is_interface = |body: &dyn Body| !matches!(body.kind(), MarkerKind::Points);

@@ -101,8 +101,15 @@ pub enum BodyError {
         value: f64,
     },
     /// An interface crosses itself.
-    #[error("the interface crosses itself between markers {first} and {second}: use a smaller time step or activity")]
+    #[error(
+        "the interface crosses itself at ({x:.4}, {y:.4}), between markers {first} and {second}: use a smaller time step or \
+         activity, or a finer grid"
+    )]
     SelfCrossing {
+        /// x coordinate of the first marker (length).
+        x: f64,
+        /// y coordinate of the first marker (length).
+        y: f64,
         /// A segment by its first marker.
         first: usize,
         /// The other segment.
@@ -159,8 +166,8 @@ pub enum SceneError {
     },
     /// Two interfaces, or one and its own image in a periodic domain, have come to overlap.
     #[error(
-        "at time {time} marker {marker} of {body} is {depth:.3e} inside {other}, more than {allowed:.3e}: use a smaller time step, a finer \
-         grid or a repulsion between the interfaces"
+        "at time {time} marker {marker} of {body} at ({x:.4}, {y:.4}) is {depth:.3e} inside {other}, more than {allowed:.3e}: use a \
+         smaller time step, a finer grid or a repulsion between the interfaces"
     )]
     Crossing {
         /// Time at the start of the step.
@@ -169,6 +176,10 @@ pub enum SceneError {
         body: String,
         /// Number of the marker in the body.
         marker: usize,
+        /// Its x coordinate (length).
+        x: f64,
+        /// Its y coordinate (length).
+        y: f64,
         /// The body that it is in.
         other: String,
         /// How deep (length).

@@ -253,8 +253,9 @@ impl<H: Hydrodynamics> System<H> {
         let name = |index: usize| self.bodies[index].name().to_owned();
         if let Some(Gap { body, marker, other, width }) = self.narrowest {
             if width < -allowed {
-                let (body, other) = (name(body), name(other));
-                return Err(SceneError::Crossing { time, body, marker, other, depth: -width, allowed });
+                let place = self.contacts.place(body, marker);
+                let (body, other, [x, y]) = (name(body), name(other), [place.x, place.y]);
+                return Err(SceneError::Crossing { time, body, marker, x, y, other, depth: -width, allowed });
             }
             if let Some(bound) = self.least_gap.filter(|&bound| width < bound) {
                 return Err(SceneError::Gap { time, body: name(body), other: name(other), gap: width, bound });

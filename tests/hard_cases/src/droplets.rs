@@ -122,8 +122,18 @@ pub(crate) fn trials() -> Vec<Trial> {
         Recipe {
             number: 11,
             name: "all particles on one segment",
-            ways: &[Way::Grid, Way::Integral, Way::Thesis, Way::Chebyshev],
+            ways: &[Way::Grid, Way::Thesis, Way::Chebyshev],
             expected: FINISHED,
+            area: 1e-3,
+            run: |way, extent, look| filled(way, extent, look, |k, count| if k == 0 { count as f64 } else { 0.0 }),
+        },
+        Recipe {
+            number: 11,
+            name: "all particles on one segment",
+            ways: &[Way::Integral],
+            // Pushed apart, they make the tension there -1e5: the interface buckles at all wave numbers, where a grid smears what its
+            // kernel does not see.
+            expected: &[Ending::Stagnated, Ending::SelfCrossing],
             area: 1e-3,
             run: |way, extent, look| filled(way, extent, look, |k, count| if k == 0 { count as f64 } else { 0.0 }),
         },

@@ -131,7 +131,7 @@ fn makers() -> Vec<Maker> {
         maker("Frame", &[0.1, 0.2, 0.3], "---", |v| Frame::new(Vec2::new(v[0], v[1]), v[2]).is_ok()),
         maker("SquirmerFlow", &[1.0, 0.5, -0.5], "+--", |v| SquirmerFlow::new(v[0], v[1], v[2]).is_ok()),
         maker("Units", &[1e-5, 1.0, 1.0], "+++", |v| Units::new(v[0], v[1], v[2]).is_ok()),
-        maker("LinearTheory", &[1.0, 1.0, 2.0, 10.0, -1.0, 100.0, 0.1], "+++0-00", |v| {
+        maker("LinearTheory", &[1.0, 1.0, 2.0, 10.0, -1.0, 100.0, 0.1], "+++--+0", |v| {
             LinearTheory::new(RoundDroplet {
                 radius: v[0],
                 viscosity_inside: v[1],
@@ -171,15 +171,15 @@ fn makers() -> Vec<Maker> {
         maker("StraightChannel", &[6.0, 2.0], "++", |v| {
             StraightChannel { period: v[0], width: v[1] }.channel().is_ok()
         }),
-        maker("SinusoidalChannel", &[6.0, 2.0, 0.3], "++-", |v| {
-            SinusoidalChannel { period: v[0], width: v[1], amplitude: v[2], waves: 1, phase: 0.0 }.channel().is_ok()
+        maker("SinusoidalChannel", &[6.0, 2.0, 0.3, 0.1], "++--", |v| {
+            SinusoidalChannel { period: v[0], width: v[1], amplitude: v[2], phase: v[3], waves: 2 }.channel().is_ok()
         }),
         maker("Constriction", &[8.0, 2.0, 1.0, 1.0, 1.0, 0.0], "++++0-", |v| {
             Constriction { period: v[0], width: v[1], throat: v[2], throat_length: v[3], ramp: v[4], centre: v[5] }
                 .channel()
                 .is_ok()
         }),
-        maker("Valve", &[8.0, 3.0, 1.0, 2.0, 0.1, 0.0], "+++++-", |v| {
+        maker("Valve", &[8.0, 3.0, 1.0, 2.0, 0.1, 0.0], "++++0-", |v| {
             Valve { period: v[0], width: v[1], gap: v[2], base: v[3], radius: v[4], centre: v[5] }.channel().is_ok()
         }),
         maker("Swimmer activity", &[-2.0], "-", |v| swims(|s| s.activity = v[0])),

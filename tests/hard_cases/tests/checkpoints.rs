@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use motile::active_interface::{ActiveDroplet, Curve};
+use motile::elastic_solids::Moduli;
 use motile::ib_core::{
     Body, Checkpoint, CheckpointError, Handle, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError,
     StepSize,
 };
 use motile::stokes_grid::Drive;
-use motile::{ContrastMethod, Method, SetupError, Swimmer};
+use motile::{ContrastMethod, ElasticChannel, Method, SetupError, Swimmer};
 use proptest::prelude::*;
 
 /// Everything there is to know of a state, bit by bit.
@@ -108,6 +109,29 @@ fn without_a_grid() {
     compare(|| built(swimmer.build()), 6.0, AUTO, &stops(11, 5));
     let contrast = Swimmer { viscosity_inside: Some(1000.0), ..swimmer };
     compare(|| built(contrast.build()), 3.0, AUTO, &stops(12, 4));
+}
+
+#[test]
+fn an_elastic_channel() {
+    let swimmer = Swimmer { lengths: [4.0, 2.4], ..coarse() };
+    let channel = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e4).expect("moduli"));
+    let make = || channel.build().expect("a scene").0;
+    compare(make, 3.0, AUTO, &stops(13, 10));
+    compare(|| make().advanced_by(RungeKuttaChebyshev::new()), 3.0, ADAPTIVE, &stops(14, 15));
+}
+
+/// Threads that run scenes of their own do not disturb each other, and there are no others.
+#[test]
+fn two_at_a_time_are_as_one() {
+    let run = || {
+        let mut scene = built(Swimmer { viscosity_inside: Some(1000.0), ..coarse() }.build());
+        scene.run(0.5).go().expect("a run");
+        bits(&scene)
+    };
+    let alone = run();
+    let both =
+        std::thread::scope(|scope| [scope.spawn(run), scope.spawn(run)].map(|thread| thread.join().expect("a run")));
+    assert!(both.iter().all(|bits| *bits == alone));
 }
 
 fn saved() -> Vec<u8> {
