@@ -21,23 +21,27 @@ pub fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &Any
 pub fn solid_shape(solid: &AnySolid) -> SolidShape {
     let mesh = solid.mesh();
     let mut shape = SolidShape::default();
-    // Lines around the period: to the right and to the left, with the solid on their left.
-    let (mut there, mut back) = (None, None);
+    // Lines around the period, to the right and to the left, with the solid on their left: one period of both.
+    let mut end: Option<Vec2> = None;
+    let mut around: Vec<Vec2> = Vec::new();
     for boundary in mesh.boundary_loops() {
         let mut line = mesh.boundary_polygon(boundary, solid.positions());
-        let advance = f64::from(boundary.periods) * mesh.period().unwrap_or(0.0);
-        line.push(line[0] + Vec2::new(advance, 0.0));
-        match boundary.periods {
-            1 => there = Some(line.clone()),
-            -1 => back = Some(line.clone()),
-            _ => shape.area.push(line.clone()),
+        let period = f64::from(boundary.periods) * mesh.period().unwrap_or(0.0);
+        line.push(line[0] + Vec2::new(period, 0.0));
+        if boundary.periods == 0 {
+            shape.area.push(line.clone());
+        } else {
+            if let Some(end) = end {
+                let shift = period * ((end.x - line[0].x) / period).round();
+                line.iter_mut().for_each(|point| point.x += shift);
+            }
+            end = line.last().copied();
+            around.extend(&line);
         }
         shape.edges.push(line);
     }
-    if let (Some(period), Some(there), Some(back)) = (mesh.period(), there, back) {
-        let end = there[there.len() - 1];
-        let shift = Vec2::new(period * ((end.x - back[0].x) / period).round(), 0.0);
-        shape.area.push(there.into_iter().chain(back.into_iter().map(|point| point + shift)).collect());
+    if !around.is_empty() {
+        shape.area.push(around);
     }
     shape
 }
