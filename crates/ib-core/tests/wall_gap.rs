@@ -49,7 +49,8 @@ struct Points {
 
 impl Points {
     fn new(heights: &[f64], floor: f64) -> Self {
-        let positions = heights.iter().map(|&y| Vec2::new(0.0, y)).collect();
+        // Interfaces that do not stand in each other's way.
+        let positions = heights.iter().map(|&y| Vec2::new(100.0 * heights[0], y)).collect();
         Self { positions, floor, turned: false, kind: MarkerKind::UnevenInterface { viscosity_inside: None } }
     }
 }
