@@ -3,7 +3,7 @@
 
 use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
 use clap::Parser;
-use elastic_solids::TriangleMesh;
+use elastic_solids::GmshMesh;
 use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
 use stokes_grid::{Grid, PeriodicStokes};
 use support::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, OutputFlags};
@@ -50,11 +50,11 @@ pub fn checkpoint(bytes: &[u8]) {
 /// Reads a Gmsh file, plain and periodic; what is a mesh is written and read again.
 pub fn gmsh(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let _ = TriangleMesh::from_periodic_text(text, 2.0);
-    if let Ok(mesh) = TriangleMesh::from_text(text) {
-        let written = mesh.to_text().expect("a mesh that is not periodic can be written");
-        let again = TriangleMesh::from_text(&written).expect("what was written can be read");
-        assert_eq!(again.triangles().len(), mesh.triangles().len());
+    let _ = GmshMesh::from_periodic_text(text, 2.0);
+    if let Ok(mesh) = GmshMesh::from_text(text) {
+        let Ok(written) = mesh.to_text() else { return };
+        let again = GmshMesh::from_text(&written).expect("what was written can be read");
+        assert_eq!(again.mesh.triangles().len(), mesh.mesh.triangles().len());
     }
 }
 
@@ -111,7 +111,7 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
         }
         "gmsh" => {
             let strip = |columns, rows| elastic_solids::equilateral_block(ib_core::Vec2::zeros(), columns, rows, 0.5);
-            [strip(2, 2), strip(4, 3)].into_iter().flatten().flat_map(|mesh| mesh.to_text()).map(String::into_bytes).collect()
+            [strip(2, 2), strip(4, 3)].into_iter().flatten().flat_map(|mesh| GmshMesh { mesh, groups: Vec::new() }.to_text()).map(String::into_bytes).collect()
         }
         _ => [
             "--activity -4 --excluded-volume 8 --viscosity 10 --spacing 0.1 --dt auto --time 250 box --box 12 --offset -0.03,0.01",

@@ -21,7 +21,20 @@ impl Numbers {
 
 /// Numbers that are apt to go wrong, as text.
 const WORDS: [&str; 14] = [
-    "0", "-1", "1e308", "-1e-320", "nan", "inf", "18446744073709551616", "99999999999", "0.0000001", "$", " ", "\n", "--", "-0",
+    "0",
+    "-1",
+    "1e308",
+    "-1e-320",
+    "nan",
+    "inf",
+    "18446744073709551616",
+    "99999999999",
+    "0.0000001",
+    "$",
+    " ",
+    "\n",
+    "--",
+    "-0",
 ];
 
 fn mutate(input: &mut Vec<u8>, other: &[u8], numbers: &mut Numbers) {
@@ -106,5 +119,8 @@ fn main() {
             corpus.push(input);
         }
     }
-    println!("{target}: {executions} executions in {seconds} s, no panic, the slowest took {:.3} s", slowest.as_secs_f64());
+    println!(
+        "{target}: {executions} executions in {seconds} s, no panic, the slowest took {:.3} s",
+        slowest.as_secs_f64()
+    );
 }
