@@ -1,7 +1,7 @@
 //! Settings for an error that is asked for.
 
 use active_interface::Motion;
-use ib_core::StepSize;
+use ib_core::{AnyKernel, StepSize};
 
 use crate::{Method, SetupError, Swimmer};
 
@@ -26,8 +26,8 @@ struct Entry {
 enum Settings {
     /// Shape nodes and cells of the concentration.
     Integrals(usize, usize),
-    /// Spacing of the grid over the radius; markers half of that apart.
-    Grid(f64),
+    /// Spacing of the grid over the radius, with markers half of that apart, and kernel.
+    Grid(f64, AnyKernel),
 }
 
 /// Part of the stability limit that a step takes: below it the errors of time are far below those of space.
@@ -38,18 +38,20 @@ const OF_LIMIT_IN_CHANNELS: f64 = 0.5;
 /// The largest error over the scenes of docs/speed-against-error.md of that kind (activities -1 to -4 in boxes, along the grid and not,
 /// ratios of 10 and 100, width 2), of these settings and of all finer ones of the same kind. From coarse to fine.
 fn measured(scene: SceneKind, method: Method) -> &'static [Entry] {
+    use AnyKernel::{BSpline4, Gaussian6};
     use Settings::{Grid, Integrals};
     const fn entry(error: f64, settings: Settings) -> Entry {
         Entry { error, settings }
     }
     const BOX: [Entry; 3] =
-        [entry(0.0053, Integrals(24, 48)), entry(0.0013, Integrals(64, 128)), entry(0.0006, Integrals(64, 256))];
-    const BOX_GRID: [Entry; 1] = [entry(0.0097, Grid(0.05))];
+        [entry(0.0053, Integrals(24, 96)), entry(0.0019, Integrals(64, 128)), entry(0.0006, Integrals(64, 256))];
+    // Off the directions of the grid the wide kernel is the most accurate.
+    const BOX_GRID: [Entry; 2] = [entry(0.0075, Grid(0.1, Gaussian6)), entry(0.0055, Grid(0.05, Gaussian6))];
     const CONTRAST: [Entry; 2] = [entry(0.0052, Integrals(24, 48)), entry(0.0009, Integrals(48, 192))];
-    const CONTRAST_GRID: [Entry; 2] = [entry(0.0075, Grid(0.1)), entry(0.0045, Grid(0.075))];
+    const CONTRAST_GRID: [Entry; 2] = [entry(0.0075, Grid(0.1, BSpline4)), entry(0.0045, Grid(0.075, BSpline4))];
     const CHANNEL: [Entry; 3] =
         [entry(0.0082, Integrals(32, 128)), entry(0.0025, Integrals(64, 128)), entry(0.0007, Integrals(96, 192))];
-    const CHANNEL_GRID: [Entry; 2] = [entry(0.0045, Grid(0.08)), entry(0.0028, Grid(0.05))];
+    const CHANNEL_GRID: [Entry; 2] = [entry(0.0045, Grid(0.08, BSpline4)), entry(0.0028, Grid(0.05, BSpline4))];
     match (scene, method) {
         (SceneKind::Box, Method::BoundaryIntegral) => &BOX,
         (SceneKind::Box, Method::ImmersedBoundary) => &BOX_GRID,
@@ -60,7 +62,7 @@ fn measured(scene: SceneKind, method: Method) -> &'static [Entry] {
     }
 }
 
-/// A swimmer with the cheapest settings (nodes and cells, or spacings, and the time step) that are known to give its steady
+/// A swimmer with the cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to give its steady
 /// speed with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of scene by a method. All else is the
 /// default; the grid spacing is that for a radius of one.
 ///
@@ -92,6 +94,6 @@ pub fn recommend(scene: SceneKind, method: Method, target_error: f64) -> Result<
     let base = Swimmer { method, motion: Motion::default(), step: StepSize::OfLimit(fraction), ..Swimmer::default() };
     Ok(match entry.settings {
         Settings::Integrals(nodes, cells) => Swimmer { nodes, concentration_cells: cells, ..base },
-        Settings::Grid(spacing) => Swimmer { spacing, marker_spacing: Some(0.5 * spacing), ..base },
+        Settings::Grid(spacing, kernel) => Swimmer { spacing, kernel, marker_spacing: Some(0.5 * spacing), ..base },
     })
 }

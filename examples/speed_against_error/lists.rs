@@ -17,6 +17,13 @@ pub(crate) fn settings(study: Study, full: bool) -> Vec<Settings> {
         Study::Channel => channel(full),
         Study::ElasticLayer => elastic(),
     };
+    if study == Study::Transient {
+        // The transient is short: a few long stages say nothing of it, and the finest grids nothing new.
+        list.retain(|settings| {
+            let fine = matches!(settings.flow, Flow::Grid { h, ratio, .. } if h * ratio < 0.02);
+            settings.stepper == Stepper::Midpoint && (full || !fine)
+        });
+    }
     // Presets may be among the variations.
     let mut different: Vec<Settings> = Vec::new();
     list.retain(|settings| {

@@ -27,8 +27,20 @@ impl<const N: usize> CompositeBSpline<N> {
 /// Values of the B-splines of order `order` that are not zero at a point `t` in [0, 1) past a knot, by the recursion
 /// of de Boor and Cox.
 fn bspline_values(order: usize, t: f64, weights: &mut [f64; MAX_SUPPORT]) {
+    // With the order known to the compiler the loops unroll.
+    match order {
+        2 => values_of_order::<2>(t, weights),
+        3 => values_of_order::<3>(t, weights),
+        4 => values_of_order::<4>(t, weights),
+        5 => values_of_order::<5>(t, weights),
+        _ => values_of_order::<MAX_SUPPORT>(t, weights),
+    }
+}
+
+#[inline]
+fn values_of_order<const ORDER: usize>(t: f64, weights: &mut [f64; MAX_SUPPORT]) {
     weights[0] = 1.0;
-    for degree in 1..order {
+    for degree in 1..ORDER {
         let scale = 1.0 / degree as f64;
         let mut left = 0.0;
         for (i, weight) in weights.iter_mut().enumerate().take(degree) {
