@@ -53,7 +53,7 @@ fn time(flags: &Flags) -> Result<()> {
     let mut velocities = vec![Vec2::zeros(); markers.len()];
 
     let mut forces = vec![Vec2::zeros(); markers.len()];
-    let mut median = |name: &str, work: &mut dyn FnMut() -> Result<()>| -> Result<f64> {
+    let median = |name: &str, work: &mut dyn FnMut() -> Result<()>| -> Result<f64> {
         let mut times = Vec::with_capacity(flags.repetitions);
         for _ in 0..flags.repetitions {
             let start = Instant::now();
