@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use ib_core::{Body, BodyError, MarkerKind, Medium, Record, StepInfo, StepLimit, Vec2};
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepInfo, StepLimit, Vec2};
 
 use crate::droplet::{MINIMUM_MARKERS, finest_response};
 use crate::geometry::{equidistribute, outward, signed_area};
@@ -121,6 +121,10 @@ impl Body for ActiveDroplet {
                 numbers.fill(f64::NAN);
             }
         }
+    }
+
+    fn write_boundary(&self, boundary: &mut Boundary) {
+        boundary.push_loop(&self.markers);
     }
 
     fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {

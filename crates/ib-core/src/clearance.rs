@@ -1,6 +1,6 @@
 //! How far the markers of an interface are from solids.
 
-use crate::{MarkerKind, Markers, Vec2};
+use crate::{MarkerGroup, MarkerKind, Markers, Vec2};
 
 /// Distance up to which it is measured, in grid spacings.
 const REACH: f64 = 6.0;
@@ -18,10 +18,14 @@ pub(crate) struct Clearance {
 
 impl Clearance {
     /// The gaps between the markers of an interface and where solids stop the fluid, in grid spacings; infinite beyond the
-    /// reach. Empty without solids.
+    /// reach. Empty without solids. Points that put no force on the fluid (tracers) stop nothing.
     pub(crate) fn gaps(&mut self, markers: &Markers, interface: usize, spacing: f64, period: f64) -> &[f64] {
         self.gaps.clear();
-        if markers.groups().iter().all(|group| group.kind != MarkerKind::Points) {
+        let is_solid = |group: &MarkerGroup| {
+            group.kind == MarkerKind::Points
+                && markers.forces[group.range.clone()].iter().any(|force| *force != Vec2::zeros())
+        };
+        if !markers.groups().iter().any(is_solid) {
             return &self.gaps;
         }
         let positions = &markers.positions[markers.groups()[interface].range.clone()];
@@ -35,7 +39,7 @@ impl Clearance {
             positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p.y), b.max(p.y)));
         let (Some(&(first, _)), Some(&(last, _))) = (self.order.first(), self.order.last()) else { return &self.gaps };
         let middle = 0.5 * (first + last);
-        let solids = markers.groups().iter().filter(|group| group.kind == MarkerKind::Points);
+        let solids = markers.groups().iter().filter(|group| is_solid(group));
         for point in solids.flat_map(|group| &markers.positions[group.range.clone()]) {
             if point.y < low - reach || point.y > high + reach {
                 continue;
@@ -80,6 +84,8 @@ mod tests {
             markers.positions[3 + k] = Vec2::new(0.1 * k as f64, 0.0);
         }
         let mut clearance = Clearance::default();
+        assert!(clearance.gaps(&markers, 0, 0.1, 4.0).is_empty(), "without forces they are tracers");
+        markers.forces[10] = Vec2::new(1.0, 0.0);
         // The row repeats itself with the period of 4.
         let gaps = clearance.gaps(&markers, 0, 0.1, 4.0).to_vec();
         assert!((gaps[0] - 0.63).abs() < 1e-9 && gaps[1] == 0.0 && gaps[2] == f64::INFINITY, "{gaps:?}");

@@ -1,8 +1,8 @@
 //! The gap to the walls, followed through steps.
 
 use ib_core::{
-    Body, BodyError, Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium,
-    Scene, StepLimit, Vec2,
+    Body, BodyError, Boundary, Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers,
+    Medium, Scene, StepLimit, Vec2,
 };
 
 /// A fluid that moves uniformly whatever the forces on it are.
@@ -96,6 +96,8 @@ impl Body for Points {
         self.turned |= self.positions.iter().any(|position| position.y < self.floor);
         Ok(())
     }
+    /// Single points enclose nothing.
+    fn write_boundary(&self, _: &mut Boundary) {}
     fn step_limits(&self, _: &Medium) -> Vec<StepLimit> {
         Vec::new()
     }

@@ -180,8 +180,8 @@ fn channels_only() {
     let body = scene.add(droplet(20, 0.5, [0.0, 0.0]));
     assert!(matches!(net_flux(scene.system_mut(), 0.0), Err(SceneError::Flow { .. })));
     let error = gap_flow(scene.system_mut(), body).unwrap_err();
-    assert!(error.to_string().contains("put the droplet into a channel"), "{error}");
+    assert!(error.explanation().contains("put the droplet into a channel"), "{error}");
     let mut scene = Scene::new(Profile { plug: 1.0, shear: 0.0, curve: 0.0, walls: true });
     let error = gap_flow_of(scene.system_mut(), 0).unwrap_err();
-    assert!(error.to_string().contains("body 0 of the scene is not an active droplet"), "{error}");
+    assert!(error.explanation().contains("body 0 of the scene is not an active droplet"), "{error}");
 }

@@ -119,7 +119,7 @@ fn what_cannot_be_recorded_ends_the_run() {
     let (mut first, _) = scene(0.0, 0.0, false);
     let mut stranger = TrajectoryRecorder::of_body(3);
     let error = first.run(1.0).observe(Every::Time(0.5), &mut stranger).go().unwrap_err();
-    assert!(matches!(error, SceneError::Observer { .. }) && error.to_string().contains("body 3"), "{error}");
+    assert!(matches!(error, SceneError::Observer { .. }) && error.explanation().contains("body 3"), "{error}");
 
     let mut recorder = TrajectoryRecorder::of_body(0);
     first.run(1.0).observe(Every::Time(0.5), &mut recorder).go().unwrap();
