@@ -125,9 +125,9 @@ fn what_cannot_be_recorded_ends_the_run() {
     first.run(1.0).observe(Every::Time(0.5), &mut recorder).go().unwrap();
     let (mut second, _) = scene(0.0, 0.0, false);
     let error = second.run(1.0).observe(Every::Time(0.5), &mut recorder).go().unwrap_err();
-    assert!(error.to_string().contains("the times of the records"), "{error}");
+    assert!(error.explanation().contains("the times of the records"), "{error}");
 
     let mut greedy = TrajectoryRecorder::of_body(0).with_gap_flow();
     let error = second.run(1.0).observe(Every::Time(0.5), &mut greedy).go().unwrap_err();
-    assert!(error.to_string().contains("walls"), "{error}");
+    assert!(error.explanation().contains("walls"), "{error}");
 }
