@@ -16,7 +16,7 @@ use support::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, 
 fn closure(period: f64, width: f64) -> Result<Channel, SolidError> {
     let wave = std::f64::consts::TAU / period;
     let lower = move |x: f64| -0.5 * width - 0.25 * (2.0 * wave * x).cos();
-    let upper = move |x: f64| 0.5 * width - 0.2 * (3.0 * (wave * x).sin()).tanh();
+    let upper = move |x: f64| 0.5 * width - 0.2 * (3.0 * ((wave * x).sin() - 0.5)).tanh();
     Channel::between(-0.5 * period, period, lower, upper)
 }
 
