@@ -224,7 +224,7 @@ const THICK_OFFSET: f64 = 0.14;
 
 pub(crate) fn long_runs(quick: bool) -> Tables {
     let mut table = Table::new(
-        "Long runs without a grid, 6 x 6 box, A = 10, from an angle of 0.02: rate at which the angle grows, speed, what must not change",
+        "Long runs without a grid, 6 x 6 box, A = 2 |activity|, from an angle of 0.02: rate at which the angle grows, speed, what must not change",
         &[
             "activity",
             "until",
@@ -240,7 +240,7 @@ pub(crate) fn long_runs(quick: bool) -> Tables {
     );
     for (activity, time) in [(-1.0, 250.0), (-2.0, 250.0), (-3.0, 250.0), (-5.0, 100.0)] {
         let time = if quick { 60.0 } else { time };
-        let swimmer = Swimmer { activity, angle: 0.02, ..Swimmer::default() };
+        let swimmer = Swimmer { activity, excluded_volume: 2.0 * activity.abs(), angle: 0.02, ..Swimmer::default() };
         let run = turning(&swimmer, time)?;
         table.push([
             activity.to_string(),
