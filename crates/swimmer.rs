@@ -181,7 +181,8 @@ impl Swimmer {
     }
 
     pub(crate) fn droplet_with(&self, markers: &[Vec2]) -> Result<ActiveDroplet, SetupError> {
-        let numbers = self.numbers(markers)?;
+        // A droplet that starts squeezed has the particles of the circle that it is squeezed from.
+        let numbers = self.numbers(&self.circle()?.markers(markers.len())?)?;
         let droplet = ActiveDroplet::new(markers, numbers, self.tension()?, self.diffusion)?
             .with_motion(self.motion)
             .with_flux(self.flux)?
