@@ -103,8 +103,9 @@ fn sentence(error: &clap::Error) -> String {
         ErrorKind::ArgumentConflict => format!("{flag} is given more than once"),
         _ => {
             let whole = error.to_string();
-            let first = whole.lines().next().unwrap_or_default();
-            first.trim_start_matches("error: ").to_string()
+            // The usage follows after an empty line.
+            let told: Vec<&str> = whole.lines().take_while(|line| !line.trim().is_empty()).collect();
+            told.join(" ").trim_start_matches("error: ").to_string()
         }
     };
     one_line(&text)
@@ -224,6 +225,7 @@ mod tests {
             ("--time", "--time needs a value"),
             ("--time 1 --time 2", "--time is given more than once"),
             ("--visc 3", "there is no flag --visc (did you mean --viscosity? --help lists them)"),
+            ("--checkpoint-every 5", "the following required arguments were not provided: --checkpoint <FILE>"),
             ("--nonsense", "there is no flag --nonsense (--help lists them)"),
             ("stray", "there is no flag stray (--help lists them)"),
             ("--seed -1", "--seed -1: must be a whole number from 0 to 18446744073709551615"),
