@@ -4,11 +4,13 @@ mod any;
 mod bspline;
 mod classical;
 mod gaussian;
+mod pieces;
 
 pub use any::AnyKernel;
 pub use bspline::{CompositeBSpline, CubicQuadratic};
 pub use classical::{Peskin4, Roma3};
 pub use gaussian::Gaussian6;
+pub use pieces::Pieces;
 
 /// Most grid points in one direction that a kernel of this crate reaches.
 pub const MAX_SUPPORT: usize = 6;
@@ -36,6 +38,12 @@ pub trait Kernel: std::fmt::Debug + Clone + Send + Sync {
     /// Weights of the points `first, first + 1, ...` of a lattice of integers for a marker at `r` (in units of h);
     /// returns `first`. Only the first [`Kernel::support`] entries of `weights` are written.
     fn weights(&self, role: Role, r: f64, weights: &mut [f64; MAX_SUPPORT]) -> i64;
+
+    /// The weights as polynomials, for the kernels that have them; without them spreading and interpolation call
+    /// [`Kernel::weights`].
+    fn pieces(&self) -> Option<&'static Pieces> {
+        None
+    }
 
     /// The one-dimensional function itself at distance `r` (in units of h); even.
     fn value(&self, role: Role, r: f64) -> f64;

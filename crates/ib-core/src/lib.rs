@@ -77,7 +77,9 @@ pub use error::{BodyError, FlowError, SceneError};
 pub use hydrodynamics::{Domain, FlowReport, FlowSample, FlowWork, Hydrodynamics, Medium};
 pub use immersed_boundary::ImmersedBoundary;
 pub use integrator::{Integrator, IntegratorWork, Midpoint, RungeKuttaChebyshev, SpectralEstimate};
-pub use kernel::{AnyKernel, CompositeBSpline, CubicQuadratic, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Role, Roma3};
+pub use kernel::{
+    AnyKernel, CompositeBSpline, CubicQuadratic, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3,
+};
 pub use markers::{MarkerGroup, MarkerKind, Markers, Vec2};
 pub use mobility::{Deficit, MobilityDeficit};
 pub use record::{ForeignRecord, Record};

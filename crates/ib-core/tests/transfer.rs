@@ -1,6 +1,6 @@
 //! Spreading and interpolation as an adjoint pair, in boxes and channels, for every kernel.
 
-use ib_core::{AnyKernel, Kernel, Transfer, Vec2};
+use ib_core::{AnyKernel, Kernel, Role, Transfer, Vec2};
 use proptest::prelude::*;
 use stokes_grid::{Grid, StaggeredField};
 
@@ -106,6 +106,56 @@ fn walls_and_constants() {
         transfer.interpolate(&constant, &mut velocities);
         for u in &velocities {
             assert!((u - Vec2::new(1.5, 1.5)).norm() < 1e-13);
+        }
+    }
+}
+
+/// The value of a component at any point of its lattice, continued periodically and, at walls, oddly (x) or evenly (y).
+fn continued(field: &StaggeredField, component: usize, column: i64, row: i64) -> f64 {
+    let grid = field.grid();
+    let (nx, ny) = (grid.nx() as i64, grid.ny() as i64);
+    let column = column.rem_euclid(nx);
+    let values = if component == 0 { field.x() } else { field.y() };
+    let at = |row: i64| values[(row * nx + column) as usize];
+    if !grid.has_walls() {
+        return at(row.rem_euclid(ny));
+    }
+    let row = row.rem_euclid(2 * ny);
+    match component {
+        0 if row < ny => at(row),
+        0 => -at(2 * ny - 1 - row),
+        _ if row <= ny => at(row),
+        _ => at(2 * ny - row),
+    }
+}
+
+proptest! {
+    /// Interpolation is the sum of the kernel's values times the field, everywhere: at walls, in corners, across the ends of the box.
+    #[test]
+    fn interpolation_is_the_sum_over_the_grid(x in -7.0..7.0_f64, height in -0.2..1.2_f64, walls: bool, seed in 0..1000_u64) {
+        let h = 0.25;
+        let grid = if walls { Grid::channel(14, 11, h) } else { Grid::periodic(14, 11, h) }.unwrap();
+        let [x0, y0] = grid.origin();
+        // A quarter of a cell beyond a wall at most.
+        let height = if walls { height.clamp(-0.02, 1.02) } else { height };
+        let position = Vec2::new(x, y0 + height * 11.0 * h);
+        let velocity = noise(grid, seed);
+        for kernel in AnyKernel::ALL {
+            let mut transfer = Transfer::new(grid, kernel);
+            transfer.locate(&[position]);
+            let mut found = [Vec2::zeros()];
+            transfer.interpolate(&velocity, &mut found);
+            let [a, b] = [(position.x - x0) / h, (position.y - y0) / h];
+            let mut expected = Vec2::zeros();
+            for column in a.floor() as i64 - 4..a.floor() as i64 + 5 {
+                for row in b.floor() as i64 - 4..b.floor() as i64 + 5 {
+                    let (i, j) = (column as f64, row as f64);
+                    let weight = |n: f64, t: f64| kernel.value(Role::Normal, n) * kernel.value(Role::Tangential, t);
+                    expected.x += weight(a - i, b - j - 0.5) * continued(&velocity, 0, column, row);
+                    expected.y += weight(b - j, a - i - 0.5) * continued(&velocity, 1, column, row);
+                }
+            }
+            prop_assert!((found[0] - expected).norm() < 1e-13, "{}: {} {expected}", kernel.name(), found[0]);
         }
     }
 }

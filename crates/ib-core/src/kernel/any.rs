@@ -1,6 +1,6 @@
 //! A kernel chosen at run time.
 
-use super::{CompositeBSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Role, Roma3};
+use super::{CompositeBSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3};
 
 /// A kernel chosen at run time; parsed from its name (`peskin4`, `roma3`, `gaussian6`, `bspline3` to `bspline6`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,6 +52,10 @@ impl Kernel for AnyKernel {
 
     fn weights(&self, role: Role, r: f64, weights: &mut [f64; MAX_SUPPORT]) -> i64 {
         dispatch!(self, weights(role, r, weights))
+    }
+
+    fn pieces(&self) -> Option<&'static Pieces> {
+        dispatch!(self, pieces())
     }
 
     fn value(&self, role: Role, r: f64) -> f64 {

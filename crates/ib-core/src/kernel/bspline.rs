@@ -1,6 +1,7 @@
 //! Composite B-splines.
 
-use super::{Kernel, MAX_SUPPORT, Role};
+use super::pieces::{CUBIC_QUADRATIC, QUADRATIC_LINEAR};
+use super::{Kernel, MAX_SUPPORT, Pieces, Role};
 
 /// Cardinal B-spline of order N in the normal role and N - 1 in the tangential one (degree one less): interpolation of
 /// a discretely divergence-free field with it is divergence free in the continuum (after Bao et al., J. Comput. Phys. 347,
@@ -69,6 +70,14 @@ impl<const N: usize> Kernel for CompositeBSpline<N> {
         let floor = shifted.floor();
         bspline_values(order, shifted - floor, weights);
         floor as i64 - (order as i64 - 1) / 2
+    }
+
+    fn pieces(&self) -> Option<&'static Pieces> {
+        match N {
+            3 => Some(&QUADRATIC_LINEAR),
+            4 => Some(&CUBIC_QUADRATIC),
+            _ => None,
+        }
     }
 
     fn value(&self, role: Role, r: f64) -> f64 {

@@ -1,0 +1,70 @@
+//! Kernels made of polynomials.
+
+/// The weights of a kernel of at most four points that between lattice points is a polynomial of degree three (normal
+/// role) or two (tangential role), for spreading and interpolation without a call for each weight.
+///
+/// A coordinate `r + shift` has the whole part `w` and the fraction t. The weight of the point `w - 1 + i` in the normal role, and of the
+/// point `w - 1/2 + i` in the tangential one, is `sum over d of c[d][i] t^d`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pieces {
+    /// What is added to a coordinate (in units of h) before it is split.
+    pub shift: f64,
+    /// Coefficients in the normal role, by power and point.
+    pub normal: [[f64; 4]; 4],
+    /// Coefficients in the tangential role, by power and point.
+    pub tangential: [[f64; 4]; 3],
+}
+
+const SIXTH: f64 = 1.0 / 6.0;
+
+/// Cubic and quadratic B-spline; the knots of both lie on the lattice of the normal role.
+pub(super) static CUBIC_QUADRATIC: Pieces = Pieces {
+    shift: 0.0,
+    normal: [
+        [SIXTH, 4.0 * SIXTH, SIXTH, 0.0],
+        [-0.5, 0.0, 0.5, 0.0],
+        [0.5, -1.0, 0.5, 0.0],
+        [-SIXTH, 0.5, -0.5, SIXTH],
+    ],
+    tangential: [[0.5, 0.5, 0.0, 0.0], [-1.0, 1.0, 0.0, 0.0], [0.5, -1.0, 0.5, 0.0]],
+};
+
+/// Quadratic and linear B-spline; the knots of both lie on the lattice of the tangential role.
+pub(super) static QUADRATIC_LINEAR: Pieces = Pieces {
+    shift: 0.5,
+    normal: [[0.5, 0.5, 0.0, 0.0], [-1.0, 1.0, 0.0, 0.0], [0.5, -1.0, 0.5, 0.0], [0.0; 4]],
+    tangential: [[1.0, 0.0, 0.0, 0.0], [-1.0, 1.0, 0.0, 0.0], [0.0; 4]],
+};
+
+#[cfg(test)]
+mod tests {
+    use crate::{AnyKernel, Kernel, MAX_SUPPORT, Role};
+
+    #[test]
+    fn polynomials_are_the_weights() {
+        let mut with_pieces = 0;
+        for kernel in AnyKernel::ALL {
+            let Some(pieces) = kernel.pieces() else { continue };
+            with_pieces += 1;
+            for k in 0..200 {
+                let r = 0.0731 * f64::from(k) - 3.0;
+                let whole = (r + pieces.shift).floor();
+                let t = r + pieces.shift - whole;
+                let mut expected = [0.0; MAX_SUPPORT];
+                let first = kernel.weights(Role::Normal, r, &mut expected);
+                assert_eq!(first, whole as i64 - 1, "{} at {r}", kernel.name());
+                for i in 0..kernel.support(Role::Normal) {
+                    let weight: f64 = (0..4).map(|d| pieces.normal[d as usize][i] * t.powi(d)).sum();
+                    assert!((weight - expected[i]).abs() < 1e-15, "{}: {weight} {}", kernel.name(), expected[i]);
+                }
+                let first = kernel.weights(Role::Tangential, r - 0.5, &mut expected);
+                assert_eq!(first, whole as i64 - 1, "{} at {r}", kernel.name());
+                for i in 0..kernel.support(Role::Tangential) {
+                    let weight: f64 = (0..3).map(|d| pieces.tangential[d as usize][i] * t.powi(d)).sum();
+                    assert!((weight - expected[i]).abs() < 1e-15, "{}: {weight} {}", kernel.name(), expected[i]);
+                }
+            }
+        }
+        assert_eq!(with_pieces, 2);
+    }
+}

@@ -1,0 +1,174 @@
+//! The transfer of one marker with any kernel, wherever it is.
+
+use stokes_grid::Grid;
+
+use super::inside::weights;
+use super::lanes::Portable;
+use crate::{Kernel, MAX_SUPPORT, Role};
+
+/// Weights along one direction, of the points `first, first + 1, ...`.
+#[derive(Debug, Clone, Copy)]
+struct Line {
+    first: i64,
+    weights: [f64; MAX_SUPPORT],
+    len: usize,
+}
+
+/// A component of a staggered field, for what lies beyond its walls.
+#[derive(Debug, Clone, Copy)]
+enum Component {
+    X,
+    Y,
+}
+
+/// Transfer with stencils that wrap around the box or are folded back at walls.
+#[derive(Debug)]
+pub(super) struct Anywhere<'a, K> {
+    kernel: &'a K,
+    columns: usize,
+    rows: usize,
+    walls: bool,
+}
+
+// Not derived: a copy of the reference does not need a kernel that can be copied.
+impl<K> Clone for Anywhere<'_, K> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<K> Copy for Anywhere<'_, K> {}
+
+impl<'a, K: Kernel> Anywhere<'a, K> {
+    pub(super) fn new(kernel: &'a K, grid: &Grid) -> Self {
+        Self { kernel, columns: grid.nx(), rows: grid.ny(), walls: grid.has_walls() }
+    }
+
+    /// Columns and rows of cells.
+    #[inline(always)]
+    pub(super) fn cells(&self) -> [usize; 2] {
+        [self.columns, self.rows]
+    }
+
+    /// Whether there are walls at the bottom and the top.
+    #[inline(always)]
+    pub(super) fn has_walls(&self) -> bool {
+        self.walls
+    }
+
+    /// Adds `force` (force density times cells) at `place` (in units of h) to both components.
+    #[inline(never)]
+    pub(super) fn add(&self, place: [f64; 2], force: [f64; 2], fx: &mut [f64], fy: &mut [f64]) {
+        let [[normal_x, tangential_x], [normal_y, tangential_y]] = place.map(|r| self.lines(r));
+        self.add_component(Component::X, normal_x, tangential_y, force[0], fx);
+        self.add_component(Component::Y, tangential_x, normal_y, force[1], fy);
+    }
+
+    /// The velocity at `place`.
+    #[inline(never)]
+    pub(super) fn gather(&self, place: [f64; 2], u: &[f64], v: &[f64]) -> [f64; 2] {
+        let [[normal_x, tangential_x], [normal_y, tangential_y]] = place.map(|r| self.lines(r));
+        [
+            self.gather_component(Component::X, normal_x, tangential_y, u),
+            self.gather_component(Component::Y, tangential_x, normal_y, v),
+        ]
+    }
+
+    /// The weights in both roles. The points of the tangential role lie half way between those of the normal one.
+    fn lines(&self, r: f64) -> [Line; 2] {
+        let mut lines = [Role::Normal, Role::Tangential].map(|role| Line {
+            first: 0,
+            weights: [0.0; MAX_SUPPORT],
+            len: self.kernel.support(role),
+        });
+        let [normal, tangential] = &mut lines;
+        if let Some(pieces) = self.kernel.pieces() {
+            // The bits must not depend on which way a marker is treated.
+            let (whole, both) = weights(Portable, pieces, r);
+            for (line, found) in [normal, tangential].into_iter().zip(both) {
+                line.first = i64::from(whole) - 1;
+                line.weights[..4].copy_from_slice(&found);
+            }
+        } else {
+            normal.first = self.kernel.weights(Role::Normal, r, &mut normal.weights);
+            tangential.first = self.kernel.weights(Role::Tangential, r - 0.5, &mut tangential.weights);
+        }
+        lines
+    }
+
+    fn add_component(&self, component: Component, x: Line, y: Line, value: f64, field: &mut [f64]) {
+        let nx = self.columns;
+        let first = self.column(x.first);
+        let mut columns = x.weights;
+        columns.iter_mut().for_each(|column| *column *= value);
+        for (i, weight) in y.weights[..y.len].iter().enumerate() {
+            let (row, sign) = self.fold(y.first + i as i64, component);
+            let weight = sign * weight;
+            let line = &mut field[row * nx..(row + 1) * nx];
+            if let Some(window) = line.get_mut(first..first + x.len) {
+                for (cell, column) in window.iter_mut().zip(&columns) {
+                    *cell += weight * column;
+                }
+            } else {
+                for (j, column) in columns[..x.len].iter().enumerate() {
+                    line[(first + j) % nx] += weight * column;
+                }
+            }
+        }
+    }
+
+    fn gather_component(&self, component: Component, x: Line, y: Line, field: &[f64]) -> f64 {
+        let nx = self.columns;
+        let first = self.column(x.first);
+        let mut sums = [0.0; MAX_SUPPORT];
+        for (i, weight) in y.weights[..y.len].iter().enumerate() {
+            let (row, sign) = self.fold(y.first + i as i64, component);
+            let weight = sign * weight;
+            let line = &field[row * nx..(row + 1) * nx];
+            if let Some(window) = line.get(first..first + x.len) {
+                for (sum, cell) in sums.iter_mut().zip(window) {
+                    *sum += weight * cell;
+                }
+            } else {
+                for (j, sum) in sums[..x.len].iter_mut().enumerate() {
+                    *sum += weight * line[(first + j) % nx];
+                }
+            }
+        }
+        let part = |i: usize| sums[i] * x.weights[i];
+        (part(0) + part(2)) + (part(1) + part(3)) + (part(4) + part(5))
+    }
+
+    /// The stored column that stands for `column`.
+    #[inline]
+    fn column(&self, column: i64) -> usize {
+        let nx = self.columns as i64;
+        // Mostly one period away at most; the division is slow.
+        let near = if column < 0 { column + nx } else { column };
+        (if (0..nx).contains(&near) { near } else { column.rem_euclid(nx) }) as usize
+    }
+
+    /// The stored row and the sign that stand for row `row` of the extended field.
+    #[inline]
+    fn fold(&self, row: i64, component: Component) -> (usize, f64) {
+        let ny = self.rows as i64;
+        if !self.walls {
+            // A stencil reaches beyond the box by less than one period unless the box is smaller than the kernel.
+            let wrapped = if (0..ny).contains(&row) { row } else { row.rem_euclid(ny) };
+            return (wrapped as usize, 1.0);
+        }
+        match component {
+            Component::X if (0..ny).contains(&row) => (row as usize, 1.0),
+            Component::Y if (0..=ny).contains(&row) => (row as usize, 1.0),
+            Component::X => {
+                // Odd about both walls: period 2 ny, row r and 2 ny - 1 - r opposite.
+                let r = row.rem_euclid(2 * ny);
+                if r < ny { (r as usize, 1.0) } else { ((2 * ny - 1 - r) as usize, -1.0) }
+            }
+            Component::Y => {
+                let r = row.rem_euclid(2 * ny);
+                (if r <= ny { r } else { 2 * ny - r } as usize, 1.0)
+            }
+        }
+    }
+}
