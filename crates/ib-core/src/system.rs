@@ -339,11 +339,8 @@ impl<H: Hydrodynamics> System<H> {
 
     fn compute_flow(&mut self) -> Result<(), SceneError> {
         let (medium, time) = (self.hydrodynamics.medium(), self.time);
-        for (index, body) in self.bodies.iter_mut().enumerate() {
-            let range = self.markers.groups()[index].range.clone();
-            body.write_markers(&mut self.markers.positions[range.clone()]);
-            body.write_forces(&medium, &mut self.markers.forces[range])
-                .map_err(|source| body_error(time, body.as_ref(), source))?;
+        if let Some((index, source)) = self.write_forces(&medium) {
+            return Err(body_error(time, self.bodies[index].as_ref(), source));
         }
         if let Some(repulsion) = &self.repulsion {
             repulsion.add(&mut self.markers, medium.domain.periods);
@@ -351,6 +348,13 @@ impl<H: Hydrodynamics> System<H> {
         self.report =
             self.hydrodynamics.velocities(&mut self.markers).map_err(|source| SceneError::Flow { time, source })?;
         Ok(())
+    }
+
+    /// Writes markers and forces of the bodies, on several threads where that pays; the first body that fails, and why.
+    fn write_forces(&mut self, medium: &Medium) -> Option<(usize, BodyError)> {
+        let bodies = &mut self.bodies[..];
+        let (positions, forces) = (&mut self.markers.positions[..], &mut self.markers.forces[..]);
+        write_forces_of(0, bodies, positions, forces, medium)
     }
 
     /// Length of the state of all bodies.
@@ -477,6 +481,43 @@ impl<H: Hydrodynamics> System<H> {
         }
         Ok(())
     }
+}
+
+/// Markers from which a half of the bodies pays for a thread.
+#[cfg(feature = "rayon")]
+const LEAST_MARKERS: usize = 4000;
+
+/// Writes markers and forces of `bodies`, the first of which has the number `first`.
+fn write_forces_of(
+    first: usize,
+    bodies: &mut [Box<dyn Body>],
+    positions: &mut [Vec2],
+    forces: &mut [Vec2],
+    medium: &Medium,
+) -> Option<(usize, BodyError)> {
+    #[cfg(feature = "rayon")]
+    if bodies.len() > 1 && positions.len() >= 2 * LEAST_MARKERS {
+        let middle = bodies.len() / 2;
+        let (bodies, bodies_above) = bodies.split_at_mut(middle);
+        let markers = bodies.iter().map(|body| body.marker_count()).sum();
+        let (positions, positions_above) = positions.split_at_mut(markers);
+        let (forces, forces_above) = forces.split_at_mut(markers);
+        let (failed, failed_above) = rayon::join(
+            || write_forces_of(first, bodies, positions, forces, medium),
+            || write_forces_of(first + middle, bodies_above, positions_above, forces_above, medium),
+        );
+        return failed.or(failed_above);
+    }
+    let mut start = 0;
+    for (index, body) in bodies.iter_mut().enumerate() {
+        let range = start..start + body.marker_count();
+        start = range.end;
+        body.write_markers(&mut positions[range.clone()]);
+        if let Err(source) = body.write_forces(medium, &mut forces[range]) {
+            return Some((first + index, source));
+        }
+    }
+    None
 }
 
 fn body_error(time: f64, body: &dyn Body, source: BodyError) -> SceneError {

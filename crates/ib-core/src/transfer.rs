@@ -1,6 +1,8 @@
 //! Spreading forces to the grid and interpolating velocities from it.
 
 mod anywhere;
+#[cfg(feature = "rayon")]
+mod bands;
 mod inside;
 mod lanes;
 
@@ -29,13 +31,21 @@ pub struct Transfer<K> {
     grid: Grid,
     /// In units of h from the origin of the grid, wrapped where the box is periodic.
     places: Vec<[f64; 2]>,
+    #[cfg(feature = "rayon")]
+    bands: bands::Bands,
 }
 
 impl<K: Kernel> Transfer<K> {
     /// A transfer between markers and the fields of `grid`.
     #[must_use]
     pub fn new(grid: Grid, kernel: K) -> Self {
-        Self { kernel, grid, places: Vec::new() }
+        Self {
+            kernel,
+            grid,
+            places: Vec::new(),
+            #[cfg(feature = "rayon")]
+            bands: bands::Bands::default(),
+        }
     }
 
     /// The kernel.
@@ -57,6 +67,8 @@ impl<K: Kernel> Transfer<K> {
             let y = scale * (position.y - y0);
             [wrapped(scale * (position.x - x0), columns), if wraps { wrapped(y, rows) } else { y }]
         }));
+        #[cfg(feature = "rayon")]
+        self.bands.find(Anywhere::new(&self.kernel, &self.grid), &self.places);
     }
 
     /// Adds the force density of the located markers to `density` (force per volume), thesis (2.33). `forces` (force) has an
@@ -64,26 +76,62 @@ impl<K: Kernel> Transfer<K> {
     pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) {
         let scale = 1.0 / (self.grid.spacing() * self.grid.spacing());
         let anywhere = Anywhere::new(&self.kernel, &self.grid);
+        let places = &self.places[..self.places.len().min(forces.len())];
         let (fx, fy) = density.components_mut();
-        if let Some(pieces) = self.kernel.pieces() {
-            lanes::dispatch(Spreading { anywhere, pieces, places: &self.places, forces, scale, fx, fy });
-        } else {
-            for (place, force) in self.places.iter().zip(forces) {
-                anywhere.add(*place, [scale * force.x, scale * force.y], fx, fy);
-            }
+        #[cfg(feature = "rayon")]
+        if self.bands.are_used() {
+            self.bands.spread(anywhere, places, forces, scale, [fx, fy]);
+            return;
         }
+        let band = Band { markers: 0..places.len(), first_row: 0, fx, fy };
+        spread(anywhere, places, forces, scale, band);
     }
 
     /// The velocities at the located markers (length per time), thesis (2.34). `velocities` has an entry for each of them.
     pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) {
         let anywhere = Anywhere::new(&self.kernel, &self.grid);
-        let (u, v) = (velocity.x(), velocity.y());
-        if let Some(pieces) = self.kernel.pieces() {
-            lanes::dispatch(Interpolation { anywhere, pieces, places: &self.places, u, v, velocities });
-        } else {
-            for (place, out) in self.places.iter().zip(velocities) {
-                *out = anywhere.gather(*place, u, v).into();
-            }
+        #[cfg(feature = "rayon")]
+        if self.bands.are_used() {
+            bands::interpolate(anywhere, &self.places, velocity, velocities);
+            return;
+        }
+        interpolate(anywhere, &self.places, velocity, velocities);
+    }
+}
+
+/// Some rows of both components and the markers that reach them.
+struct Band<'a, M> {
+    markers: M,
+    first_row: usize,
+    fx: &'a mut [f64],
+    fy: &'a mut [f64],
+}
+
+fn spread<K: Kernel, M: Iterator<Item = usize>>(
+    anywhere: Anywhere<'_, K>,
+    places: &[[f64; 2]],
+    forces: &[Vec2],
+    scale: f64,
+    band: Band<'_, M>,
+) {
+    let Band { markers, first_row, fx, fy } = band;
+    if let Some(pieces) = anywhere.kernel().pieces() {
+        lanes::dispatch(Spreading { anywhere, pieces, places, forces, scale, markers, first_row, fx, fy });
+    } else {
+        for marker in markers {
+            let force = scale * forces[marker];
+            anywhere.add(places[marker], force.into(), first_row, fx, fy);
+        }
+    }
+}
+
+fn interpolate<K: Kernel>(anywhere: Anywhere<'_, K>, places: &[[f64; 2]], velocity: &StaggeredField, out: &mut [Vec2]) {
+    let (u, v) = (velocity.x(), velocity.y());
+    if let Some(pieces) = anywhere.kernel().pieces() {
+        lanes::dispatch(Interpolation { anywhere, pieces, places, u, v, velocities: out });
+    } else {
+        for (place, out) in places.iter().zip(out) {
+            *out = anywhere.gather(*place, u, v).into();
         }
     }
 }

@@ -66,6 +66,35 @@ impl ColumnTransform {
         });
     }
 
+    /// Does the same for the columns from `first` on and puts them, one after another, into `columns`.
+    #[cfg(feature = "rayon")]
+    pub(crate) fn filter_into(
+        &mut self,
+        rows: &[Complex64],
+        width: usize,
+        first: usize,
+        columns: &mut [Complex64],
+        change: impl Fn(usize, &mut [Complex64]),
+    ) {
+        for (b, batch) in columns.chunks_mut(BATCH * self.ny).enumerate() {
+            let m = first + b * BATCH;
+            let mut parts = batch.chunks_exact_mut(self.ny);
+            if parts.len() == BATCH {
+                let mut columns: [&mut [Complex64]; BATCH] = std::array::from_fn(|_| parts.next().unwrap_or_default());
+                gather(&rows[m..], width, &mut columns);
+            } else {
+                for (k, column) in parts.enumerate() {
+                    gather(&rows[m + k..], width, &mut [column]);
+                }
+            }
+            for (k, column) in batch.chunks_exact_mut(self.ny).enumerate() {
+                run(&*self.forward, column, &mut self.scratch);
+                change(m + k, column);
+                run(&*self.inverse, column, &mut self.scratch);
+            }
+        }
+    }
+
     fn for_each(
         &mut self,
         rows: &mut [Complex64],

@@ -67,6 +67,9 @@
 //! even `nx` is a third faster than an odd one; other prime factors take two to nine times as long. In a channel this concerns
 //! `nx` alone for [`ChannelStokes`], both directions for [`ProjectionStokes`].
 //!
+//! With the feature `rayon`, off by default, [`PeriodicStokes`] uses the threads of the current pool from 200,000 cells on, to the same
+//! bits for any number of them.
+//!
 //! `cargo bench -p stokes-grid` prints times in units of plain real transforms of the same size in the same run: about 1.1 pairs for
 //! [`PeriodicStokes`] from 120 to 1024 cells squared, and about 2.1 times the passes along x alone for [`ChannelStokes`].
 
@@ -80,6 +83,8 @@ mod field;
 mod grid;
 mod kinematics;
 mod mean_flow;
+#[cfg(feature = "rayon")]
+mod parallel;
 mod periodic;
 mod projection;
 mod projection_channel;

@@ -27,6 +27,8 @@ pub struct PeriodicStokes {
     poisson: Option<Symbol>,
     first: Vec<f64>,
     previous: Vec<f64>,
+    #[cfg(feature = "rayon")]
+    parallel: Option<crate::parallel::ParallelTransform>,
     work: Work,
 }
 
@@ -52,6 +54,8 @@ impl PeriodicStokes {
             poisson: None,
             first: vec![0.0; nx],
             previous: vec![0.0; nx],
+            #[cfg(feature = "rayon")]
+            parallel: None,
             work: Work::default(),
         })
     }
@@ -66,43 +70,17 @@ impl PeriodicStokes {
         Ok(())
     }
 
-    /// The prescribed mean velocity (length per time).
-    #[must_use]
-    pub fn mean_velocity(&self) -> [f64; 2] {
-        self.mean_velocity
-    }
-}
-
-impl StokesSolver for PeriodicStokes {
-    fn grid(&self) -> &Grid {
-        &self.grid
-    }
-
-    fn viscosity(&self) -> f64 {
-        self.viscosity
-    }
-
-    fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
-        check_grid(&self.grid, force.grid(), "the force")?;
-        check_grid(&self.grid, velocity.grid(), "the velocity")?;
+    /// One transform there and back on one thread. Returns the sums of the force.
+    fn solve_serial(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<[f64; 2], StokesError> {
         let (nx, ny) = (self.grid.nx(), self.grid.ny());
         let (fx, fy) = (force.x(), force.y());
         let mut total = [0.0; 2];
         self.transform.forward_rows(|j, row| {
-            let below = (j + ny - 1) % ny * nx;
-            let (fx_below, fx, fy) = (&fx[below..below + nx], &fx[j * nx..][..nx], &fy[j * nx..][..nx]);
-            row[0] = (fy[0] - fy[nx - 1]) - (fx[0] - fx_below[0]);
-            for (((out, fy), fx), fx_below) in row[1..].iter_mut().zip(fy.windows(2)).zip(&fx[1..]).zip(&fx_below[1..])
-            {
-                *out = (fy[1] - fy[0]) - (fx - fx_below);
-            }
-            total[0] += sum(fx);
-            total[1] += sum(fy);
+            curl(force, j, row);
+            total[0] += sum(&fx[j * nx..][..nx]);
+            total[1] += sum(&fy[j * nx..][..nx]);
         });
-        // The sum of a row with a value that is not finite is not finite.
-        if !total.into_iter().all(f64::is_finite) {
-            return Err(not_finite("the sum of the force", &[("the force", fx), ("the force", fy)]));
-        }
+        check_total(total, force)?;
         self.transform.filter_columns(&self.biharmonic);
 
         let [mean_u, mean_v] = self.mean_velocity;
@@ -131,11 +109,60 @@ impl StokesSolver for PeriodicStokes {
             return Err(StokesError::Overflow { name: "the velocity" });
         }
         difference(&mut u[(ny - 1) * nx..], previous, first, mean_u);
+        Ok(total)
+    }
+
+    /// The same on the threads of the current pool.
+    #[cfg(feature = "rayon")]
+    fn solve_parallel(
+        &mut self,
+        force: &StaggeredField,
+        velocity: &mut StaggeredField,
+    ) -> Result<[f64; 2], StokesError> {
+        let (nx, ny) = (self.grid.nx(), self.grid.ny());
+        let parallel = self.parallel.get_or_insert_with(|| crate::parallel::ParallelTransform::new(nx, ny));
+        let total = parallel.forward(force, |j, row| curl(force, j, row));
+        check_total(total, force)?;
+        parallel.filter_columns(&self.biharmonic);
+        if parallel.velocity(self.mean_velocity, velocity) {
+            Ok(total)
+        } else {
+            Err(StokesError::Overflow { name: "the velocity" })
+        }
+    }
+
+    /// The prescribed mean velocity (length per time).
+    #[must_use]
+    pub fn mean_velocity(&self) -> [f64; 2] {
+        self.mean_velocity
+    }
+}
+
+impl StokesSolver for PeriodicStokes {
+    fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    fn viscosity(&self) -> f64 {
+        self.viscosity
+    }
+
+    fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
+        check_grid(&self.grid, force.grid(), "the force")?;
+        check_grid(&self.grid, velocity.grid(), "the velocity")?;
+        #[cfg(feature = "rayon")]
+        let total = if crate::parallel::pays(self.grid.nx() * self.grid.ny()) {
+            self.solve_parallel(force, velocity)
+        } else {
+            self.solve_serial(force, velocity)
+        }?;
+        #[cfg(not(feature = "rayon"))]
+        let total = self.solve_serial(force, velocity)?;
 
         self.work.solves += 1;
         self.work.forward_transforms += 1;
         self.work.inverse_transforms += 1;
-        let cells = (nx * ny) as f64;
+        let cells = (self.grid.nx() * self.grid.ny()) as f64;
         Ok(SolveReport { mean_pressure_gradient: total.map(|f| f / cells), ..SolveReport::default() })
     }
 
@@ -175,6 +202,27 @@ impl StokesSolver for PeriodicStokes {
 
     fn work(&self) -> Work {
         self.work
+    }
+}
+
+/// Row `j` of h times the curl of `force`.
+fn curl(force: &StaggeredField, j: usize, row: &mut [f64]) {
+    let (nx, ny) = (force.grid().nx(), force.grid().ny());
+    let (fx, fy) = (force.x(), force.y());
+    let below = (j + ny - 1) % ny * nx;
+    let (fx_below, fx, fy) = (&fx[below..below + nx], &fx[j * nx..][..nx], &fy[j * nx..][..nx]);
+    row[0] = (fy[0] - fy[nx - 1]) - (fx[0] - fx_below[0]);
+    for (((out, fy), fx), fx_below) in row[1..].iter_mut().zip(fy.windows(2)).zip(&fx[1..]).zip(&fx_below[1..]) {
+        *out = (fy[1] - fy[0]) - (fx - fx_below);
+    }
+}
+
+/// The sum of a row with a value that is not finite is not finite.
+fn check_total(total: [f64; 2], force: &StaggeredField) -> Result<(), StokesError> {
+    if total.into_iter().all(f64::is_finite) {
+        Ok(())
+    } else {
+        Err(not_finite("the sum of the force", &[("the force", force.x()), ("the force", force.y())]))
     }
 }
 

@@ -44,6 +44,11 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
         Self { kernel, columns: grid.nx(), rows: grid.ny(), walls: grid.has_walls() }
     }
 
+    #[inline(always)]
+    pub(super) fn kernel(&self) -> &'a K {
+        self.kernel
+    }
+
     /// Columns and rows of cells.
     #[inline(always)]
     pub(super) fn cells(&self) -> [usize; 2] {
@@ -56,12 +61,22 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
         self.walls
     }
 
-    /// Adds `force` (force density times cells) at `place` (in units of h) to both components.
+    /// Adds `force` (force density times cells) at `place` (in units of h) to the rows of both components that are there, from
+    /// `first_row` on.
     #[inline(never)]
-    pub(super) fn add(&self, place: [f64; 2], force: [f64; 2], fx: &mut [f64], fy: &mut [f64]) {
+    pub(super) fn add(&self, place: [f64; 2], force: [f64; 2], first_row: usize, fx: &mut [f64], fy: &mut [f64]) {
         let [[normal_x, tangential_x], [normal_y, tangential_y]] = place.map(|r| self.lines(r));
-        self.add_component(Component::X, normal_x, tangential_y, force[0], fx);
-        self.add_component(Component::Y, tangential_x, normal_y, force[1], fy);
+        self.add_component(Component::X, [normal_x, tangential_y], force[0], first_row, fx);
+        self.add_component(Component::Y, [tangential_x, normal_y], force[1], first_row, fy);
+    }
+
+    /// The rows of cells that the stencil of a marker at the height `y` (in units of h) begins and ends in, continued beyond the box.
+    #[cfg(feature = "rayon")]
+    pub(super) fn reach(&self, y: f64) -> [i64; 2] {
+        let lines = self.lines(y);
+        let first = lines.iter().map(|line| line.first).min().unwrap_or(0);
+        let last = lines.iter().map(|line| line.first + line.len as i64 - 1).max().unwrap_or(0);
+        [first, last]
     }
 
     /// The velocity at `place`.
@@ -96,7 +111,7 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
         lines
     }
 
-    fn add_component(&self, component: Component, x: Line, y: Line, value: f64, field: &mut [f64]) {
+    fn add_component(&self, component: Component, [x, y]: [Line; 2], value: f64, first_row: usize, field: &mut [f64]) {
         let nx = self.columns;
         let first = self.column(x.first);
         let mut columns = x.weights;
@@ -104,7 +119,10 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
         for (i, weight) in y.weights[..y.len].iter().enumerate() {
             let (row, sign) = self.fold(y.first + i as i64, component);
             let weight = sign * weight;
-            let line = &mut field[row * nx..(row + 1) * nx];
+            let row = row.wrapping_sub(first_row);
+            let Some(line) = row.checked_mul(nx).and_then(|start| field.get_mut(start..)?.get_mut(..nx)) else {
+                continue;
+            };
             if let Some(window) = line.get_mut(first..first + x.len) {
                 for (cell, column) in window.iter_mut().zip(&columns) {
                     *cell += weight * column;

@@ -71,35 +71,47 @@ fn folded(row: i32, count: usize, walls: bool, [u, v]: [[f64; 4]; 2]) -> Option<
     }
 }
 
-/// Spreading of forces to both components.
+/// Spreading of forces to both components, of all rows or those of a band.
 #[derive(Debug)]
-pub(super) struct Spreading<'a, K> {
+pub(super) struct Spreading<'a, K, M> {
     pub(super) anywhere: Anywhere<'a, K>,
     pub(super) pieces: &'static Pieces,
     pub(super) places: &'a [[f64; 2]],
     pub(super) forces: &'a [Vec2],
     pub(super) scale: f64,
+    /// Which markers, in the order in which they are added.
+    pub(super) markers: M,
+    /// The first row that `fx` and `fy` have.
+    pub(super) first_row: usize,
     pub(super) fx: &'a mut [f64],
     pub(super) fy: &'a mut [f64],
 }
 
-impl<K: Kernel> LanesTask for Spreading<'_, K> {
+impl<K: Kernel, M: Iterator<Item = usize>> LanesTask for Spreading<'_, K, M> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let Self { anywhere, pieces, places, forces, scale, fx, fy } = self;
+        let Self { anywhere, pieces, places, forces, scale, markers, first_row, fx, fy } = self;
         // Known to be four or more, the first four of a row need no check.
         let nx = anywhere.cells()[0].max(4);
-        for (place, force) in places.iter().zip(forces) {
+        let (offset, end) = (first_row * nx, fx.len().min(fy.len()));
+        for marker in markers {
+            let (place, force) = (places[marker], forces[marker]);
             let force = [scale * force.x, scale * force.y];
             let (column, [normal_x, tangential_x]) = weights(l, pieces, place[0]);
             let (row, [normal_y, tangential_y]) = weights(l, pieces, place[1]);
             let columns = [l.mul(l.splat(force[0]), normal_x), l.mul(l.splat(force[1]), tangential_x)];
             let rows = [l.store(tangential_y), l.store(normal_y)];
-            if let Some(Stencil { base, rows }) = stencil(&anywhere, [column, row], rows) {
+            let stencil = stencil(&anywhere, [column, row], rows);
+            // Within the band with all four rows; what is below the band is far beyond its end when the subtraction wraps.
+            let inside = stencil.and_then(|Stencil { base, rows }| {
+                let base = base.wrapping_sub(offset);
+                (base < end && base + 3 * nx < fy.len()).then_some((base, rows))
+            });
+            if let Some((base, rows)) = inside {
                 add_rows::<L, 3>(l, &mut fx[base..], nx, columns[0], rows[0]);
                 add_rows::<L, 4>(l, &mut fy[base..], nx, columns[1], rows[1]);
             } else {
-                anywhere.add(*place, force, fx, fy);
+                anywhere.add(place, force, first_row, fx, fy);
             }
         }
     }

@@ -1,0 +1,167 @@
+//! Spreading and interpolation on several threads.
+
+use rayon::prelude::*;
+use stokes_grid::StaggeredField;
+
+use super::anywhere::Anywhere;
+use super::{Band, interpolate as interpolate_some, spread as spread_some};
+use crate::{Kernel, Vec2};
+
+/// Markers from which several threads pay.
+const LEAST_MARKERS: usize = 4000;
+
+/// Bands of rows, and pieces of the list of markers, whatever the number of threads.
+const BANDS: usize = 16;
+
+/// Fewest rows of a band: more than the kernels reach, so that what is folded back at a wall stays in the band at the wall.
+const LEAST_ROWS: usize = 8;
+
+/// Markers that one share interpolates.
+const SHARE: usize = 1024;
+
+/// Which markers reach which bands of rows of the grid.
+///
+/// Each band adds the forces of its markers in the order of the markers. So every value on the grid is the same sum in the
+/// same order as on one thread.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Bands {
+    /// Rows of a band; the last one has more. Zero where one thread does it all.
+    rows: usize,
+    /// By piece of the list of markers and band: the markers, in order.
+    lists: Vec<Vec<u32>>,
+}
+
+impl Bands {
+    /// Whether [`Bands::find`] found enough work for several threads.
+    pub(super) fn are_used(&self) -> bool {
+        self.rows > 0
+    }
+
+    /// Sorts the markers into bands, if there are enough of them.
+    pub(super) fn find<K: Kernel>(&mut self, anywhere: Anywhere<'_, K>, places: &[[f64; 2]]) {
+        let [_, rows] = anywhere.cells();
+        let pays = places.len() >= LEAST_MARKERS && rows >= 2 * LEAST_ROWS && rayon::current_num_threads() > 1;
+        self.rows = if pays { (rows / BANDS).max(LEAST_ROWS) } else { 0 };
+        if !pays {
+            return;
+        }
+        let (band_rows, bands) = (self.rows, rows / self.rows);
+        let walls = anywhere.has_walls();
+        self.lists.resize_with(BANDS * BANDS, Vec::new);
+        let piece = places.len().div_ceil(BANDS);
+        let pieces = places.par_chunks(piece).zip(self.lists.par_chunks_mut(BANDS));
+        pieces.enumerate().for_each(|(index, (places, lists))| {
+            lists.iter_mut().for_each(Vec::clear);
+            for (k, place) in places.iter().enumerate() {
+                let marker = (index * piece + k) as u32;
+                let [first, last] = anywhere.reach(place[1]);
+                // Beyond a wall a stencil is folded back by less than a band.
+                let band = |row: i64| {
+                    let row = if walls { row.clamp(0, rows as i64 - 1) } else { row.rem_euclid(rows as i64) };
+                    (row as usize / band_rows).min(bands - 1)
+                };
+                let (first, last) = (band(first), band(last));
+                lists[first].push(marker);
+                if last != first {
+                    lists[last].push(marker);
+                }
+            }
+        });
+    }
+
+    /// Spreading, band by band.
+    pub(super) fn spread<K: Kernel>(
+        &self,
+        anywhere: Anywhere<'_, K>,
+        places: &[[f64; 2]],
+        forces: &[Vec2],
+        scale: f64,
+        components: [&mut [f64]; 2],
+    ) {
+        let bands = anywhere.cells()[1] / self.rows;
+        let work = |band: usize, [fx, fy]: [&mut [f64]; 2]| {
+            let markers = (0..BANDS).flat_map(|piece| &self.lists[piece * BANDS + band]);
+            let markers = markers.map(|&marker| marker as usize).filter(|&marker| marker < places.len());
+            spread_some(anywhere, places, forces, scale, Band { markers, first_row: band * self.rows, fx, fy });
+        };
+        divide(0, bands, self.rows * anywhere.cells()[0], components, &work);
+    }
+}
+
+/// Does `work` for each of the bands from `first` to before `end`, whose rows begin at `components` and of which all but the last have
+/// `size` values, by halves that any thread may take.
+fn divide(
+    first: usize,
+    end: usize,
+    size: usize,
+    components: [&mut [f64]; 2],
+    work: &(impl Fn(usize, [&mut [f64]; 2]) + Sync),
+) {
+    if end - first == 1 {
+        work(first, components);
+        return;
+    }
+    let middle = first.midpoint(end);
+    let [(fx, fx_above), (fy, fy_above)] = components.map(|values| values.split_at_mut((middle - first) * size));
+    rayon::join(
+        || divide(first, middle, size, [fx, fy], work),
+        || divide(middle, end, size, [fx_above, fy_above], work),
+    );
+}
+
+/// Interpolation, marker by marker.
+pub(super) fn interpolate<K: Kernel>(
+    anywhere: Anywhere<'_, K>,
+    places: &[[f64; 2]],
+    velocity: &StaggeredField,
+    velocities: &mut [Vec2],
+) {
+    places
+        .par_chunks(SHARE)
+        .zip(velocities.par_chunks_mut(SHARE))
+        .for_each(|(places, velocities)| interpolate_some(anywhere, places, velocity, velocities));
+}
+
+#[cfg(test)]
+mod tests {
+    use stokes_grid::{Grid, StaggeredField};
+
+    use crate::{AnyKernel, Kernel, Transfer, Vec2};
+
+    #[test]
+    fn several_threads_give_the_bits_of_one() {
+        let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let grids =
+            [Grid::channel(64, 50, 0.1), Grid::channel(70, 161, 0.1), Grid::periodic(48, 35, 0.1)].map(Result::unwrap);
+        for (grid, kernel) in grids.into_iter().flat_map(|grid| AnyKernel::ALL.map(|kernel| (grid, kernel))) {
+            let [_, ly] = grid.lengths();
+            let y0 = grid.origin()[1];
+            // Everywhere, the walls themselves included.
+            let place = |k: usize| {
+                let k = k as f64;
+                Vec2::new(0.0137 * k - 20.0, y0 + ly * (0.5 + 0.5 * (1.1 * (0.37 * k).sin()).clamp(-1.0, 1.0)))
+            };
+            let positions: Vec<Vec2> = (0..6000).map(place).collect();
+            let forces: Vec<Vec2> = positions.iter().map(|x| Vec2::new(x.y.sin(), (3.0 * x.x).cos())).collect();
+            let both = |threads| {
+                pool(threads).install(|| {
+                    let mut transfer = Transfer::new(grid, kernel);
+                    transfer.locate(&positions);
+                    assert_eq!(transfer.bands.are_used(), threads > 1);
+                    let mut density = StaggeredField::zeros(grid);
+                    transfer.spread(&forces, &mut density);
+                    let mut velocities = vec![Vec2::zeros(); positions.len()];
+                    transfer.interpolate(&density, &mut velocities);
+                    (density, velocities)
+                })
+            };
+            let (density, velocities) = both(1);
+            for threads in [2, 3] {
+                let (other_density, other_velocities) = both(threads);
+                assert_eq!(density.x(), other_density.x(), "{} {threads}", kernel.name());
+                assert_eq!(density.y(), other_density.y(), "{} {threads}", kernel.name());
+                assert_eq!(velocities, other_velocities, "{} {threads}", kernel.name());
+            }
+        }
+    }
+}

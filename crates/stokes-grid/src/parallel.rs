@@ -1,0 +1,188 @@
+//! The streamfunction solver of a large periodic box on several threads.
+
+use num_complex::Complex64;
+use rayon::prelude::*;
+
+use crate::columns::ColumnTransform;
+use crate::rows::RowTransform;
+use crate::sums::sum;
+use crate::{StaggeredField, Symbol};
+
+/// Pieces of work, whatever the number of threads: enough for eight of them to share evenly.
+const SHARES: usize = 16;
+
+/// Rows that are gathered from the columns at a time: two cache lines of each column.
+const BATCH: usize = 8;
+
+/// Cells from which several threads pay.
+const LEAST_CELLS: usize = 200_000;
+
+/// Room for one real forward and inverse transform in shares that any thread may take, and the numbers in between.
+///
+/// Rows go into `spectrum`, columns of that into `columns` (each column contiguous), rows of those into the velocity: no
+/// share writes where another one does, and every number comes from the same operations in the same order as on one thread.
+#[derive(Debug)]
+pub(crate) struct ParallelTransform {
+    nx: usize,
+    ny: usize,
+    width: usize,
+    spectrum: Vec<Complex64>,
+    columns: Vec<Complex64>,
+    rows: Vec<RowShare>,
+    column_shares: Vec<ColumnTransform>,
+    totals: Vec<[f64; 2]>,
+}
+
+/// Room for the rows of one share.
+#[derive(Debug)]
+struct RowShare {
+    transform: RowTransform,
+    batch: Vec<Complex64>,
+    previous: Vec<f64>,
+    finite: bool,
+}
+
+/// Whether several threads are there and pay for that many cells.
+pub(crate) fn pays(cells: usize) -> bool {
+    cells >= LEAST_CELLS && rayon::current_num_threads() > 1
+}
+
+impl ParallelTransform {
+    pub(crate) fn new(nx: usize, ny: usize) -> Self {
+        let width = nx / 2 + 1;
+        let share = || RowShare {
+            transform: RowTransform::new(nx),
+            batch: vec![Complex64::ZERO; BATCH * width],
+            previous: vec![0.0; nx],
+            finite: true,
+        };
+        Self {
+            nx,
+            ny,
+            width,
+            spectrum: vec![Complex64::ZERO; width * ny],
+            columns: vec![Complex64::ZERO; width * ny],
+            rows: (0..SHARES).map(|_| share()).collect(),
+            column_shares: (0..SHARES).map(|_| ColumnTransform::new(ny)).collect(),
+            totals: vec![[0.0; 2]; ny],
+        }
+    }
+
+    /// Rows of a share; the last one may have fewer.
+    fn rows_of_share(&self) -> usize {
+        self.ny.div_ceil(SHARES)
+    }
+
+    /// Transforms h times the curl of `force` along x, and returns the sums of its components.
+    pub(crate) fn forward(&mut self, force: &StaggeredField, curl: impl Fn(usize, &mut [f64]) + Sync) -> [f64; 2] {
+        let (nx, width, count) = (self.nx, self.width, self.rows_of_share());
+        let (fx, fy) = (force.x(), force.y());
+        let shares = self.spectrum.par_chunks_mut(count * width).zip(self.totals.par_chunks_mut(count));
+        shares.zip(self.rows.par_iter_mut()).enumerate().for_each(|(index, ((spectrum, totals), share))| {
+            for (k, (out, total)) in spectrum.chunks_exact_mut(width).zip(totals).enumerate() {
+                let j = index * count + k;
+                share.transform.forward(|row| curl(j, row), out);
+                *total = [sum(&fx[j * nx..][..nx]), sum(&fy[j * nx..][..nx])];
+            }
+        });
+        self.totals.iter().fold([0.0; 2], |[x, y], row| [x + row[0], y + row[1]])
+    }
+
+    /// Transforms along y, multiplies by `symbol` and transforms back.
+    pub(crate) fn filter_columns(&mut self, symbol: &Symbol) {
+        let (width, ny) = (self.width, self.ny);
+        let count = width.div_ceil(SHARES);
+        let spectrum = &self.spectrum;
+        let shares = self.columns.par_chunks_mut(count * ny).zip(self.column_shares.par_iter_mut());
+        shares.enumerate().for_each(|(index, (columns, share))| {
+            share.filter_into(spectrum, width, index * count, columns, |m, column| symbol.apply(m, column));
+        });
+    }
+
+    /// Transforms psi / h back along x and writes its differences, the velocity; whether they are finite.
+    pub(crate) fn velocity(&mut self, [mean_u, mean_v]: [f64; 2], velocity: &mut StaggeredField) -> bool {
+        let (nx, ny, width, count) = (self.nx, self.ny, self.width, self.rows_of_share());
+        let columns = &self.columns;
+        let (u, v) = velocity.components_mut();
+        let shares = u.par_chunks_mut(count * nx).zip(v.par_chunks_mut(count * nx));
+        shares.zip(self.rows.par_iter_mut()).enumerate().for_each(|(index, ((u, v), share))| {
+            let RowShare { transform, batch, previous, finite } = share;
+            let (start, rows) = (index * count, v.len() / nx);
+            *finite = true;
+            // One row more than the share has, for the difference to it.
+            for k in 0..=rows {
+                let in_batch = k % BATCH;
+                if in_batch == 0 {
+                    gather(columns, ny, start + k, (rows + 1 - k).min(BATCH), batch, width);
+                }
+                let psi = transform.inverse(&mut batch[in_batch * width..][..width]);
+                // An overflow anywhere in the transforms reaches every value of every row.
+                *finite &= psi[0].is_finite();
+                if !*finite {
+                    return;
+                }
+                if k > 0 {
+                    for ((u, below), psi) in u[(k - 1) * nx..][..nx].iter_mut().zip(&*previous).zip(psi) {
+                        *u = mean_u + (psi - below);
+                    }
+                }
+                if k < rows {
+                    let v = &mut v[k * nx..][..nx];
+                    for (v, psi) in v.iter_mut().zip(psi.windows(2)) {
+                        *v = mean_v - (psi[1] - psi[0]);
+                    }
+                    v[nx - 1] = mean_v - (psi[0] - psi[nx - 1]);
+                    previous.copy_from_slice(psi);
+                }
+            }
+        });
+        self.rows.iter().all(|share| share.finite)
+    }
+}
+
+/// Copies `count` rows from `first` on, in a box of `ny` rows, out of contiguous columns.
+fn gather(columns: &[Complex64], ny: usize, first: usize, count: usize, rows: &mut [Complex64], width: usize) {
+    for (m, column) in columns.chunks_exact(ny).enumerate() {
+        if let Some(values) = column.get(first..first + count) {
+            for (k, value) in values.iter().enumerate() {
+                rows[k * width + m] = *value;
+            }
+        } else {
+            for k in 0..count {
+                rows[k * width + m] = column[(first + k) % ny];
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Grid, PeriodicStokes, StaggeredField, StokesSolver};
+
+    #[test]
+    fn several_threads_give_the_bits_of_one() {
+        for (nx, ny) in [(512, 400), (449, 470), (500, 403)] {
+            let grid = Grid::periodic(nx, ny, 0.01).unwrap();
+            let mut force = StaggeredField::zeros(grid);
+            let (x, y) = force.components_mut();
+            for (k, value) in x.iter_mut().chain(y).enumerate() {
+                *value = ((k * k % 1009) as f64).sin();
+            }
+            let solve = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                let mut velocity = StaggeredField::zeros(grid);
+                let mut solver = PeriodicStokes::new(grid, 2.0).unwrap();
+                solver.set_mean_velocity([0.25, -0.5]).unwrap();
+                let report = pool.install(|| solver.solve(&force, &mut velocity)).unwrap();
+                (velocity, report.mean_pressure_gradient)
+            };
+            let (expected, gradient) = solve(1);
+            for threads in [2, 3] {
+                let (found, found_gradient) = solve(threads);
+                assert_eq!(found.x(), expected.x(), "{nx} x {ny}, {threads} threads");
+                assert_eq!(found.y(), expected.y(), "{nx} x {ny}, {threads} threads");
+                assert_eq!(found_gradient, gradient);
+            }
+        }
+    }
+}
