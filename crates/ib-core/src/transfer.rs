@@ -62,11 +62,12 @@ impl<K: Kernel> Transfer<K> {
         let wraps = !self.grid.has_walls();
         // Wrapping before the weights keeps the column arithmetic exact for droplets that have travelled far.
         let wrapped = |x: f64, period: f64| if (0.0..period).contains(&x) { x } else { x.rem_euclid(period) };
-        self.places.clear();
-        self.places.extend(positions.iter().map(|position| {
+        let place = |position: &Vec2| {
             let y = scale * (position.y - y0);
             [wrapped(scale * (position.x - x0), columns), if wraps { wrapped(y, rows) } else { y }]
-        }));
+        };
+        self.places.clear();
+        self.places.extend(positions.iter().map(place));
         #[cfg(feature = "rayon")]
         self.bands.find(Anywhere::new(&self.kernel, &self.grid), &self.places);
     }
@@ -119,8 +120,9 @@ fn spread<K: Kernel, M: Iterator<Item = usize>>(
         lanes::dispatch(Spreading { anywhere, pieces, places, forces, scale, markers, first_row, fx, fy });
     } else {
         for marker in markers {
-            let force = scale * forces[marker];
-            anywhere.add(places[marker], force.into(), first_row, fx, fy);
+            if let (Some(&place), Some(force)) = (places.get(marker), forces.get(marker)) {
+                anywhere.add(place, (scale * force).into(), first_row, fx, fy);
+            }
         }
     }
 }

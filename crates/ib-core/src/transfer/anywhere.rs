@@ -70,15 +70,6 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
         self.add_component(Component::Y, [tangential_x, normal_y], force[1], first_row, fy);
     }
 
-    /// The rows of cells that the stencil of a marker at the height `y` (in units of h) begins and ends in, continued beyond the box.
-    #[cfg(feature = "rayon")]
-    pub(super) fn reach(&self, y: f64) -> [i64; 2] {
-        let lines = self.lines(y);
-        let first = lines.iter().map(|line| line.first).min().unwrap_or(0);
-        let last = lines.iter().map(|line| line.first + line.len as i64 - 1).max().unwrap_or(0);
-        [first, last]
-    }
-
     /// The velocity at `place`.
     #[inline(never)]
     pub(super) fn gather(&self, place: [f64; 2], u: &[f64], v: &[f64]) -> [f64; 2] {

@@ -5,7 +5,7 @@ use stokes_grid::StaggeredField;
 
 use super::anywhere::Anywhere;
 use super::{Band, interpolate as interpolate_some, spread as spread_some};
-use crate::{Kernel, Vec2};
+use crate::{Kernel, MAX_SUPPORT, Vec2};
 
 /// Markers from which several threads pay.
 const LEAST_MARKERS: usize = 4000;
@@ -15,6 +15,9 @@ const BANDS: usize = 16;
 
 /// Fewest rows of a band: more than the kernels reach, so that what is folded back at a wall stays in the band at the wall.
 const LEAST_ROWS: usize = 8;
+
+/// Rows that no kernel reaches beyond, and one.
+const REACH: i64 = MAX_SUPPORT as i64 / 2 + 1;
 
 /// Markers that one share interpolates.
 const SHARE: usize = 1024;
@@ -54,10 +57,19 @@ impl Bands {
             lists.iter_mut().for_each(Vec::clear);
             for (k, place) in places.iter().enumerate() {
                 let marker = (index * piece + k) as u32;
-                let [first, last] = anywhere.reach(place[1]);
+                // Rounded towards zero, which is one row off at most; what is not finite lands somewhere.
+                let row = place[1] as i64;
+                let (first, last) = (row.saturating_sub(REACH), row.saturating_add(REACH));
                 // Beyond a wall a stencil is folded back by less than a band.
                 let band = |row: i64| {
-                    let row = if walls { row.clamp(0, rows as i64 - 1) } else { row.rem_euclid(rows as i64) };
+                    let inside = (0..rows as i64).contains(&row);
+                    let row = if inside {
+                        row
+                    } else if walls {
+                        row.clamp(0, rows as i64 - 1)
+                    } else {
+                        row.rem_euclid(rows as i64)
+                    };
                     (row as usize / band_rows).min(bands - 1)
                 };
                 let (first, last) = (band(first), band(last));
@@ -80,9 +92,11 @@ impl Bands {
     ) {
         let bands = anywhere.cells()[1] / self.rows;
         let work = |band: usize, [fx, fy]: [&mut [f64]; 2]| {
-            let markers = (0..BANDS).flat_map(|piece| &self.lists[piece * BANDS + band]);
-            let markers = markers.map(|&marker| marker as usize).filter(|&marker| marker < places.len());
-            spread_some(anywhere, places, forces, scale, Band { markers, first_row: band * self.rows, fx, fy });
+            for lists in self.lists.chunks_exact(BANDS) {
+                let markers = lists[band].iter().map(|&marker| marker as usize);
+                let rows = Band { markers, first_row: band * self.rows, fx: &mut *fx, fy: &mut *fy };
+                spread_some(anywhere, places, forces, scale, rows);
+            }
         };
         divide(0, bands, self.rows * anywhere.cells()[0], components, &work);
     }

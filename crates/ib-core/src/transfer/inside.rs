@@ -95,21 +95,29 @@ impl<K: Kernel, M: Iterator<Item = usize>> LanesTask for Spreading<'_, K, M> {
         let nx = anywhere.cells()[0].max(4);
         let (offset, end) = (first_row * nx, fx.len().min(fy.len()));
         for marker in markers {
-            let (place, force) = (places[marker], forces[marker]);
+            let (Some(&place), Some(force)) = (places.get(marker), forces.get(marker)) else { continue };
             let force = [scale * force.x, scale * force.y];
             let (column, [normal_x, tangential_x]) = weights(l, pieces, place[0]);
             let (row, [normal_y, tangential_y]) = weights(l, pieces, place[1]);
             let columns = [l.mul(l.splat(force[0]), normal_x), l.mul(l.splat(force[1]), tangential_x)];
             let rows = [l.store(tangential_y), l.store(normal_y)];
             let stencil = stencil(&anywhere, [column, row], rows);
-            // Within the band with all four rows; what is below the band is far beyond its end when the subtraction wraps.
-            let inside = stencil.and_then(|Stencil { base, rows }| {
+            if let Some(Stencil { base, rows }) = stencil {
+                // What begins below the band is far beyond its end when the subtraction wraps.
                 let base = base.wrapping_sub(offset);
-                (base < end && base + 3 * nx < fy.len()).then_some((base, rows))
-            });
-            if let Some((base, rows)) = inside {
-                add_rows::<L, 3>(l, &mut fx[base..], nx, columns[0], rows[0]);
-                add_rows::<L, 4>(l, &mut fy[base..], nx, columns[1], rows[1]);
+                if base < end && base + 3 * nx < fy.len() {
+                    add_rows::<L, 3>(l, &mut fx[base..], nx, columns[0], rows[0]);
+                    add_rows::<L, 4>(l, &mut fy[base..], nx, columns[1], rows[1]);
+                } else {
+                    for (r, weight) in rows[0][..3].iter().enumerate() {
+                        let start = base.wrapping_add(r * nx);
+                        add_row(l, fx.get_mut(start..).unwrap_or_default(), columns[0], *weight);
+                    }
+                    for (r, weight) in rows[1].iter().enumerate() {
+                        let start = base.wrapping_add(r * nx);
+                        add_row(l, fy.get_mut(start..).unwrap_or_default(), columns[1], *weight);
+                    }
+                }
             } else {
                 anywhere.add(place, force, first_row, fx, fy);
             }
