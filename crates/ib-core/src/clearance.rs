@@ -44,7 +44,8 @@ impl Clearance {
             if point.y < low - reach || point.y > high + reach {
                 continue;
             }
-            let x = point.x - period * ((point.x - middle) / period).round();
+            let offset = point.x - middle;
+            let x = if offset.abs() > 0.5 * period { point.x - period * (offset / period).round() } else { point.x };
             if x < first - reach || x > last + reach {
                 continue;
             }

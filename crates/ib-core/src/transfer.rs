@@ -77,15 +77,13 @@ impl<K: Kernel> Transfer<K> {
     pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) {
         let scale = 1.0 / (self.grid.spacing() * self.grid.spacing());
         let anywhere = Anywhere::new(&self.kernel, &self.grid);
-        let places = &self.places[..self.places.len().min(forces.len())];
         let (fx, fy) = density.components_mut();
         #[cfg(feature = "rayon")]
         if self.bands.are_used() {
-            self.bands.spread(anywhere, places, forces, scale, [fx, fy]);
+            self.bands.spread(anywhere, &self.places, forces, scale, [fx, fy]);
             return;
         }
-        let band = Band { markers: 0..places.len(), first_row: 0, fx, fy };
-        spread(anywhere, places, forces, scale, band);
+        spread(anywhere, scale, Band { markers: self.places.iter().zip(forces), first_row: 0, fx, fy });
     }
 
     /// The velocities at the located markers (length per time), thesis (2.34). `velocities` has an entry for each of them.
@@ -108,21 +106,17 @@ struct Band<'a, M> {
     fy: &'a mut [f64],
 }
 
-fn spread<K: Kernel, M: Iterator<Item = usize>>(
+fn spread<'a, K: Kernel, M: Iterator<Item = (&'a [f64; 2], &'a Vec2)>>(
     anywhere: Anywhere<'_, K>,
-    places: &[[f64; 2]],
-    forces: &[Vec2],
     scale: f64,
     band: Band<'_, M>,
 ) {
     let Band { markers, first_row, fx, fy } = band;
     if let Some(pieces) = anywhere.kernel().pieces() {
-        lanes::dispatch(Spreading { anywhere, pieces, places, forces, scale, markers, first_row, fx, fy });
+        lanes::dispatch(Spreading { anywhere, pieces, scale, markers, first_row, fx, fy });
     } else {
-        for marker in markers {
-            if let (Some(&place), Some(force)) = (places.get(marker), forces.get(marker)) {
-                anywhere.add(place, (scale * force).into(), first_row, fx, fy);
-            }
+        for (place, force) in markers {
+            anywhere.add(*place, (scale * force).into(), first_row, fx, fy);
         }
     }
 }

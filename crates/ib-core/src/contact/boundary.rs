@@ -18,7 +18,9 @@ const RUN: usize = 16;
 /// The difference that is shortest over the periods.
 fn nearest(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
     for (component, period) in difference.iter_mut().zip(periods) {
-        if let Some(period) = period {
+        if let Some(period) = period
+            && component.abs() > 0.5 * period
+        {
             *component -= period * (*component / period).round();
         }
     }
@@ -67,7 +69,7 @@ impl Boundary {
         let mut best = (reach * reach, 0.0_f64);
         let mut found = false;
         for (&(centre, radius), run) in self.circles.iter().zip(self.segments.chunks(RUN)) {
-            if nearest(point - centre, periods).norm() > radius + reach {
+            if nearest(point - centre, periods).norm_squared() > (radius + reach) * (radius + reach) {
                 continue;
             }
             for [start, end] in run {

@@ -93,9 +93,11 @@ impl Bands {
         let bands = anywhere.cells()[1] / self.rows;
         let work = |band: usize, [fx, fy]: [&mut [f64]; 2]| {
             for lists in self.lists.chunks_exact(BANDS) {
-                let markers = lists[band].iter().map(|&marker| marker as usize);
-                let rows = Band { markers, first_row: band * self.rows, fx: &mut *fx, fy: &mut *fy };
-                spread_some(anywhere, places, forces, scale, rows);
+                let markers = lists[band].iter().filter_map(|&marker| {
+                    let marker = marker as usize;
+                    Some((places.get(marker)?, forces.get(marker)?))
+                });
+                spread_some(anywhere, scale, Band { markers, first_row: band * self.rows, fx: &mut *fx, fy: &mut *fy });
             }
         };
         divide(0, bands, self.rows * anywhere.cells()[0], components, &work);

@@ -76,10 +76,8 @@ fn folded(row: i32, count: usize, walls: bool, [u, v]: [[f64; 4]; 2]) -> Option<
 pub(super) struct Spreading<'a, K, M> {
     pub(super) anywhere: Anywhere<'a, K>,
     pub(super) pieces: &'static Pieces,
-    pub(super) places: &'a [[f64; 2]],
-    pub(super) forces: &'a [Vec2],
     pub(super) scale: f64,
-    /// Which markers, in the order in which they are added.
+    /// Places and forces of the markers, in the order in which they are added.
     pub(super) markers: M,
     /// The first row that `fx` and `fy` have.
     pub(super) first_row: usize,
@@ -87,15 +85,14 @@ pub(super) struct Spreading<'a, K, M> {
     pub(super) fy: &'a mut [f64],
 }
 
-impl<K: Kernel, M: Iterator<Item = usize>> LanesTask for Spreading<'_, K, M> {
+impl<'a, K: Kernel, M: Iterator<Item = (&'a [f64; 2], &'a Vec2)>> LanesTask for Spreading<'_, K, M> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let Self { anywhere, pieces, places, forces, scale, markers, first_row, fx, fy } = self;
+        let Self { anywhere, pieces, scale, markers, first_row, fx, fy } = self;
         // Known to be four or more, the first four of a row need no check.
         let nx = anywhere.cells()[0].max(4);
         let (offset, end) = (first_row * nx, fx.len().min(fy.len()));
-        for marker in markers {
-            let (Some(&place), Some(force)) = (places.get(marker), forces.get(marker)) else { continue };
+        for (place, force) in markers {
             let force = [scale * force.x, scale * force.y];
             let (column, [normal_x, tangential_x]) = weights(l, pieces, place[0]);
             let (row, [normal_y, tangential_y]) = weights(l, pieces, place[1]);
@@ -119,7 +116,7 @@ impl<K: Kernel, M: Iterator<Item = usize>> LanesTask for Spreading<'_, K, M> {
                     }
                 }
             } else {
-                anywhere.add(place, force, first_row, fx, fy);
+                anywhere.add(*place, force, first_row, fx, fy);
             }
         }
     }
