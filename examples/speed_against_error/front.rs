@@ -61,8 +61,8 @@ pub(crate) struct Expense {
     pub(crate) extrapolated: Option<(f64, f64)>,
 }
 
-/// The least cost for an error of `target`, by [`cheapest`], or, where no grid was fine enough, extrapolated from the two finest grids of
-/// the series in which the error falls: powers of the spacing for both error and cost.
+/// The least cost for an error of `target`, by [`cheapest`], or, where no grid was fine enough, extrapolated from the finest grid of a
+/// series in which the error falls and the next one about twice as coarse: powers of the spacing for both error and cost.
 pub(crate) fn expense(points: &[&Point], target: f64) -> Option<Expense> {
     if let Some(point) = cheapest(points, target) {
         return Some(Expense { pairs: point.pairs(), extrapolated: None });
@@ -76,7 +76,7 @@ pub(crate) fn expense(points: &[&Point], target: f64) -> Option<Expense> {
         let own = series(&point.settings);
         let coarser = points
             .iter()
-            .filter(|other| series(&other.settings) == own && spacing(other) > h)
+            .filter(|other| series(&other.settings) == own && spacing(other) > 1.6 * h)
             .min_by(|a, b| spacing(a).total_cmp(&spacing(b)))?;
         let finer = points.iter().any(|other| series(&other.settings) == own && spacing(other) < h);
         let ratio = (spacing(coarser) / h).ln();

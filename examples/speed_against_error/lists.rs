@@ -104,7 +104,7 @@ fn swimmer(study: Study, full: bool) -> Vec<Settings> {
     list.extend(thesis(&[0.1, 0.05, 0.025]));
     if study == Study::Steady {
         list.push(Settings::thesis(0.1, StepSize::Fixed(1e-3)));
-        list.extend([0.2, 0.0125].map(|h| Settings::thesis(h, LONG)));
+        list.extend([0.2, 0.015, 0.0125].map(|h| Settings::thesis(h, LONG)));
     }
     if study == Study::Steady && full {
         list.push(Settings::thesis(0.01, LONG));

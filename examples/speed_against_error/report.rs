@@ -89,7 +89,7 @@ fn summary(points: &[Point]) -> String {
     let mut text = String::from(
         "## The coarsest settings\n\nThe cheapest settings whose error, and that of all refinements tried, is at most the target; cost in pairs per \
          time and, in brackets, the factor by which the thesis' method costs more for the same error. \"About\": nothing so accurate was \
-         run; extrapolated from the two finest grids, error and cost as powers of h.\n\n\
+         run; extrapolated from the finest grid and the next one about twice as coarse, error and cost as powers of h.\n\n\
          | scene | method | 1 % | 0.3 % | 0.1 % |\n|---|---|---|---|---|\n",
     );
     for study in Study::ALL {
