@@ -61,6 +61,9 @@ pub(crate) struct Expense {
     pub(crate) extrapolated: Option<(f64, f64)>,
 }
 
+/// How many times finer a grid than the finest is still extrapolated to.
+const FURTHEST: f64 = 16.0;
+
 /// The least cost for an error of `target`, by [`cheapest`], or, where no grid was fine enough, extrapolated from the finest grid of a
 /// series in which the error falls and the next one about twice as coarse: powers of the spacing for both error and cost.
 pub(crate) fn expense(points: &[&Point], target: f64) -> Option<Expense> {
@@ -82,8 +85,8 @@ pub(crate) fn expense(points: &[&Point], target: f64) -> Option<Expense> {
         let ratio = (spacing(coarser) / h).ln();
         let order = (coarser.error() / point.error()).ln() / ratio;
         let growth = (point.pairs() / coarser.pairs()).ln() / ratio;
-        let falls = !finer && point.error() > target && order > 0.3 && growth > 0.0;
         let factor = (point.error() / target).powf(1.0 / order);
+        let falls = !finer && point.error() > target && order > 0.3 && growth > 0.0 && factor < FURTHEST;
         falls.then(|| Expense { pairs: point.pairs() * factor.powf(growth), extrapolated: Some((h / factor, order)) })
     };
     points.iter().filter_map(further).min_by(|a, b| a.pairs.total_cmp(&b.pairs))
