@@ -35,22 +35,26 @@ const OF_LIMIT: f64 = 0.9;
 /// In a channel films drain and the limit falls on the way.
 const OF_LIMIT_IN_CHANNELS: f64 = 0.5;
 
-/// The largest error over the scenes of docs/speed-against-error.md of that kind (activities -1 to -4 in boxes, along the grid and not,
-/// ratios of 10 and 100, width 2), of these settings and of all finer ones of the same kind. From coarse to fine.
+/// The largest error over the scenes of docs/speed-against-error.md of that kind, of these settings and of all finer ones of the same
+/// kind; in boxes also at activity -4 at 0.2, 0.4 and 0.6 radians from the axes to t = 80, in a channel of width two also, by boundary
+/// integrals, at activity -4. From coarse to fine.
 fn measured(scene: SceneKind, method: Method) -> &'static [Entry] {
-    use AnyKernel::{BSpline4, Gaussian6};
+    use AnyKernel::BSpline4;
     use Settings::{Grid, Integrals};
     const fn entry(error: f64, settings: Settings) -> Entry {
         Entry { error, settings }
     }
     const BOX: [Entry; 3] =
-        [entry(0.0053, Integrals(24, 96)), entry(0.0019, Integrals(64, 128)), entry(0.0006, Integrals(64, 256))];
-    // Off the directions of the grid the wide kernel is the most accurate.
-    const BOX_GRID: [Entry; 2] = [entry(0.0075, Grid(0.1, Gaussian6)), entry(0.0055, Grid(0.05, Gaussian6))];
+        [entry(0.0085, Integrals(24, 96)), entry(0.0012, Integrals(64, 192)), entry(0.0007, Integrals(64, 256))];
+    const BOX_GRID: [Entry; 2] = [entry(0.0040, Grid(0.075, BSpline4)), entry(0.0010, Grid(0.05, BSpline4))];
     const CONTRAST: [Entry; 2] = [entry(0.0052, Integrals(24, 48)), entry(0.0009, Integrals(48, 192))];
-    const CONTRAST_GRID: [Entry; 2] = [entry(0.0075, Grid(0.1, BSpline4)), entry(0.0045, Grid(0.075, BSpline4))];
-    const CHANNEL: [Entry; 3] =
-        [entry(0.0082, Integrals(32, 128)), entry(0.0025, Integrals(64, 128)), entry(0.0007, Integrals(96, 192))];
+    const CONTRAST_GRID: [Entry; 2] = [entry(0.0060, Grid(0.15, BSpline4)), entry(0.0012, Grid(0.1, BSpline4))];
+    const CHANNEL: [Entry; 4] = [
+        entry(0.0080, Integrals(48, 192)),
+        entry(0.0040, Integrals(64, 192)),
+        entry(0.0013, Integrals(80, 320)),
+        entry(0.0008, Integrals(96, 384)),
+    ];
     const CHANNEL_GRID: [Entry; 2] = [entry(0.0045, Grid(0.08, BSpline4)), entry(0.0028, Grid(0.05, BSpline4))];
     match (scene, method) {
         (SceneKind::Box, Method::BoundaryIntegral) => &BOX,
@@ -66,8 +70,9 @@ fn measured(scene: SceneKind, method: Method) -> &'static [Entry] {
 /// speed with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of scene by a method. All else is the
 /// default; the grid spacing is that for a radius of one.
 ///
-/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the thesis' units; a sharper edge
-/// of the concentration needs more cells ([`active_interface::DropletWarning::CellPeclet`] tells).
+/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the thesis' units (-1 with a
+/// contrast, -2 on a grid in a channel); a sharper edge of the concentration needs more cells
+/// ([`active_interface::DropletWarning::CellPeclet`] tells).
 ///
 /// ```
 /// use motile::prelude::*;

@@ -56,7 +56,10 @@ pub struct Swimmer {
     pub spacing: f64,
     /// Marker spacing on a grid (length); `None` for h/2.
     pub marker_spacing: Option<f64>,
-    /// Shape nodes of the boundary integrals.
+    /// Shape nodes of the boundary integrals. With the default, and its cells of the concentration, all observables (speed, shape, stresslet,
+    /// squirmer coefficients, active region, largest concentration) are right to a per cent at activities of -1 to -5 in boxes, and the speed
+    /// in channels down to a width of two radii, where the stresslet may be wrong by two. For the speed alone a third of it will do
+    /// ([`crate::recommend`]).
     pub nodes: usize,
     /// Cells of the concentration, and markers, with boundary integrals; at least as many as nodes.
     pub concentration_cells: usize,
@@ -96,8 +99,8 @@ impl Default for Swimmer {
             contrast: ContrastMethod::default(),
             spacing: 0.05,
             marker_spacing: None,
-            nodes: 96,
-            concentration_cells: 384,
+            nodes: 72,
+            concentration_cells: 288,
             kernel: AnyKernel::BSpline4,
             corrected: true,
             motion: Motion::default(),

@@ -46,9 +46,10 @@ fn the_exact_velocities_are_those_of_the_table() {
 fn a_circle_at_every_ratio() {
     for ratio in RATIOS {
         let [errors] = errors(Region::Box(6.0), &[Droplet::circle(1, ratio)])[..] else { unreachable!() };
-        assert!(errors[1].speed < 1e-3 && errors[1].maximum < 3e-3, "{ratio}: {errors:?}");
+        assert!(errors[1].speed < 1e-3 && errors[1].maximum < 1.4e-3, "{ratio}: {errors:?}");
+        assert!(errors[2].rms < 2e-4, "{ratio}: {errors:?}");
         let [speed, rms] = orders(&errors);
-        assert!(speed > 1.75 && rms > 1.7, "{ratio}: {speed} {rms} {errors:?}");
+        assert!(speed > 1.75 && rms > 1.6, "{ratio}: {speed} {rms} {errors:?}");
     }
 }
 
@@ -56,8 +57,8 @@ fn a_circle_at_every_ratio() {
 fn higher_modes_on_a_circle() {
     for (mode, ratio) in [(2, 0.01), (2, 100.0), (3, 10.0), (3, 1000.0)] {
         let [errors] = errors(Region::Box(6.0), &[Droplet::circle(mode, ratio)])[..] else { unreachable!() };
-        assert!(errors[1].rms < 2e-3, "{mode} {ratio}: {errors:?}");
-        assert!(orders(&errors)[1] > 1.5, "{mode} {ratio}: {errors:?}");
+        assert!(errors[1].rms < 8e-4 && errors[2].rms < 3e-4, "{mode} {ratio}: {errors:?}");
+        assert!(orders(&errors)[1] > 1.4, "{mode} {ratio}: {errors:?}");
     }
 }
 
@@ -160,11 +161,12 @@ fn the_flow_beside_the_markers() {
 /// Points of a solid, say, move with the flow of a droplet of another viscosity, however close they are to it and however many.
 #[test]
 fn other_markers_move_with_the_flow() {
-    let grid = Grid::periodic(120, 120, 0.05).unwrap().with_origin([-3.0; 2]).unwrap();
-    for ratio in [0.01, 1000.0] {
+    for (ratio, h, bound) in [(0.01, 0.05, 4.5e-3), (1000.0, 0.05, 3e-3), (0.01, 0.025, 2e-3)] {
+        let cells = (6.0_f64 / h).round() as usize;
+        let grid = Grid::periodic(cells, cells, h).unwrap().with_origin([-3.0; 2]).unwrap();
         let mut flow = ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0).unwrap(), CubicQuadratic::default());
         let mut markers = Markers::new();
-        Droplet::ellipse(ratio).push_even(0.025, &mut markers).unwrap();
+        Droplet::ellipse(ratio).push_even(0.5 * h, &mut markers).unwrap();
         let droplet = markers.len();
         let places: Vec<Vec2> = (0..60)
             .map(|k| (k, f64::from(k) * 0.7))
@@ -179,17 +181,18 @@ fn other_markers_move_with_the_flow() {
         let largest = markers.velocities[..droplet].iter().map(Vec2::norm).fold(0.0, f64::max);
         let exact =
             motile_validation::contrast::exact_flow(Region::Box(6.0), &Droplet::ellipse(ratio), &places).unwrap();
-        for ((found, exact), place) in markers.velocities[droplet..].iter().zip(&exact).zip(&places) {
-            assert!((found - exact).norm() < 4e-3 * largest, "{ratio}, {place}: {found} {exact}");
-        }
+        let worst = |found: &mut dyn Iterator<Item = Vec2>| {
+            found.zip(&exact).map(|(found, exact)| (found - exact).norm() / largest).fold(0.0, f64::max)
+        };
+        let moved = worst(&mut markers.velocities[droplet..].iter().copied());
+        assert!(moved < bound, "{ratio}, {h}: {moved}");
         let solves = flow.work().stokes_solves;
         assert!(solves <= 12, "{solves} solves from nothing");
         // A sample is of the same flow.
         let mut samples = vec![FlowSample::default(); places.len()];
         flow.sample(&markers, &places, &mut samples).unwrap();
-        for (found, exact) in samples.iter().zip(&exact) {
-            assert!((found.velocity - exact).norm() < 4e-3 * largest, "{ratio}: {found:?} {exact}");
-        }
+        let sampled = worst(&mut samples.iter().map(|sample| sample.velocity));
+        assert!(sampled < bound, "{ratio}, {h}: {sampled}");
         let before = flow.work().stokes_solves;
         for _ in 0..3 {
             flow.velocities(&mut markers).unwrap();

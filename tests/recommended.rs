@@ -49,7 +49,7 @@ fn in_a_box() {
     let scene =
         |settings| Swimmer { activity: -3.0, excluded_volume: 7.0, lengths: [6.6, 6.6], angle: 0.4, ..settings };
     check(SceneKind::Box, Method::BoundaryIntegral, &[0.01, 0.003, 0.001], scene);
-    check(SceneKind::Box, Method::ImmersedBoundary, &[0.01], scene);
+    check(SceneKind::Box, Method::ImmersedBoundary, &[0.01, 0.001], scene);
 }
 
 #[test]

@@ -44,6 +44,8 @@ impl Cost {
     }
 }
 
+/// Processor time of a run (seconds) from which on it is a measure.
+const SHORT: f64 = 0.05;
 /// Fewest steps that a cost is the median of: short runs are made again.
 const ENOUGH: usize = 60;
 
@@ -82,7 +84,10 @@ fn go<H: Hydrodynamics, I: Integrator, T>(
         if meter.times.len() >= ENOUGH || run == ENOUGH {
             let steps = scene.steps() as f64;
             let own = 2.0 * (meter.units - units) as f64 * median(&mut meter.pairs);
-            let mean = processor_time().zip(busy).map(|(end, start)| (end - start - own) / steps);
+            // The clock of the processor is too coarse for short runs.
+            let long = |own_time: &f64| *own_time > SHORT;
+            let mean =
+                processor_time().zip(busy).map(|(end, start)| end - start - own).filter(long).map(|time| time / steps);
             let cost = Cost::new(&mut meter.times, &mut meter.pairs, mean, steps / time);
             return Ok((cost, end(scene.system_mut())?));
         }

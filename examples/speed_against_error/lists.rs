@@ -74,92 +74,88 @@ fn relaxation() -> Vec<Settings> {
     list
 }
 
+/// Boundary integrals, the default among them, with steps of half the limit and nearly all of it.
+fn integrals(all: &[usize]) -> Vec<Settings> {
+    let mut list = vec![Settings::preset(), Settings::integrals(96, 384)];
+    for step in [0.5, 0.9].map(StepSize::OfLimit) {
+        for cells in [2, 3, 4] {
+            list.extend(nodes(all, cells).map(|settings| settings.with_step(step)));
+        }
+    }
+    list
+}
+
 fn swimmer(study: Study, full: bool) -> Vec<Settings> {
-    let mut list = vec![Settings::integrals(96, 384)];
-    for cells in [2, 4, 8] {
-        list.extend(nodes(&[16, 24, 32, 48, 64], cells));
-    }
-    list.extend(nodes(&[16, 24, 32], 1));
-    for cells in [1, 2, 4] {
-        list.extend(nodes(&[16, 24, 32, 48, 64], cells).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
-    }
-    list.extend(nodes(&[24, 48], 4).map(|settings| settings.with_step(StepSize::Adaptive { tolerance: 1e-4 })));
-    list.extend(nodes(&[24, 48], 4).map(|settings| settings.with_stepper(Stepper::Chebyshev(16))));
+    let mut list = integrals(&[16, 24, 32, 48, 64]);
+    list.extend(nodes(&[16, 24, 32], 8));
+    list.push(Settings::integrals(48, 192).with_step(StepSize::Adaptive { tolerance: 1e-4 }));
+    list.push(Settings::integrals(48, 192).with_stepper(Stepper::Chebyshev(16)));
     let spacings: &[f64] =
         if full { &[0.375, 0.3, 0.2, 0.15, 0.1, 0.05, 0.025] } else { &[0.375, 0.3, 0.2, 0.15, 0.1, 0.05] };
     for ratio in [1.0, 0.5, 0.25] {
         list.extend(grids(spacings, ratio));
     }
     list.extend(grids(spacings, 0.5).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
-    list.extend(grids(&[0.1, 0.05], 0.5).map(|settings| settings.with_stepper(Stepper::Chebyshev(16))));
+    list.push(Settings::grid(0.1, 0.5).with_stepper(Stepper::Chebyshev(16)));
     for kernel in AnyKernel::ALL {
         list.extend(grids(&[0.2, 0.1, 0.05], 0.5).map(|settings| settings.with_kernel(kernel)));
     }
-    list.extend(grids(&[0.1, 0.05, 0.025], 0.5).map(Settings::uncorrected));
-    let thesis = thesis(study == Study::Steady && full);
-    let preset = |settings: &Settings| study == Study::Steady || !matches!(settings.step, StepSize::Fixed(_));
-    list.extend(thesis.into_iter().filter(preset));
+    list.extend(grids(&[0.1, 0.05], 0.5).map(Settings::uncorrected));
+    list.extend(thesis(&[0.1, 0.05, 0.025]));
+    if study == Study::Steady {
+        list.push(Settings::thesis(0.1, StepSize::Fixed(1e-3)));
+        list.extend([0.2, 0.015, 0.0125].map(|h| Settings::thesis(h, LONG)));
+    }
+    if study == Study::Steady && full {
+        list.push(Settings::thesis(0.01, LONG));
+        list.push(Settings::thesis(0.025, StepSize::Fixed(1e-3)));
+    }
     list
 }
 
 fn oblique(full: bool) -> Vec<Settings> {
-    let mut list = vec![Settings::integrals(96, 384)];
-    for cells in [2, 4] {
-        list.extend(nodes(&[16, 24, 32, 48, 64], cells).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
-    }
-    let spacings: &[f64] = if full { &[0.15, 0.1, 0.075, 0.05, 0.025] } else { &[0.15, 0.1, 0.075, 0.05] };
-    for ratio in [1.0, 0.5] {
+    let mut list = integrals(&[16, 24, 32, 48, 64]);
+    let spacings: &[f64] = if full { &[0.2, 0.15, 0.1, 0.075, 0.05, 0.025] } else { &[0.2, 0.15, 0.1, 0.075, 0.05] };
+    for ratio in [1.0, 0.5, 0.25] {
         list.extend(grids(spacings, ratio));
     }
     for kernel in [AnyKernel::Peskin4, AnyKernel::Gaussian6, AnyKernel::BSpline6] {
-        list.extend(grids(&[0.1, 0.05], 0.5).map(|settings| settings.with_kernel(kernel)));
+        list.extend(grids(&[0.2, 0.1, 0.05], 0.5).map(|settings| settings.with_kernel(kernel)));
     }
     list.extend(grids(&[0.1, 0.05], 0.5).map(Settings::uncorrected));
-    list.extend([0.1, 0.05].map(|h| Settings::thesis(h, StepSize::OfLimit(0.5))));
+    list.extend(thesis(&[0.1, 0.05]));
     list
 }
 
-/// The preset, coarser and finer grids of it, and with steps as long as are stable.
-fn thesis(full: bool) -> Vec<Settings> {
-    let mut list: Vec<Settings> = [0.1, 0.05].map(|h| Settings::thesis(h, StepSize::Fixed(1e-3))).to_vec();
-    let long = StepSize::OfLimit(0.5);
-    list.extend([0.2, 0.1, 0.05, 0.025].map(|h| Settings::thesis(h, long)));
-    if full {
-        list.push(Settings::thesis(0.025, StepSize::Fixed(1e-3)));
-        list.push(Settings::thesis(0.0125, long));
-    }
-    list
+/// Steps that are nearly as long as are stable.
+const LONG: StepSize = StepSize::OfLimit(0.9);
+
+/// The thesis' preset, and its method on these grids with steps as long as are stable.
+fn thesis(spacings: &[f64]) -> Vec<Settings> {
+    let preset = Settings::thesis(0.05, StepSize::Fixed(1e-3));
+    spacings.iter().map(|&h| Settings::thesis(h, LONG)).chain([preset]).collect()
 }
 
 fn contrast(full: bool) -> Vec<Settings> {
-    let mut list = vec![Settings::integrals(96, 384)];
-    for cells in [2, 4, 8] {
-        list.extend(nodes(&[16, 24, 32, 48, 64], cells));
-    }
-    for cells in [2, 4] {
-        list.extend(nodes(&[16, 24, 32, 48], cells).map(|settings| settings.with_step(StepSize::OfLimit(0.9))));
-    }
+    let mut list = integrals(&[16, 24, 32, 48, 64]);
     let spacings: &[f64] = if full { &[0.3, 0.2, 0.15, 0.1, 0.05, 0.025] } else { &[0.3, 0.2, 0.15, 0.1, 0.05] };
     for ratio in [1.0, 0.5] {
         list.extend(grids(spacings, ratio));
     }
     let smeared: &[f64] = if full { &[0.2, 0.1, 0.05] } else { &[0.2, 0.1] };
     list.extend(grids(smeared, 0.5).map(Settings::smeared));
-    list.extend(smeared.iter().map(|&h| Settings::thesis(h, StepSize::OfLimit(0.5))));
+    list.extend(smeared.iter().map(|&h| Settings::thesis(h, LONG)));
     list
 }
 
 fn channel(full: bool) -> Vec<Settings> {
-    let mut list = vec![Settings::integrals(96, 384)];
-    for cells in [2, 4] {
-        list.extend(nodes(&[32, 48, 64, 96, 128], cells));
-    }
+    let mut list = integrals(&[24, 32, 48, 64, 96]);
     let spacings: &[f64] = if full { &[0.2, 0.1, 0.05, 0.025] } else { &[0.2, 0.1, 0.05] };
     for ratio in [1.0, 0.5, 0.25] {
         list.extend(grids(spacings, ratio));
     }
     list.extend(grids(&[0.1, 0.05], 0.5).map(Settings::uncorrected));
-    list.extend([0.1, 0.05].map(|h| Settings::thesis(h, StepSize::OfLimit(0.5))));
+    list.extend(thesis(&[0.1, 0.05, 0.025]));
     list
 }
 

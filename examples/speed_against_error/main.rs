@@ -1,8 +1,8 @@
 //! Error against cost: every kind of scene by every method, over spacings, nodes, time steps, kernels, corrections and integrators.
 //!
 //! `cargo run --release --example speed_against_error` takes some minutes on one core, `--full` much longer; `--only SCENE` makes
-//! one scene. Each finished run leaves a file in `out/speed_against_error/runs/` and is not made again; delete the directory to start
-//! afresh. From all runs come `points.csv`, a figure a scene (SVG and PNG), and the page `speed-against-error.md`; with `--docs DIRECTORY`
+//! one scene. Each finished run leaves a file in `out/speed_against_error/runs/COMMIT/`, COMMIT being the last change to the library or to
+//! this example, and is not made again, so that the page may be made in several goes, by one state of the code all the same. From all runs come `points.csv`, a figure a scene (SVG and PNG), and the page `speed-against-error.md`; with `--docs DIRECTORY`
 //! the page and its figures go there as well.
 //!
 //! Costs are measured by turns with a plain real transform, so that what else the machine does cancels; runs are made one at a time.
@@ -64,7 +64,8 @@ fn compare(flags: &Flags) -> Result<()> {
         .flat_map(|study| lists::settings(study, flags.full).into_iter().map(move |settings| (study, settings)))
         .collect();
     let name = |(study, settings): &(Study, Settings)| format!("{}_{}", study.name(), settings.name());
-    let runs = directory.join("runs");
+    let commit = commit();
+    let runs = directory.join("runs").join(&commit);
     let results = RunPool::new(&runs, 1, flags.output.quiet)?.run(&jobs, name, run);
 
     let mut points = Vec::new();
@@ -77,7 +78,7 @@ fn compare(flags: &Flags) -> Result<()> {
     }
     let rows: Vec<Summary> = points.iter().map(|point| point.summary.clone()).collect();
     write_results(&directory.join("points.csv"), &rows)?;
-    let circumstances = Circumstances { machine: machine(), commit: commit(), command: command(flags) };
+    let circumstances = Circumstances { machine: machine(), commit, command: command(flags) };
     let page = |pictures: &str| report::page(&points, &circumstances, pictures);
     write(&directory.join("speed-against-error.md"), &page(""))?;
     if let Some(docs) = &flags.docs {
@@ -133,12 +134,18 @@ fn machine() -> String {
     }
 }
 
-/// The commit that the working tree is at.
+/// What the figures depend on.
+const CODE: [&str; 4] = ["crates", "Cargo.lock", "tests/validation", "examples/speed_against_error"];
+
+/// The commit that last changed the code, and a word if there are changes beyond it.
 fn commit() -> String {
-    let output = Command::new("git").args(["rev-parse", "--short", "HEAD"]).output();
-    output
-        .ok()
-        .filter(|output| output.status.success())
-        .and_then(|output| String::from_utf8(output.stdout).ok())
-        .map_or_else(|| "unknown".to_owned(), |text| text.trim().to_owned())
+    let git = |arguments: &[&str]| {
+        let output = Command::new("git").args(arguments).arg("--").args(CODE).output();
+        let output = output.ok().filter(|output| output.status.success())?;
+        Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
+    };
+    let last = git(&["log", "-1", "--format=%h"]).filter(|last| !last.is_empty());
+    let Some(last) = last else { return "unknown".to_owned() };
+    let changed = git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|changes| !changes.is_empty());
+    if changed { format!("{last}-changed") } else { last }
 }

@@ -53,6 +53,12 @@ pub(crate) struct Settings {
 }
 
 impl Settings {
+    /// The default.
+    pub(crate) fn preset() -> Self {
+        let default = Swimmer::default();
+        Self::integrals(default.nodes, default.concentration_cells).with_step(default.step)
+    }
+
     /// Boundary integrals with steps of half the limit.
     pub(crate) fn integrals(nodes: usize, cells: usize) -> Self {
         Self { flow: Flow::Integrals { nodes, cells }, ..Self::grid(0.1, 0.5) }

@@ -85,7 +85,7 @@ impl Study {
             }
             Self::Oblique => {
                 "Activity -3, excluded volume 6, viscosity 100, 6 x 6 box, swimming at 0.4 radians from the x axis from a place between the grid \
-                 points; error of the speed against boundary integrals with 96 nodes and 512 cells. A grid turns the droplet."
+                 points; error of the speed against boundary integrals with 96 nodes and 512 cells. The images turn the droplet, and so may a grid; its speed depends on its direction."
             }
             Self::Transient => {
                 "Activity -1, excluded volume 2, 6 x 6 box, from the polarised start; largest error of the speed at the times of the \

@@ -6,6 +6,7 @@
 
 mod channels;
 mod contrast;
+mod headings;
 mod interfaces;
 
 use clap::{Parser, ValueEnum};
@@ -31,6 +32,7 @@ enum Study {
     MarkerSpacing,
     LongRun,
     Invariance,
+    Headings,
     ChannelShapes,
     ChannelSwimmers,
     ChannelLength,
@@ -72,7 +74,7 @@ type Run = fn(bool) -> Tables;
 
 fn main() -> anyhow::Result<()> {
     let flags = Flags::parse();
-    let studies: [(Study, Run); 31] = [
+    let studies: [(Study, Run); 32] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -83,6 +85,7 @@ fn main() -> anyhow::Result<()> {
         (Study::MarkerSpacing, marker_spacing),
         (Study::LongRun, long),
         (Study::Invariance, invariance),
+        (Study::Headings, headings::headings),
         (Study::ChannelShapes, channels::channel_shapes),
         (Study::ChannelSwimmers, channels::channel_swimmers),
         (Study::ChannelLength, channels::channel_length),

@@ -12,11 +12,20 @@ use crate::{FlowError, Vec2};
 /// The mobility correction of an interface, which turns the first-order error of its velocity into a second-order one
 /// (docs/method.md, section 3):
 ///
-/// `V_t += (h/eta) S[G_t] F_t`, `V_n += (h/eta) S[G_n T] F_n`,
+/// `V_t += (h/eta) (S[G_t] F_t + S[G_x] F_n)`, `V_n += (h/eta) T (S[G_n] F_n + S[G_x] F_t)`,
 ///
 /// F_t and F_n the tangential and normal force per length, S[G] the multiplication of each Fourier mode along the
-/// equally spaced markers, of wave number q, by `G(q h)`, and `T = exp(-(q h/2)^4)`. The uniform mode of F_n only
-/// changes the pressure inside and is dropped.
+/// equally spaced markers, of wave number q, by `G(q h)`, and `T = exp(-(q h/2)^4)` (in the coupling on both sides). The uniform mode of
+/// F_n only changes the pressure inside and is dropped.
+///
+/// The deficits depend on the direction of the interface through cos(4 theta), cos(8 theta) and, for the coupling G_x, sin(4 theta),
+/// theta the angle of the normal. Along a curve direction and wave number are no longer independent: multiplying by the direction only
+/// after S would be wrong by a term of second order which is not reciprocal and turns a swimmer towards the axes. Multiplying by half
+/// the phase before and by half after it,
+///
+/// `cos(4 theta) G F  ->  Re( e^{2 i theta} S[G] e^{2 i theta} F )`, `sin(4 theta) G F  ->  Im( ... )`,
+///
+/// is symmetric and takes to each term the wave number half way between that of the force and that of the velocity.
 ///
 /// These mobilities are averages over positions of the interface between the grid lines. Where it runs along the grid, the
 /// tangential one depends on that position, through the first harmonic of the grid, which is taken off: for each axis,
@@ -50,16 +59,14 @@ struct Plan {
     /// Tangential and normal force per length.
     forces: [Vec<f64>; 2],
     spectra: [Vec<Complex<f64>>; 2],
-    /// Spectra and values of the parts of the correction: tangential mean, slope and curvature, normal mean and slope.
-    products: [Vec<Complex<f64>>; PARTS],
-    parts: [Vec<f64>; PARTS],
+    /// What the mean deficits give along the tangent and the normal (length per time).
+    parts: [Vec<f64>; 2],
     scratch: Vec<Complex<f64>>,
     complex_forward: Arc<dyn Fft<f64>>,
     complex_inverse: Arc<dyn Fft<f64>>,
-    tangential_force: Vec<f64>,
-    /// Factors of the grid harmonic, a mode.
-    harmonics: Vec<f64>,
-    /// For both axes, one after the other.
+    /// Factors of a mode, `MODULATED` and one more; see [`Plan::transform`].
+    factors: Vec<[f64; 5]>,
+    /// For each modulated force, one after the other: the factor before and after the multiplication of its modes.
     phases: Vec<Complex<f64>>,
     modulated: Vec<Complex<f64>>,
     complex_scratch: Vec<Complex<f64>>,
@@ -71,10 +78,9 @@ impl std::fmt::Debug for Plan {
     }
 }
 
-/// Products of an evaluation: three of the tangential force, two of the normal one.
-const PARTS: usize = 5;
-/// How many of them are of the tangential force.
-const TANGENTIAL: usize = 3;
+/// Forces that are multiplied by a phase before and after their modes are multiplied by factors: with e^{2i theta} the tangential
+/// and the normal one, with e^{4i theta} the tangential one, with the grid's phase along both axes the tangential one.
+const MODULATED: usize = 5;
 
 /// A marker on its interface.
 #[derive(Debug, Clone, Copy, Default)]
@@ -124,17 +130,12 @@ impl MobilityCorrection {
         }
         let Some(plan) = self.plan.as_mut() else { return Ok(()) };
         let perimeter = plan.place(setting, gaps, positions, forces);
-        plan.transform(&self.deficit, setting, perimeter)?;
-        for (k, (velocity, place)) in velocities.iter_mut().zip(&plan.places).enumerate() {
+        plan.transform(&self.deficit, setting, perimeter, positions)?;
+        for (velocity, (place, [along, across])) in velocities.iter_mut().zip(plan.places.iter().zip(plan.restored())) {
             let tau = place.tangent;
-            // n_x^4 + n_y^4 - 3/4 = 1/4 - 2 (n_x n_y)^2
-            let direction = 0.25 - 2.0 * (tau.x * tau.y).powi(2);
-            let [mean, slope, curvature, normal, normal_slope] = plan.parts.each_ref().map(|part| part[k]);
-            let along = mean + direction * slope + (32.0 * direction * direction - 1.0) * curvature;
-            let across = normal + direction * normal_slope;
             *velocity += place.left[0] * along * tau + place.left[1] * across * Vec2::new(tau.y, -tau.x);
         }
-        plan.take_off_harmonics(self.deficit.second_harmonic(), setting, positions, velocities);
+        plan.take_off_harmonics(self.deficit.second_harmonic(), velocities);
         Ok(())
     }
 }
@@ -177,28 +178,26 @@ impl Plan {
         Self {
             complex_forward,
             complex_inverse,
-            tangential_force: real.clone(),
-            harmonics: vec![0.0; spectrum.len()],
-            phases: vec![Complex::default(); 2 * count],
-            modulated: vec![Complex::default(); 2 * count],
+            factors: vec![[0.0; 5]; spectrum.len()],
+            phases: vec![Complex::default(); MODULATED * count],
+            modulated: vec![Complex::default(); MODULATED * count],
             complex_scratch: vec![Complex::default(); needed],
             forward,
             inverse,
             places: vec![Place::default(); count],
             forces: std::array::from_fn(|_| real.clone()),
             spectra: std::array::from_fn(|_| spectrum.clone()),
-            products: std::array::from_fn(|_| spectrum.clone()),
             parts: std::array::from_fn(|_| real.clone()),
             scratch,
         }
     }
 
-    /// Tangents and forces per length along and across them, for `d = (X_{k+1} - X_{k-1}) / 2 = w tau`, n = (tau_y, -tau_x);
-    /// the sum of w.
+    /// Tangents and forces per length along and across them, for `d = (X_{k+1} - X_{k-1}) / 2 = w tau`, n = (tau_y, -tau_x), the
+    /// normal ones less their mean; the sum of w.
     fn place(&mut self, setting: &Setting, gaps: &[f64], positions: &[Vec2], forces: &[Vec2]) -> f64 {
         let count = positions.len();
         let [tangential, normal] = &mut self.forces;
-        let mut perimeter = 0.0;
+        let (mut perimeter, mut pressure) = (0.0, 0.0);
         for (k, place) in self.places.iter_mut().enumerate() {
             let before = positions[if k == 0 { count - 1 } else { k - 1 }];
             let after = positions[if k + 1 == count { 0 } else { k + 1 }];
@@ -209,76 +208,110 @@ impl Plan {
             let (tau, force) = (inverse * d, inverse * forces[k]);
             tangential[k] = force.dot(&tau);
             normal[k] = force.x * tau.y - force.y * tau.x;
+            pressure += normal[k];
             *place = Place { tangent: tau, left: setting.left(positions[k].y, gaps.get(k)) };
         }
-        self.tangential_force.copy_from_slice(tangential);
+        pressure /= count as f64;
+        normal.iter_mut().for_each(|force| *force -= pressure);
         perimeter
     }
 
-    /// The parts of the correction (length per time) from the forces, and the factors of the grid harmonic.
-    fn transform(&mut self, deficit: &MobilityDeficit, setting: &Setting, perimeter: f64) -> Result<(), FlowError> {
+    /// The forces times the phases that belong to each of them.
+    fn modulate(&mut self, setting: &Setting, positions: &[Vec2]) {
+        let count = positions.len();
+        let per_length = std::f64::consts::PI / setting.spacing;
+        let [tangential, normal] = &self.forces;
+        for (k, (position, place)) in positions.iter().zip(&self.places).enumerate() {
+            let tau = place.tangent;
+            // The square of tau_x + i tau_y is -e^{2i theta}, theta the angle of the normal; it always enters twice.
+            let twice = Complex::new(tau.x, tau.y).powu(2);
+            let grid = [1, 0].map(|across| {
+                let (sin, cos) = (per_length * (position[across] - setting.origin[across])).sin_cos();
+                Complex::new(cos, sin)
+            });
+            let phases = [twice, twice, twice * twice, grid[0], grid[1]];
+            for (which, phase) in phases.into_iter().enumerate() {
+                let force = if which == 1 { normal[k] } else { tangential[k] };
+                self.phases[which * count + k] = phase;
+                self.modulated[which * count + k] = phase * force;
+            }
+        }
+    }
+
+    /// The parts of the correction (length per time) from the forces.
+    fn transform(
+        &mut self,
+        deficit: &MobilityDeficit,
+        setting: &Setting,
+        perimeter: f64,
+        positions: &[Vec2],
+    ) -> Result<(), FlowError> {
+        self.modulate(setting, positions);
+        let count = self.places.len();
+        // Wave numbers in units of 1/h; the inverse transforms are unnormalised.
+        let step = 2.0 * std::f64::consts::PI * setting.spacing / perimeter;
+        let scale = setting.spacing / setting.viscosity / count as f64;
         for (force, spectrum) in self.forces.iter_mut().zip(&mut self.spectra) {
             self.forward.process_with_scratch(force, spectrum, &mut self.scratch).map_err(lengths)?;
         }
-        let count = self.places.len();
         let [tangential, normal] = &mut self.spectra;
-        normal[0] = Complex::default();
-        // Wave numbers in units of 1/h; the inverse transform is unnormalised.
-        let step = 2.0 * std::f64::consts::PI * setting.spacing / perimeter;
-        let scale = setting.spacing / setting.viscosity / count as f64;
-        for m in 0..=count / 2 {
+        for (m, factors) in self.factors.iter_mut().enumerate() {
             let q = step * m as f64;
-            let deficit_here = deficit.at(q);
+            let here = deficit.at(q);
             let taper = normal_taper(q);
-            let factors = [
-                deficit_here.tangential,
-                deficit_here.tangential_slope,
-                deficit_here.tangential_curvature,
-                deficit_here.normal * taper,
-                deficit_here.normal_slope * taper,
-            ];
-            for (part, (product, factor)) in self.products.iter_mut().zip(factors).enumerate() {
-                let force = if part < TANGENTIAL { tangential[m] } else { normal[m] };
-                product[m] = force * (scale * factor);
-            }
-            self.harmonics[m] = 2.0 * scale * deficit.harmonic(q);
+            tangential[m] *= scale * here.tangential;
+            normal[m] *= scale * here.normal * taper;
+            // z = cos(4 theta) / 4
+            *factors = [
+                0.25 * here.tangential_slope,
+                0.25 * here.normal_slope * taper,
+                here.tangential_curvature,
+                2.0 * deficit.harmonic(q),
+                here.cross * taper,
+            ]
+            .map(|factor| scale * factor);
         }
-        for (product, part) in self.products.iter_mut().zip(&mut self.parts) {
+        for (spectrum, part) in self.spectra.iter_mut().zip(&mut self.parts) {
             // Purely real by definition; round-off would make the transform refuse them.
-            product[0].im = 0.0;
+            spectrum[0].im = 0.0;
             if count.is_multiple_of(2) {
-                product[count / 2].im = 0.0;
+                spectrum[count / 2].im = 0.0;
             }
-            self.inverse.process_with_scratch(product, part, &mut self.scratch).map_err(lengths)?;
+            self.inverse.process_with_scratch(spectrum, part, &mut self.scratch).map_err(lengths)?;
         }
+        self.complex_forward.process_with_scratch(&mut self.modulated, &mut self.complex_scratch);
+        for m in 0..count {
+            let [tangential, normal, curvature, harmonic, cross] = self.factors[m.min(count - m)];
+            let [along, across] = [0, 1].map(|which| self.modulated[which * count + m]);
+            // Re(-i z) = Im z: sin(4 theta) for cos(4 theta).
+            let turned = Complex::new(0.0, -cross);
+            self.modulated[m] = along * tangential + across * turned;
+            self.modulated[count + m] = across * normal + along * turned;
+            self.modulated[2 * count + m] *= curvature;
+            self.modulated[3 * count + m] *= harmonic;
+            self.modulated[4 * count + m] *= harmonic;
+        }
+        self.complex_inverse.process_with_scratch(&mut self.modulated, &mut self.complex_scratch);
         Ok(())
     }
 
-    fn take_off_harmonics(&mut self, second: f64, setting: &Setting, positions: &[Vec2], velocities: &mut [Vec2]) {
-        let count = positions.len();
-        let per_length = std::f64::consts::PI / setting.spacing;
+    /// What is put back along the tangent and the normal of each marker (length per time). A uniform pressure moves nothing, so a force has
+    /// no uniform normal velocity.
+    fn restored(&self) -> impl Iterator<Item = [f64; 2]> {
+        let count = self.places.len();
+        let turned = move |which: usize, k: usize| {
+            let k = which * count + k;
+            (self.phases[k] * self.modulated[k]).re
+        };
+        let across = move |k: usize| self.parts[1][k] + turned(1, k);
+        let mean = (0..count).map(across).sum::<f64>() / count as f64;
+        (0..count).map(move |k| [self.parts[0][k] + turned(0, k) + turned(2, k), across(k) - mean])
+    }
+
+    fn take_off_harmonics(&self, second: f64, velocities: &mut [Vec2]) {
+        let count = self.places.len();
         for (axis, (phases, modulated)) in
-            self.phases.chunks_exact_mut(count).zip(self.modulated.chunks_exact_mut(count)).enumerate()
-        {
-            let across = 1 - axis;
-            let origin = setting.origin[across];
-            for (((phase, value), position), force) in
-                phases.iter_mut().zip(modulated).zip(positions).zip(&self.tangential_force)
-            {
-                let (sin, cos) = (per_length * (position[across] - origin)).sin_cos();
-                *phase = Complex::new(cos, sin);
-                *value = *phase * *force;
-            }
-        }
-        self.complex_forward.process_with_scratch(&mut self.modulated, &mut self.complex_scratch);
-        for modulated in self.modulated.chunks_exact_mut(count) {
-            for (m, value) in modulated.iter_mut().enumerate() {
-                *value *= self.harmonics[m.min(count - m)];
-            }
-        }
-        self.complex_inverse.process_with_scratch(&mut self.modulated, &mut self.complex_scratch);
-        for (axis, (phases, modulated)) in
-            self.phases.chunks_exact(count).zip(self.modulated.chunks_exact(count)).enumerate()
+            self.phases.chunks_exact(count).zip(self.modulated.chunks_exact(count)).skip(MODULATED - 2).enumerate()
         {
             let across = 1 - axis;
             for (((velocity, place), phase), value) in

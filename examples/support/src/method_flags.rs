@@ -63,10 +63,10 @@ pub struct MethodFlags {
     /// How a grid treats two viscosities; without it the preset's
     #[arg(long, value_enum)]
     pub contrast_method: Option<Contrast>,
-    /// Nodes of the interface without a grid [default: 96]
+    /// Nodes of the interface without a grid [default: 72]
     #[arg(long, value_parser = count, allow_hyphen_values = true)]
     pub nodes: Option<usize>,
-    /// Cells of the concentration without a grid [default: 384]
+    /// Cells of the concentration without a grid [default: 288]
     #[arg(long, value_parser = count, allow_hyphen_values = true)]
     pub concentration_cells: Option<usize>,
     /// Settings that go together

@@ -15,6 +15,7 @@ pub mod channel;
 pub mod contrast;
 pub mod fixed_shapes;
 pub mod growth;
+pub mod headings;
 pub mod interfaces;
 pub mod lateral;
 mod order;
