@@ -39,9 +39,31 @@ impl Swimmer {
     /// # Errors
     /// Parameters out of their range; on a grid, a box that does not hold a whole number of cells.
     pub fn build(&self) -> Built<AnyFlow> {
+        let mut scene = self.empty_box()?;
+        let droplet = scene.add(self.droplet_for_method()?);
+        Ok((scene, droplet))
+    }
+
+    /// The scene of [`Swimmer::build`] without a droplet, for several of them ([`Swimmer::droplet_for_method`]).
+    ///
+    /// # Errors
+    /// As [`Swimmer::build`].
+    pub fn empty_box(&self) -> Result<Scene<AnyFlow>, SetupError> {
+        let flow = match self.method {
+            Method::BoundaryIntegral => Box::new(self.integral_box()?),
+            Method::ImmersedBoundary => self.any_grid(self.box_solver()?)?,
+        };
+        Ok(Scene::new(flow).with_step_size(self.step))
+    }
+
+    /// The droplet of [`Swimmer::build`] alone.
+    ///
+    /// # Errors
+    /// Parameters out of their range.
+    pub fn droplet_for_method(&self) -> Result<ActiveDroplet, SetupError> {
         match self.method {
-            Method::BoundaryIntegral => self.with_droplet(&self.circle_of_cells()?, Box::new(self.integral_box()?)),
-            Method::ImmersedBoundary => self.with_droplet(&self.circle_on_grid()?, self.any_grid(self.box_solver()?)?),
+            Method::BoundaryIntegral => self.droplet_with(&self.circle_of_cells()?),
+            Method::ImmersedBoundary => self.droplet(),
         }
     }
 

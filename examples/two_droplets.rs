@@ -14,7 +14,7 @@ use anyhow::Result;
 use clap::{Parser, ValueEnum};
 use motile::active_interface::{ActiveDroplet, centroid_velocity, polygon_moments};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
-use motile::{PeriodicBox, Swimmer};
+use motile::{AnyFlow, Swimmer};
 use support::{
     DropletFlags, MethodFlags, OutputFlags, Progress, Summary, Trajectory, pair, positive, say, write_scene_picture,
 };
@@ -74,6 +74,7 @@ fn meet(flags: &Flags) -> Result<()> {
         Meeting::SideBySide => ([[0.0, -half], [0.0, half]], 0.0),
         Meeting::LeaderAndFollower => ([[-half, 0.0], [half, 0.0]], 0.0),
     };
+    flags.method.check(&[(flags.sides[0], "box"), (flags.sides[1], "box")])?;
     let first = Swimmer { lengths: flags.sides, offset: places[0], ..flags.droplet.swimmer(&flags.method) };
     let second = Swimmer {
         offset: places[1],
@@ -82,12 +83,13 @@ fn meet(flags: &Flags) -> Result<()> {
         viscosity_inside: flags.second_viscosity_in.or(first.viscosity_inside),
         ..first.clone()
     };
-    let mut scene = first.scene()?;
+    // Films that a method cannot see drain until the droplets overlap: that is an error here.
+    let mut scene = first.empty_box()?.with_least_gap(0.0)?;
     if let Some([strength, range]) = flags.repulsion {
         scene = scene.with_repulsion(Repulsion::new(strength, range)?);
     }
     let droplets = [("first droplet", &first), ("second droplet", &second)]
-        .map(|(name, swimmer)| swimmer.droplet().map(|droplet| scene.add(droplet.with_name(name))));
+        .map(|(name, swimmer)| swimmer.droplet_for_method().map(|droplet| scene.add(droplet.with_name(name))));
     let [one, two] = droplets;
     let droplets = [one?, two?];
 
@@ -99,8 +101,8 @@ fn meet(flags: &Flags) -> Result<()> {
     let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
     let mut table = Trajectory::create(&directory.join("trajectory.csv"), &names)?;
     let mut progress = Progress::new(end, flags.output.quiet);
-    let mut record = |system: &mut System<PeriodicBox>| table.push(&look(system, droplets)?);
-    let mut tell = |system: &mut System<PeriodicBox>| -> Result<()> {
+    let mut record = |system: &mut System<AnyFlow>| table.push(&look(system, droplets)?);
+    let mut tell = |system: &mut System<AnyFlow>| -> Result<()> {
         let [_, _, _, speed, ..] = look(system, droplets)?;
         progress.update(system.time(), system.steps(), speed);
         Ok(())
@@ -144,7 +146,7 @@ fn meet(flags: &Flags) -> Result<()> {
 }
 
 /// Time, position and speed of both droplets, and the distance of their centres or nearest images.
-fn look(system: &mut System<PeriodicBox>, droplets: [Handle<ActiveDroplet>; 2]) -> Result<[f64; 8]> {
+fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> Result<[f64; 8]> {
     let domain = system.hydrodynamics().medium().domain;
     let time = system.time();
     system.evaluate()?;

@@ -1,13 +1,13 @@
 //! Integrators and step sizes: order, stability, accuracy, and what is reported of them.
 
-use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, Motion};
-use motile::elastic_solids::{ElasticSolid, NeoHookean, equilateral_strip};
+use motile::active_interface::{ActiveDroplet, Motion, centroid_velocity};
+use motile::elastic_solids::{ElasticSolid, Moduli, NeoHookean, equilateral_strip};
 use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
     SceneError, SpectralEstimate, StepSize, Vec2,
 };
 use motile::stokes_grid::{ChannelStokes, Grid};
+use motile::{ElasticChannel, Swimmer};
 use motile_validation::order;
 
 fn state<B: Body, H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>, body: Handle<B>) -> Vec<f64> {
@@ -83,9 +83,10 @@ fn chebyshev_takes_long_steps_with_stiff_solids() {
 fn the_power_method_finds_the_rate_that_the_solid_predicts() {
     let (mut scene, _) = block(RungeKuttaChebyshev::new());
     scene.step(0.05).expect("a step");
-    // The bound is mu/eta; what is found is 0.6 to 1 of it (plus the margin).
-    let correction = scene.integrator().correction();
-    assert!(correction > 0.6 && correction < 1.3, "{correction}");
+    // The bound is mu/eta; what is found is 0.6 to 1 of it, and the bound is not lowered for that.
+    let found = scene.integrator().measured();
+    assert!(found > 0.6 && found < 1.1, "{found}");
+    assert!(scene.integrator().correction() >= 1.0);
     let work = scene.integrator_work();
     assert!(work.estimates > 2 && work.estimates <= 30, "{work:?}");
     // dt rate = 5 takes four stages: 0.65 * 15 = 9.8.
@@ -104,6 +105,47 @@ fn the_stages_follow_the_step() {
         assert_eq!(taken, expected, "{dt}");
     }
     assert_eq!(scene.integrator_work().estimates, 0);
+}
+
+/// Between walls whose rates lie densely up to the fastest, and beside a droplet whose rates are far slower, which is what the power method
+/// sees first.
+#[test]
+fn the_predicted_step_between_stiff_walls_is_stable() {
+    let swimmer = Swimmer { activity: 0.0, viscosity: 10.0, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };
+    let channel = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e6).expect("moduli"));
+    for stages in [5, 8] {
+        let (scene, droplet, _) = channel.build().expect("a scene");
+        let mut scene = scene.advanced_by(RungeKuttaChebyshev::new().with_most_stages(stages));
+        let start = scene.body(droplet).markers().to_vec();
+        let (limit, reason, _) = scene.step_limit().expect("a limit");
+        assert_eq!(reason, "the elastic moduli");
+        // Of fewer stages, whose number follows the step, the least are just enough.
+        for part in [0.7, 0.99] {
+            (0..30).for_each(|_| scene.step(part * limit).expect("a stable step"));
+            let moved = scene.body(droplet).markers().iter().zip(&start).map(|(a, b)| (a - b).norm());
+            assert!(moved.fold(0.0, f64::max) < 0.2, "{stages} stages, {part} of the limit");
+        }
+    }
+}
+
+/// What decays sets no bound here, and the first thing that happens is over in a thousandth of such a step.
+#[test]
+fn steps_of_a_fraction_of_a_long_limit_are_accurate() {
+    let swimmer = Swimmer { activity: -4.0, nodes: 24, concentration_cells: 96, ..Swimmer::default() };
+    let build = || swimmer.build().expect("a scene").0;
+    let (midpoint, _) = run_and_look(&mut build());
+    let (chebyshev, steps) = run_and_look(&mut build().advanced_by(RungeKuttaChebyshev::new()));
+    assert!((chebyshev / midpoint - 1.0).abs() < 1e-5, "{chebyshev} {midpoint}");
+    assert!(steps < 1500, "{steps}");
+}
+
+/// The speed at t = 60, and the steps to there.
+fn run_and_look<H: Hydrodynamics, I: Integrator>(scene: &mut Scene<H, I>) -> (f64, usize) {
+    scene.run(60.0).go().expect("a run");
+    scene.system_mut().evaluate().expect("a flow");
+    let markers = scene.system().markers();
+    let velocity = centroid_velocity(&markers.positions, &markers.velocities).expect("an interface");
+    (velocity.norm(), scene.steps())
 }
 
 fn adaptive<I: Integrator>(integrator: I, tolerance: f64) -> (Scene<motile::PeriodicBox, I>, Handle<ActiveDroplet>) {

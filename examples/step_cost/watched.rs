@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use motile::ib_core::{
     Body, BodyError, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium, StepInfo,
-    StepLimit, Vec2,
+    StepLimits, Vec2,
 };
 use motile::stokes_grid::{
     CentreField, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work,
@@ -102,7 +102,11 @@ impl<B: Body> Body for Watched<B> {
         self.1.upkeep.time(|| self.0.end_step(medium, dt))
     }
 
-    fn step_limits(&self, medium: &Medium) -> Vec<StepLimit> {
+    fn keep_step(&mut self) {
+        self.0.keep_step();
+    }
+
+    fn step_limits(&self, medium: &Medium) -> StepLimits {
         self.0.step_limits(medium)
     }
 }

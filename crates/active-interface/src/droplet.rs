@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ib_core::{BandLimit, Hydrodynamics, Medium, StepCause, StepLimit, System, Vec2};
+use ib_core::{BandLimit, Hydrodynamics, Medium, StepCause, StepLimit, StepLimits, System, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::filter::WiggleFilter;
@@ -104,6 +104,9 @@ pub struct ActiveDroplet {
     pub(crate) crossing: CrossingFinder,
     pub(crate) repair: Repair,
     pub(crate) redistributed: (usize, usize),
+    /// What the last step did of both, which counts only once it stays.
+    pub(crate) last_repair: Repair,
+    pub(crate) last_redistributed: (usize, usize),
     /// Particles at the start, and the bounds on the relative changes of area and particles.
     pub(crate) initial_number: f64,
     pub(crate) bounds: [f64; 2],
@@ -178,6 +181,8 @@ impl ActiveDroplet {
             crossing: CrossingFinder::new(),
             repair: Repair::default(),
             redistributed: (0, 0),
+            last_repair: Repair::default(),
+            last_redistributed: (0, 0),
             initial_number: numbers.iter().sum(),
             bounds: [AREA_BOUND, NUMBER_BOUND],
             collapsible: tension.warning().is_some(),
@@ -401,11 +406,11 @@ impl ActiveDroplet {
     }
 
     /// The stable steps; see [`ib_core::Body::step_limits`].
-    pub(crate) fn limits(&self, medium: &Medium) -> Vec<StepLimit> {
+    pub(crate) fn limits(&self, medium: &Medium) -> StepLimits {
         let viscosity = self.mean_viscosity(medium);
         let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
         let stiffness = medium.interface_stiffness * tension;
-        let mut limits = vec![StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension")];
+        let mut limits = StepLimits::from(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
             limits.push(StepLimit::decay(2.0 / relaxation, "the relaxation of the marker spacing"));
         }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepInfo, StepLimit, Vec2};
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepInfo, StepLimits, Vec2};
 
 use crate::droplet::{MINIMUM_MARKERS, finest_response};
 use crate::geometry::{equidistribute, outward, signed_area};
@@ -191,9 +191,8 @@ impl Body for ActiveDroplet {
             Motion::WithFluid => {
                 let (inserted, removed) =
                     redistribute(&mut self.markers, &mut self.numbers, self.target_spacing, MINIMUM_MARKERS);
+                self.last_redistributed = (inserted, removed);
                 if inserted + removed > 0 {
-                    self.redistributed.0 += inserted;
-                    self.redistributed.1 += removed;
                     self.resize(self.markers.len())?;
                     self.update()?;
                 }
@@ -203,9 +202,8 @@ impl Body for ActiveDroplet {
             self.restore_area()?;
         }
         if self.transport.is_some() {
-            let repair = repair_positivity(&mut self.numbers)?;
-            if repair.segments > 0 {
-                self.repair.accumulate(repair);
+            self.last_repair = repair_positivity(&mut self.numbers)?;
+            if self.last_repair.segments > 0 {
                 self.update()?;
             }
         }
@@ -216,7 +214,14 @@ impl Body for ActiveDroplet {
         self.check_bounds()
     }
 
-    fn step_limits(&self, medium: &Medium) -> Vec<StepLimit> {
+    fn keep_step(&mut self) {
+        let (inserted, removed) = std::mem::take(&mut self.last_redistributed);
+        self.redistributed.0 += inserted;
+        self.redistributed.1 += removed;
+        self.repair.accumulate(std::mem::take(&mut self.last_repair));
+    }
+
+    fn step_limits(&self, medium: &Medium) -> StepLimits {
         self.limits(medium)
     }
 

@@ -1,6 +1,6 @@
 //! The solid as a body of a scene.
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepLimit, Vec2};
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepLimit, StepLimits, Vec2};
 
 use crate::{ElasticForces, Solid, SolidError};
 
@@ -125,7 +125,7 @@ impl<F: ElasticForces> Body for Solid<F> {
     /// `2 eta/(mu + 0.015 kappa (a/h)^2)` for the midpoint rule, a being the spacing of the mesh and h that of the
     /// grid; of the moduli the largest in the solid. Tethers add to the sum what holding all of them together in the
     /// slowest flow of the domain takes.
-    fn step_limits(&self, medium: &Medium) -> Vec<StepLimit> {
+    fn step_limits(&self, medium: &Medium) -> StepLimits {
         let moduli = self.law.stiffest();
         let coarseness = medium.spacing.map_or(0.0, |spacing| self.spacing / spacing);
         let elastic = moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness;
@@ -134,7 +134,7 @@ impl<F: ElasticForces> Body for Solid<F> {
         } else {
             (elastic + self.tether_stiffness(medium), "the elastic moduli and tethers")
         };
-        vec![StepLimit::decay(2.0 * medium.viscosity / stiffness, reason)]
+        StepLimit::decay(2.0 * medium.viscosity / stiffness, reason).into()
     }
 }
 

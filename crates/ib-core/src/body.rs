@@ -2,61 +2,7 @@
 
 use std::any::Any;
 
-use crate::{BodyError, Boundary, MarkerKind, Medium, Record, Vec2};
-
-/// What a bound on the time step comes from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum StepCause {
-    /// A mode that decays at the rate `2/dt`: an integrator with a longer interval of stability takes longer steps.
-    Decay,
-    /// A mode that a stabiliser ([`StepInfo::stabilised`]) has slowed down to what this bound allows, and that decays at the rate
-    /// `2/bare` without it.
-    Stabilised {
-        /// The bound without the stabiliser (time).
-        bare: f64,
-    },
-    /// Something that is carried along, which no integrator here allows longer steps for.
-    Transport,
-}
-
-/// A bound on the time step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StepLimit {
-    /// Largest stable step of the explicit midpoint rule (time); infinity where there is none.
-    pub dt: f64,
-    /// What sets it, as it reads after "set by".
-    pub reason: &'static str,
-    /// How it depends on the integrator.
-    pub cause: StepCause,
-}
-
-impl StepLimit {
-    /// The bound for a mode that decays at the rate `2/dt`.
-    #[must_use]
-    pub fn decay(dt: f64, reason: &'static str) -> Self {
-        Self { dt, reason, cause: StepCause::Decay }
-    }
-
-    /// The bound (time) for an integrator with that interval of stability, with or without the bodies' stabilisers.
-    #[must_use]
-    pub fn for_interval(&self, interval: f64, stabilised: bool) -> f64 {
-        match self.cause {
-            StepCause::Decay => 0.5 * interval * self.dt,
-            StepCause::Stabilised { bare } if !stabilised => 0.5 * interval * bare,
-            StepCause::Stabilised { .. } | StepCause::Transport => self.dt,
-        }
-    }
-
-    /// The rate of decay without a stabiliser (1/time); 0 for what does not decay.
-    #[must_use]
-    pub fn decay_rate(&self) -> f64 {
-        match self.cause {
-            StepCause::Decay => 2.0 / self.dt,
-            StepCause::Stabilised { bare } => 2.0 / bare,
-            StepCause::Transport => 0.0,
-        }
-    }
-}
+use crate::{BodyError, Boundary, MarkerKind, Medium, Record, StepLimits, Vec2};
 
 /// A step that is about to be taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,8 +79,11 @@ pub trait Body: Any + std::fmt::Debug + Send {
         Ok(())
     }
 
+    /// Called when the step that [`Body::end_step`] has ended stays: for what is counted over a run. Steps that are taken back do not come here.
+    fn keep_step(&mut self) {}
+
     /// The largest stable time steps of the explicit midpoint rule at the present state, one for each reason there is.
-    fn step_limits(&self, medium: &Medium) -> Vec<StepLimit>;
+    fn step_limits(&self, medium: &Medium) -> StepLimits;
 
     /// Adds the body's boundary, to which gaps are measured: by default the polygon of an interface, and nothing of other bodies.
     fn write_boundary(&self, boundary: &mut Boundary) {

@@ -189,8 +189,8 @@ pub enum SceneError {
     },
     /// A gap is narrower than the bound that was set.
     #[error(
-        "at time {time} the gap between {body} and {other} is {gap:.3e}, below the bound of {bound:.3e}: use a finer grid, or a lower bound \
-         if the film between them does not matter"
+        "at time {time} the gap between {body} and {other} is {gap:.3e}, below the bound of {bound:.3e}: use a finer grid, no grid or a \
+         repulsion, or a lower bound if the film between them does not matter"
     )]
     Gap {
         /// Time at the start of the step.

@@ -294,9 +294,10 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
     }
 
     fn load(&mut self, record: &Record) {
-        if !record.counts.is_empty()
-            && let Ok(mut flow) = self.take_contrast()
-        {
+        if record.counts.is_empty() {
+            // Nothing was known of droplets of another viscosity.
+            self.contrast = None;
+        } else if let Ok(mut flow) = self.take_contrast() {
             flow.restore(record.clone());
             self.contrast = Some(flow);
         }

@@ -43,6 +43,12 @@ pub trait Integrator: std::fmt::Debug + Send {
         true
     }
 
+    /// Largest error of a step, in the measure of [`crate::StepSize::Adaptive`], that runs with [`crate::StepSize::OfLimit`] accept; by
+    /// default none is estimated. For integrators whose stability limit is so long that it says nothing of accuracy.
+    fn error_bound(&self) -> Option<f64> {
+        None
+    }
+
     /// Work since the start.
     fn work(&self) -> IntegratorWork {
         IntegratorWork::default()

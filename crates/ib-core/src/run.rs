@@ -179,7 +179,7 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
             if !matches!(self.step, StepSize::Fixed(_)) && (wanted.is_nan() || wanted < least) {
                 return Err(SceneError::Stagnation { time, dt: wanted, least, source: cause.map(Box::new) });
             }
-            let StepSize::Adaptive { tolerance } = self.step else {
+            let Some(tolerance) = self.tolerance() else {
                 self.scene.step(dt)?;
                 self.scene.report.count(dt, dt < wanted, reason, &body);
                 return Ok(());
@@ -209,6 +209,15 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         }
     }
 
+    /// The largest error of a step, where errors are estimated.
+    fn tolerance(&self) -> Option<f64> {
+        match self.step {
+            StepSize::Fixed(_) => None,
+            StepSize::OfLimit(_) => self.scene.integrator().error_bound(),
+            StepSize::Adaptive { tolerance } => Some(tolerance),
+        }
+    }
+
     /// The length of the next step (time) but for the end of the run, what sets it, and of which body.
     fn length(&mut self) -> Result<(f64, &'static str, String), SceneError> {
         let remaining = self.until - self.scene.time();
@@ -221,7 +230,7 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         let limit = limit.map(|(dt, reason, body)| (dt, reason, body.to_owned()));
         let part = if let StepSize::OfLimit(fraction) = self.step { fraction } else { OF_LIMIT };
         let stable = limit.map_or_else(nothing, |(dt, reason, body)| (part * dt, reason, body));
-        if matches!(self.step, StepSize::Adaptive { .. }) {
+        if self.tolerance().is_some() {
             let control = &mut self.scene.control;
             if control.next <= 0.0 {
                 control.next = FIRST * stable.0;

@@ -10,7 +10,8 @@ pub enum StepSize {
     /// All of this length (time); refused at the start if above the stability limit, and an error during the run if the
     /// limit falls below it.
     Fixed(f64),
-    /// This fraction of the stability limit at each step.
+    /// This fraction of the stability limit at each step; shorter where the integrator bounds the error of such steps
+    /// ([`crate::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
     OfLimit(f64),
     /// As long as accuracy and stability allow: the error of each step is estimated, steps whose error is above the tolerance or that
     /// fail otherwise are taken anew with a shorter one.

@@ -79,6 +79,7 @@ impl<H: Hydrodynamics> System<H> {
     pub(crate) fn commit(&mut self, dt: f64) {
         self.time += dt;
         self.steps += 1;
+        self.bodies.iter_mut().for_each(|body| body.keep_step());
         self.record_wall_gap();
         if let Some(Gap { width, .. }) = self.narrowest {
             self.minimum_gap = Some(self.minimum_gap.map_or(width, |least| least.min(width)));

@@ -2,7 +2,7 @@
 
 use ib_core::{
     Body, BodyError, Boundary, Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers,
-    Medium, Scene, StepLimit, Vec2,
+    Medium, Scene, StepLimits, Vec2,
 };
 
 /// A fluid that moves uniformly whatever the forces on it are.
@@ -98,8 +98,8 @@ impl Body for Points {
     }
     /// Single points enclose nothing.
     fn write_boundary(&self, _: &mut Boundary) {}
-    fn step_limits(&self, _: &Medium) -> Vec<StepLimit> {
-        Vec::new()
+    fn step_limits(&self, _: &Medium) -> StepLimits {
+        StepLimits::none()
     }
 }
 

@@ -159,6 +159,31 @@ pub(crate) struct Recipe {
     run: fn(Way, Extent, Look<'_>) -> Result<Outcome, CaseError>,
 }
 
+/// Largest relative change of the area unless a case says otherwise.
+const AREA: f64 = 1e-3;
+
+impl Recipe {
+    /// Runs that finish, with their area to [`AREA`].
+    pub(crate) fn new(
+        number: usize,
+        name: &'static str,
+        ways: &'static [Way],
+        run: fn(Way, Extent, Look<'_>) -> Result<Outcome, CaseError>,
+    ) -> Self {
+        Self { number, name, ways, expected: &[Ending::Finished], area: AREA, run }
+    }
+
+    /// The same, other endings being right.
+    pub(crate) fn ending_in(self, expected: &'static [Ending]) -> Self {
+        Self { expected, ..self }
+    }
+
+    /// The same with another bound on the area.
+    pub(crate) fn area_within(self, area: f64) -> Self {
+        Self { area, ..self }
+    }
+}
+
 pub(crate) fn expand(recipes: &[Recipe]) -> Vec<Trial> {
     let trial = |recipe: &Recipe, way: Way| {
         let &Recipe { number, name, expected, area, run, .. } = recipe;

@@ -26,7 +26,7 @@ const BROKEN: &[Ending] =
 
 pub(crate) fn trials() -> Vec<Trial> {
     let ways: &[Way] = &[Way::Grid, Way::Integral, Way::Thesis];
-    let recipe = |name, expected, run| Recipe { number: 14, name, ways, expected, area: 1e-3, run };
+    let recipe = |name, expected, run| Recipe::new(14, name, ways, run).ending_in(expected);
     expand(&[
         recipe("a time step 10 times too large", &[Ending::StepTooLarge], |way, _, look| refused(10.0, way, look)),
         recipe("a time step 1000 times too large", &[Ending::StepTooLarge], |way, _, look| refused(1000.0, way, look)),

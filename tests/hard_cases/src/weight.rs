@@ -1,6 +1,6 @@
 //! A body that is pulled by a constant force.
 
-use motile::ib_core::{Body, BodyError, MarkerKind, Medium, StepLimit, Vec2};
+use motile::ib_core::{Body, BodyError, MarkerKind, Medium, StepLimits, Vec2};
 
 /// Points on a circle about the origin that move with the fluid, with a constant force on the fluid shared among them.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ impl Body for Weight {
         }
     }
 
-    fn step_limits(&self, _medium: &Medium) -> Vec<StepLimit> {
-        Vec::new()
+    fn step_limits(&self, _medium: &Medium) -> StepLimits {
+        StepLimits::none()
     }
 }

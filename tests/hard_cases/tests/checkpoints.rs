@@ -179,6 +179,39 @@ fn a_checkpoint_of_another_scene_is_refused_and_changes_nothing() {
     }
 }
 
+/// Every kind of scene in every other: refused, or taken, and what is refused changes nothing.
+#[test]
+fn every_scene_in_every_other() {
+    let grid = Swimmer { lengths: [6.0, 4.0], ..coarse() };
+    let integrals = Swimmer { method: Method::BoundaryIntegral, nodes: 32, concentration_cells: 64, ..grid.clone() };
+    let thesis = Swimmer { spacing: 0.2, activity: -3.0, lengths: [6.0, 4.0], ..Swimmer::thesis() };
+    let contrast = |swimmer: &Swimmer| Swimmer { viscosity_inside: Some(1000.0), ..swimmer.clone() };
+    let arithmetic = Swimmer { contrast: ContrastMethod::Arithmetic, ..contrast(&thesis) };
+    let swimmers = [contrast(&grid), contrast(&integrals), arithmetic, grid, integrals, thesis];
+    let boxes = swimmers.iter().map(|swimmer| built(swimmer.build()));
+    let channels = swimmers.iter().map(|swimmer| built(swimmer.build_in_channel(Drive::ZeroGradient)));
+    let mut scenes: Vec<_> = boxes.chain(channels).collect();
+    for scene in &mut scenes {
+        (0..2).for_each(|_| scene.step(0.002).expect("a step"));
+    }
+    let saved: Vec<Checkpoint> = scenes.iter().map(|scene| scene.checkpoint("")).collect();
+    let mut taken = 0;
+    for (k, scene) in scenes.iter_mut().enumerate() {
+        for (other, checkpoint) in saved.iter().enumerate() {
+            match scene.resume(checkpoint) {
+                Ok(()) => {
+                    taken += 1;
+                    scene.step(1e-4).expect("a step");
+                    scene.resume(&saved[k]).expect("the same scene");
+                }
+                Err(error) => assert!(k != other, "{k}: {error}"),
+            }
+            assert_eq!(scene.checkpoint(""), saved[k], "{k} after {other}");
+        }
+    }
+    assert!((scenes.len()..=3 * scenes.len()).contains(&taken), "{taken}");
+}
+
 #[test]
 fn another_integrator_or_viscosity_goes_on_from_the_state() {
     let mut scene = built(coarse().build());

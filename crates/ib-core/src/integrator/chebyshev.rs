@@ -13,15 +13,17 @@ use crate::{Hydrodynamics, Record, SceneError, System};
 pub enum SpectralEstimate {
     /// From the bodies' own limits ([`crate::Body::step_limits`]): costs nothing.
     Predicted,
-    /// From the bodies' limits, times how much faster or slower the state was found to be by the power method, once every this
-    /// many steps.
+    /// From the bodies' limits, times how much faster the state was found to be by the power method, once every this many steps. A
+    /// state that was found to be slower is not trusted: where the method starts from it may not see the fastest mode.
     Measured(usize),
 }
 
 /// Allowance for what the power method has not found yet, and for what changes within a step.
-const MARGIN: f64 = 1.15;
+const MARGIN: f64 = 1.05;
 /// Range in which a measurement may correct a prediction.
-const CORRECTION: [f64; 2] = [0.2, 20.0];
+const CORRECTION: [f64; 2] = [1.0, 20.0];
+/// Largest error of a step of a fraction of the stability limit: where decays do not bound the step, the limit says nothing of accuracy.
+const ERROR_BOUND: f64 = 3e-4;
 
 /// The second-order method of Runge, Kutta and Chebyshev (Sommeijer, Shampine and Verwer 1998), for stiff bodies: s stages, each an evaluation
 /// of forces and flow, are stable up to `dt rate < 0.65 (s^2 - 1)` where the midpoint rule's two reach 2. For a
@@ -44,8 +46,8 @@ pub struct RungeKuttaChebyshev {
     estimate: SpectralEstimate,
     coefficients: Coefficients,
     power: PowerMethod,
-    /// Measured over predicted spectral radius.
-    correction: f64,
+    /// Measured over predicted spectral radius; 0 before any measurement.
+    measured: f64,
     /// Steps until the next measurement.
     due: usize,
     work: IntegratorWork,
@@ -68,7 +70,7 @@ impl Default for RungeKuttaChebyshev {
             estimate: SpectralEstimate::Measured(25),
             coefficients: Coefficients::default(),
             power: PowerMethod::default(),
-            correction: 1.0,
+            measured: 0.0,
             due: 0,
             work: IntegratorWork::default(),
             start: Vec::new(),
@@ -106,10 +108,16 @@ impl RungeKuttaChebyshev {
         self
     }
 
-    /// How much faster the fastest decay was found to be than the bodies' limits say (1 before any measurement).
+    /// The fastest decay that was found last, in units of what the bodies' limits say; 0 before any measurement.
+    #[must_use]
+    pub fn measured(&self) -> f64 {
+        self.measured
+    }
+
+    /// How much faster the fastest decay is taken to be than the bodies' limits say.
     #[must_use]
     pub fn correction(&self) -> f64 {
-        self.correction
+        (MARGIN * self.measured).clamp(CORRECTION[0], CORRECTION[1])
     }
 
     /// The fastest rate of decay (1/time), from the bodies' limits and what was measured.
@@ -122,12 +130,12 @@ impl RungeKuttaChebyshev {
                 let (measured, evaluations) = self.power.estimate(system, &self.start, &self.first_rate)?;
                 self.work.estimates += evaluations;
                 if measured > 0.0 {
-                    self.correction = (MARGIN * measured / predicted).clamp(CORRECTION[0], CORRECTION[1]);
+                    self.measured = measured / predicted;
                 }
             }
         }
         self.due -= 1;
-        Ok(self.correction * predicted)
+        Ok(self.correction() * predicted)
     }
 
     /// Solves for the implicit part: `next` from `right`, its rate to `implicit`.
@@ -207,11 +215,15 @@ impl Integrator for RungeKuttaChebyshev {
     }
 
     fn stability_interval(&self) -> f64 {
-        interval(self.most_stages) / self.correction
+        interval(self.most_stages) / self.correction()
     }
 
     fn stabilised(&self) -> bool {
         false
+    }
+
+    fn error_bound(&self) -> Option<f64> {
+        Some(ERROR_BOUND)
     }
 
     fn work(&self) -> IntegratorWork {
@@ -221,7 +233,7 @@ impl Integrator for RungeKuttaChebyshev {
     fn save(&self, record: &mut Record) {
         let IntegratorWork { stages, most_stages, estimates } = self.work;
         record.counts.extend([self.due, stages, most_stages, estimates].map(|count| count as u64));
-        record.reals.push(self.correction);
+        record.reals.push(self.measured);
         record.reals.extend_from_slice(&self.power.direction);
     }
 
@@ -230,8 +242,8 @@ impl Integrator for RungeKuttaChebyshev {
         let [stages, most_stages, estimates] = [stages, most_stages, estimates].map(|count| count as usize);
         self.due = due as usize;
         self.work = IntegratorWork { stages, most_stages, estimates };
-        if let [correction, direction @ ..] = record.reals.as_slice() {
-            self.correction = *correction;
+        if let [measured, direction @ ..] = record.reals.as_slice() {
+            self.measured = *measured;
             self.power.direction.clear();
             self.power.direction.extend_from_slice(direction);
         }

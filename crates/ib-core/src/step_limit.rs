@@ -1,0 +1,133 @@
+//! Bounds on the time step.
+
+/// What a bound on the time step comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepCause {
+    /// A mode that decays at the rate `2/dt`: an integrator with a longer interval of stability takes longer steps.
+    Decay,
+    /// A mode that a stabiliser ([`StepInfo::stabilised`]) has slowed down to what this bound allows, and that decays at the rate
+    /// `2/bare` without it.
+    Stabilised {
+        /// The bound without the stabiliser (time).
+        bare: f64,
+    },
+    /// Something that is carried along, which no integrator here allows longer steps for.
+    Transport,
+}
+
+/// A bound on the time step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepLimit {
+    /// Largest stable step of the explicit midpoint rule (time); infinity where there is none.
+    pub dt: f64,
+    /// What sets it, as it reads after "set by".
+    pub reason: &'static str,
+    /// How it depends on the integrator.
+    pub cause: StepCause,
+}
+
+impl StepLimit {
+    /// The bound for a mode that decays at the rate `2/dt`.
+    #[must_use]
+    pub fn decay(dt: f64, reason: &'static str) -> Self {
+        Self { dt, reason, cause: StepCause::Decay }
+    }
+
+    /// The bound (time) for an integrator with that interval of stability, with or without the bodies' stabilisers.
+    #[must_use]
+    pub fn for_interval(&self, interval: f64, stabilised: bool) -> f64 {
+        match self.cause {
+            StepCause::Decay => 0.5 * interval * self.dt,
+            StepCause::Stabilised { bare } if !stabilised => 0.5 * interval * bare,
+            StepCause::Stabilised { .. } | StepCause::Transport => self.dt,
+        }
+    }
+
+    /// The rate of decay without a stabiliser (1/time); 0 for what does not decay.
+    #[must_use]
+    pub fn decay_rate(&self) -> f64 {
+        match self.cause {
+            StepCause::Decay => 2.0 / self.dt,
+            StepCause::Stabilised { bare } => 2.0 / bare,
+            StepCause::Transport => 0.0,
+        }
+    }
+}
+
+/// Most bounds of a body.
+const MOST: usize = 8;
+
+/// The bounds of a body on the time step, at most eight, without an allocation; a slice of them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepLimits {
+    list: [StepLimit; MOST],
+    len: usize,
+}
+
+impl Default for StepLimits {
+    fn default() -> Self {
+        Self { list: [StepLimit { dt: f64::INFINITY, reason: "nothing", cause: StepCause::Transport }; MOST], len: 0 }
+    }
+}
+
+impl StepLimits {
+    /// No bounds.
+    #[must_use]
+    pub fn none() -> Self {
+        Self::default()
+    }
+
+    /// Adds a bound. Beyond eight the one of the longest step makes room.
+    pub fn push(&mut self, limit: StepLimit) {
+        if self.len < MOST {
+            self.list[self.len] = limit;
+            self.len += 1;
+        } else if let Some(longest) = self.list.iter_mut().max_by(|a, b| a.dt.total_cmp(&b.dt))
+            && limit.dt < longest.dt
+        {
+            *longest = limit;
+        }
+    }
+}
+
+impl From<StepLimit> for StepLimits {
+    fn from(limit: StepLimit) -> Self {
+        let mut limits = Self::none();
+        limits.push(limit);
+        limits
+    }
+}
+
+impl std::ops::Deref for StepLimits {
+    type Target = [StepLimit];
+
+    fn deref(&self) -> &[StepLimit] {
+        &self.list[..self.len]
+    }
+}
+
+impl IntoIterator for StepLimits {
+    type Item = StepLimit;
+    type IntoIter = std::iter::Take<std::array::IntoIter<StepLimit, MOST>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.list.into_iter().take(self.len)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_eight_shortest_are_kept() {
+        let mut limits = StepLimits::none();
+        assert!(limits.is_empty());
+        for k in 0..12 {
+            limits.push(StepLimit::decay(f64::from((5 * k) % 12), "a rate"));
+        }
+        let mut kept: Vec<f64> = limits.into_iter().map(|limit| limit.dt).collect();
+        kept.sort_by(f64::total_cmp);
+        assert_eq!(kept, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+    }
+}
