@@ -234,22 +234,38 @@ impl ElasticChannel {
         Solid::with_forces(mesh, law)
     }
 
-    /// The droplet: a circle, or where the channel is narrower a stadium of the same area that leaves a film beside it.
-    fn droplet(&self) -> Result<ActiveDroplet, SetupError> {
-        let swimmer = &self.swimmer;
-        let ([lx, ly], [x, y], radius) = (swimmer.lengths, swimmer.offset, swimmer.radius);
+    /// Half the length of the straight sides and the radius of the ends (length) of the stadium as which the droplet starts in a
+    /// channel narrower than itself, beside a film; a circle has no straight sides. `None` where the channel does not hold
+    /// the droplet.
+    #[must_use]
+    pub fn start_shape(&self) -> Option<(f64, f64)> {
+        let ([lx, ly], y, radius) = (self.swimmer.lengths, self.swimmer.offset[1], self.swimmer.radius);
         let room = 0.5 * ly - y.abs();
         if room >= radius * (1.0 - 1e-12) {
-            return swimmer.droplet();
+            return Some((0.0, radius));
         }
         let half = room - FILM * radius;
         let straight = 0.25 * std::f64::consts::PI * (radius * radius - half * half) / half;
-        if !(half > 0.1 * radius && 2.0 * (straight + half) < lx) {
-            let problem = "does not hold the droplet: move it to the centre line or make the channel wider or longer";
-            return Err(SetupError::Box { lx, ly, spacing: swimmer.spacing, problem });
+        (half > 0.1 * radius && 2.0 * (straight + half) < lx).then_some((straight, half))
+    }
+
+    /// The droplet: a circle, or where the channel is narrower a stadium of the same area that leaves a film beside it.
+    fn droplet(&self) -> Result<ActiveDroplet, SetupError> {
+        let swimmer = &self.swimmer;
+        match self.start_shape() {
+            Some((0.0, _)) => swimmer.droplet(),
+            Some((straight, half)) => {
+                let [x, y] = swimmer.offset;
+                let curve = stadium(straight, half)?.translated(Vec2::new(x, y));
+                swimmer.droplet_with(&swimmer.markers_along(&curve)?)
+            }
+            None => {
+                let [lx, ly] = swimmer.lengths;
+                let problem =
+                    "does not hold the droplet: move it to the centre line or make the channel wider or longer";
+                Err(SetupError::Box { lx, ly, spacing: swimmer.spacing, problem })
+            }
         }
-        let curve = stadium(straight, half)?.translated(Vec2::new(x, y));
-        swimmer.droplet_with(&swimmer.markers_along(&curve)?)
     }
 }
 

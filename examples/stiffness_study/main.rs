@@ -6,6 +6,7 @@
 //! speeds with the fits (4.3), the maps 4.17 and 4.19 and the comparison of materials, and writes `points.csv` and figures.
 
 mod figures;
+mod history;
 mod run;
 mod tables;
 
@@ -31,6 +32,8 @@ enum Part {
     Comparison,
     /// A channel half as wide as the droplet.
     Narrow,
+    /// Droplets more viscous than their surroundings.
+    Contrast,
 }
 
 /// Droplets between elastic walls of many stiffnesses.
@@ -88,7 +91,7 @@ fn study(flags: &Flags) -> Result<()> {
             Err(error) => failures.push(error),
         }
     }
-    let rows: Vec<Summary> = points.iter().map(|(_, summary)| summary.clone()).collect();
+    let rows: Vec<Summary> = points.iter().map(|(_, summary)| history::without(summary)).collect();
     write_results(&directory.join("points.csv"), &rows)?;
     tables::print(&points);
     if !flags.output.no_pictures {
@@ -112,6 +115,7 @@ fn jobs(flags: &Flags) -> Vec<Job> {
             Part::Passage => passages(flags.thesis, h, &mut jobs),
             Part::Comparison => comparisons(h, &mut jobs),
             Part::Narrow => narrow(h, &mut jobs),
+            Part::Contrast => contrasts(h, &mut jobs),
         }
     }
     if let Some(text) = &flags.matching {
@@ -170,6 +174,19 @@ fn comparisons(h: f64, jobs: &mut Vec<Job>) {
     for mesh in [WallMesh::Equilateral, WallMesh::Unstructured] {
         for material in [WallMaterial::Springs, WallMaterial::NeoHookean] {
             jobs.push(Job { material, mesh, ..job });
+        }
+    }
+}
+
+fn contrasts(h: f64, jobs: &mut Vec<Job>) {
+    // On the finest grids only the beginning.
+    let time = if h < 0.04 { 5.0 } else { 20.0 };
+    // In the narrower channel the droplet touches the walls when it starts.
+    for width in [2.0, 2.2] {
+        for ratio in [1.0, 10.0, 100.0] {
+            // The droplet keeps its viscosity of 100; its surroundings are thinner.
+            let job = Job::new(Purpose::Contrast, width, -2.0, 1e4, h, time);
+            jobs.push(Job { viscosity: 100.0 / ratio, ratio, ..job });
         }
     }
 }

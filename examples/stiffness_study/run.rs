@@ -7,6 +7,8 @@ use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize}
 use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, stokes_grid::Drive};
 use support::{Decided, Passage, Steadiness, Summary};
 
+use crate::history::History;
+
 /// Period of all channels, and side of the box that is called unconfined (R0).
 pub(crate) const LENGTH: f64 = 12.0;
 /// How deep the droplet may come into a wall, in grid spacings.
@@ -31,6 +33,8 @@ pub(crate) enum Purpose {
     Comparison,
     /// A channel half as wide as the droplet (thesis figure 4.25); the stiffness is Young's modulus.
     Narrow,
+    /// A droplet more viscous than its surroundings.
+    Contrast,
 }
 
 /// A run by its parameters.
@@ -41,6 +45,8 @@ pub(crate) struct Job {
     pub(crate) activity: f64,
     pub(crate) excluded_volume: f64,
     pub(crate) viscosity: f64,
+    /// Viscosity of the droplet over that of its surroundings.
+    pub(crate) ratio: f64,
     /// The thesis' spring constant k.
     pub(crate) stiffness: f64,
     pub(crate) material: WallMaterial,
@@ -59,6 +65,7 @@ impl Job {
             activity,
             excluded_volume: 10.0,
             viscosity: 100.0,
+            ratio: 1.0,
             stiffness,
             material: WallMaterial::Springs,
             mesh: WallMesh::Equilateral,
@@ -72,7 +79,10 @@ impl Job {
         let Self { purpose, width, activity, excluded_volume, viscosity, stiffness, spacing, time, .. } = self;
         let kind = format!("{purpose:?}_{:?}_{:?}", self.material, self.mesh).to_lowercase();
         let method = if self.thesis { "_thesis" } else { "" };
-        format!("{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}_k{stiffness}_h{spacing}_t{time}{method}")
+        let ratio = if self.ratio == 1.0 { String::new() } else { format!("_ratio{}", self.ratio) };
+        format!(
+            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}"
+        )
     }
 
     fn swimmer(&self) -> Swimmer {
@@ -86,6 +96,7 @@ impl Job {
             activity: self.activity,
             excluded_volume: self.excluded_volume,
             viscosity: self.viscosity,
+            viscosity_inside: (self.ratio != 1.0).then_some(self.ratio * self.viscosity),
             lengths: [LENGTH, self.width],
             spacing: self.spacing,
             offset,
@@ -122,6 +133,7 @@ impl Job {
             ("activity", self.activity),
             ("excluded_volume", self.excluded_volume),
             ("viscosity", self.viscosity),
+            ("ratio", self.ratio),
             ("stiffness", self.stiffness),
             ("spacing", self.spacing),
         ];
@@ -160,10 +172,12 @@ impl Job {
         let (mut scene, droplet, walls) = channel.build_in(&self.shape()?)?;
         let mut recorder = TrajectoryRecorder::new(droplet);
         let mut gap = SolidGap::new(OVERLAP * self.spacing).with_set_back(channel.set_back());
+        let mut history = History::new(droplet, channel.set_back());
         let mut passage = Passage::new(if self.purpose == Purpose::Passage { 3.0 } else { f64::INFINITY });
         let mut run = scene
             .run(self.time)
             .observe(Every::Time(self.time / 300.0), &mut recorder)
+            .observe(Every::Time(self.time / 300.0), &mut history)
             .observe(Every::Steps(1), &mut gap);
         if self.purpose == Purpose::Passage {
             run = run.observe(Every::Steps(1), &mut passage);
@@ -174,6 +188,7 @@ impl Job {
             outcome => outcome.as_ref().err().map(ToString::to_string),
         };
         let mut summary = measured(&recorder)?;
+        history.put(&mut summary);
         self.measure_walls(&scene, &walls, channel.set_back(), &mut summary)?;
         summary.put("minimum_gap", gap.smallest().map(|(gap, _)| gap), "");
         if self.purpose == Purpose::Passage {

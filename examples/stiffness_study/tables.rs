@@ -2,6 +2,7 @@
 
 use support::{Summary, say};
 
+use crate::history::{FOLLOWED, Rows};
 use crate::run::{Job, Purpose};
 
 /// Runs and their results.
@@ -25,6 +26,7 @@ pub(crate) fn print(points: &Points) {
     passages(points);
     comparison(points);
     narrow(points);
+    contrast(points);
 }
 
 /// Speed between rigid walls or unconfined, if it was computed.
@@ -154,7 +156,7 @@ fn comparison(points: &Points) {
     if !chosen.is_empty() {
         say("Kinds of walls, viscosity 1000, activity -10, k = 1e4 (figures 4.2, 4.3, 4.22, 4.23)");
     }
-    for (job, summary) in chosen {
+    for (job, summary) in &chosen {
         say(format_args!(
             "  {:<11} {:<13} h {:<5} speed {:.5}  width {:.4} to {:.4}  J {:.3}{}",
             format!("{:?}", job.material),
@@ -166,7 +168,32 @@ fn comparison(points: &Points) {
             summary.number("smallest_jacobian"),
             failure(summary)
         ));
+        for (other, reference) in &chosen {
+            if (other.material == job.material) != (other.mesh == job.mesh) && job != other {
+                over_time(summary, other, reference);
+            }
+        }
     }
+}
+
+/// How far a run is from another one over the time of both, relative to the plateau of the other.
+fn over_time(summary: &Summary, other: &Job, reference: &Summary) {
+    let (rows, others) = (Rows::of(summary), Rows::of(reference));
+    let of_plateau = |column: usize, plateau: f64| {
+        let (largest, mean) = rows.difference(&others, column);
+        format!("{:.2} % ({:.2} %)", 100.0 * largest / plateau, 100.0 * mean / plateau)
+    };
+    let list: Vec<String> = FOLLOWED
+        .iter()
+        .enumerate()
+        .map(|(column, name)| format!("{} {}", name.replace('_', " "), of_plateau(column, reference.number(name))))
+        .collect();
+    say(format_args!(
+        "    over time from {:?}, {:?}, largest (root mean square): {}",
+        other.material,
+        other.mesh,
+        list.join(", ")
+    ));
 }
 
 fn narrow(points: &Points) {
@@ -189,5 +216,33 @@ fn narrow(points: &Points) {
             summary.number("minimum_gap"),
             failure(summary)
         ));
+    }
+}
+
+/// Times at which runs on several grids are compared.
+const COMPARED: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
+
+fn contrast(points: &Points) {
+    let mut chosen = of(points, Purpose::Contrast);
+    chosen.sort_by(|(a, _), (b, _)| a.width.total_cmp(&b.width).then(a.ratio.total_cmp(&b.ratio)));
+    if !chosen.is_empty() {
+        say("Droplets more viscous than their surroundings between soft walls, k = 1e4, activity -2");
+    }
+    for (job, summary) in chosen {
+        say(format_args!(
+            "  width {} ratio {:<4} h {:<6} gap {:.4}  J {:.3}  steps {}{}",
+            job.width,
+            job.ratio,
+            job.spacing,
+            summary.number("minimum_gap"),
+            summary.number("smallest_jacobian"),
+            summary.number("steps"),
+            failure(summary)
+        ));
+        let rows = Rows::of(summary);
+        for time in COMPARED.into_iter().filter(|time| *time <= job.time) {
+            let [speed, aspect, narrow, wide] = [0, 1, 2, 3].map(|column| rows.at(time, column));
+            say(format_args!("    t {time:>4}  speed {speed:.5}  aspect {aspect:.4}  width {narrow:.4} to {wide:.4}"));
+        }
     }
 }

@@ -38,13 +38,21 @@ enum Method {
     Refined,
 }
 
+/// How the lattice of the seeds is laid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Fit {
+    /// Stretched a little, so that whole rows and columns fill the bounding box.
+    ToBox,
+    Equilateral,
+}
+
 /// Distance of the seeds from the boundary over the spacing. At about half the height of a row the seeds next to the
 /// boundary stand, on average, one row away from it; a larger distance leaves too few of them, which relaxation makes
 /// up for by stretching all triangles across a wall.
 const MARGIN: f64 = 0.45;
 
 /// Sweeps of the default.
-const SWEEPS: usize = 20;
+const SWEEPS: usize = 120;
 
 /// Length of boundary, in spacings, beyond which two nearby parts of it are the two sides of a wall, not of a corner.
 const ACROSS: usize = 6;
@@ -67,7 +75,7 @@ impl Mesher {
         })
     }
 
-    /// The same with another number of relaxation sweeps (20 otherwise; 0 to leave the seeds where they are).
+    /// The same with another number of relaxation sweeps (120 otherwise; 0 to leave the seeds where they are).
     #[must_use]
     pub fn sweeps(mut self, sweeps: usize) -> Self {
         self.method = Method::Relaxed { sweeps, angle: self.angle() };
@@ -114,12 +122,20 @@ impl Mesher {
                 TriangleMesh::new(points, triangles)?
             }
             Method::Relaxed { sweeps, angle } => {
-                let mut set = boundary.point_set(boundary.seeds(angle)?);
-                let triangles = relax(&mut set, sweeps, boundary.spacing)?;
-                match set.period {
-                    None => TriangleMesh::new(set.points, triangles)?,
-                    Some((_, period)) => TriangleMesh::periodic(set.points, triangles, period)?,
-                }
+                // Around a closed outline a lattice stretched to fit its box is sometimes better, sometimes worse than one
+                // of equilateral triangles.
+                let ways: &[Fit] = match boundary.period {
+                    Some(_) if angle == 0.0 => &[Fit::ToBox],
+                    None if angle == 0.0 => &[Fit::ToBox, Fit::Equilateral],
+                    _ => &[Fit::Equilateral],
+                };
+                let meshes: Vec<TriangleMesh> =
+                    ways.iter().map(|&fit| boundary.relaxed(fit, angle, sweeps)).collect::<Result<_, _>>()?;
+                let best = meshes.into_iter().min_by(|a, b| {
+                    let deviation = |mesh: &TriangleMesh| mesh.quality().edge_deviation;
+                    deviation(a).total_cmp(&deviation(b))
+                });
+                best.ok_or(SolidError::MeshingFailed { what: "there is no way to lay the seeds" })?
             }
         };
         // The mesh has the boundary that was asked for, no triangle is missing or too many.
@@ -246,8 +262,19 @@ impl Boundary {
         Ok(())
     }
 
-    /// A lattice of about equilateral triangles inside, fitted to the bounding box, or turned by an angle.
-    fn seeds(&self, angle: f64) -> Result<Vec<Vec2>, SolidError> {
+    /// The mesh after relaxation.
+    fn relaxed(&self, fit: Fit, angle: f64, sweeps: usize) -> Result<TriangleMesh, SolidError> {
+        let mut set = self.point_set(self.seeds(fit, angle)?);
+        let triangles = relax(&mut set, sweeps, self.spacing)?;
+        match set.period {
+            None => TriangleMesh::new(set.points, triangles),
+            Some((_, period)) => TriangleMesh::periodic(set.points, triangles, period),
+        }
+    }
+
+    /// A lattice inside, of equilateral triangles turned by an angle, or of nearly equilateral ones that fit the bounding
+    /// box.
+    fn seeds(&self, fit: Fit, angle: f64) -> Result<Vec<Vec2>, SolidError> {
         let spacing = self.spacing;
         let size = self.high - self.low;
         let (start, width) = self.period.unwrap_or((self.low.x, size.x));
@@ -258,7 +285,7 @@ impl Boundary {
         let corner = Vec2::new(start, self.low.y);
         let (rotation, centre) = (nalgebra::Rotation2::new(angle), corner + 0.5 * Vec2::new(width, size.y));
         let mut first = corner;
-        if angle != 0.0 {
+        if fit == Fit::Equilateral {
             step = Vec2::new(spacing, ROW_HEIGHT * spacing);
             // A square of lattice that covers the box however it is turned.
             let reach = 0.5 * width.hypot(size.y);
@@ -270,7 +297,7 @@ impl Boundary {
             for column in 0..=columns as usize {
                 let shift = 0.5 * (row % 2) as f64;
                 let seed = first + Vec2::new((column as f64 + shift) * step.x, row as f64 * step.y);
-                let seed = if angle == 0.0 { seed } else { centre + rotation * (seed - centre) };
+                let seed = if fit == Fit::ToBox { seed } else { centre + rotation * (seed - centre) };
                 // The last column of a periodic region is the first of the next.
                 let end = 1e-9 * step.x;
                 let repeated = self.period.is_some() && !(start - end..start + width - end).contains(&seed.x);
@@ -282,7 +309,7 @@ impl Boundary {
                 }
             }
         }
-        if self.period.is_some() && angle != 0.0 {
+        if self.period.is_some() && fit == Fit::Equilateral {
             // The turned lattice does not meet itself at the seam.
             let margin = MARGIN * spacing;
             let left: Vec<Vec2> =

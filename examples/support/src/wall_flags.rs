@@ -108,6 +108,12 @@ impl ElasticFlags {
             Preset::Thesis => ElasticChannel::thesis(swimmer, moduli),
             Preset::Accurate => ElasticChannel::new(swimmer, moduli),
         };
+        let offset = self.lateral_offset;
+        ensure!(
+            channel.start_shape().is_some(),
+            "a channel of --width {width} and --length {length} does not hold the droplet at --lateral-offset {offset}: give a \
+             larger --width or --length or a smaller --lateral-offset"
+        );
         Ok(ElasticChannel {
             material: match self.material {
                 Material::Springs => WallMaterial::Springs,
