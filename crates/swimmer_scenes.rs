@@ -143,7 +143,8 @@ impl Swimmer {
 
     fn box_fits(&self) -> Result<[f64; 2], SetupError> {
         let [lx, ly] = self.lengths;
-        if self.lengths.iter().any(|&l| l <= 2.0 * self.radius) {
+        // A radius that is no length is refused by the droplet, which names it.
+        if self.radius.is_finite() && self.lengths.iter().any(|&l| l <= 2.0 * self.radius) {
             let problem = "is too small for the droplet: give it more than two radii each way";
             return Err(SetupError::Box { lx, ly, spacing: self.spacing, problem });
         }
@@ -153,7 +154,7 @@ impl Swimmer {
     fn channel_fits(&self) -> Result<[f64; 2], SetupError> {
         let [lx, ly] = self.lengths;
         let too_high = self.offset[1].abs() + self.radius > 0.5 * ly * (1.0 + 1e-12);
-        if too_high || lx <= 2.0 * self.radius {
+        if self.radius.is_finite() && (too_high || lx <= 2.0 * self.radius) {
             let problem = "does not hold the droplet: move it to the centre line or make the channel wider or longer";
             return Err(SetupError::Box { lx, ly, spacing: self.spacing, problem });
         }
@@ -185,6 +186,8 @@ impl Swimmer {
     }
 
     fn integrals<D: FluidDomain>(&self, domain: D) -> Result<BoundaryIntegral<D>, SetupError> {
+        // Refuses a radius that is none by its own name.
+        self.circle()?;
         let settings = Settings { nodes: self.nodes, reference_perimeter: TAU * self.radius, ..Settings::default() };
         Ok(BoundaryIntegral::new(domain, self.viscosity, settings)?)
     }

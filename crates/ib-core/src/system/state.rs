@@ -1,0 +1,138 @@
+//! The state of all bodies and its rate of change.
+
+use super::{System, body_error};
+use crate::{Hydrodynamics, SceneError};
+
+impl<H: Hydrodynamics> System<H> {
+    /// Length of the state of all bodies.
+    #[must_use]
+    pub fn state_len(&self) -> usize {
+        self.bodies.iter().map(|body| body.state_len()).sum()
+    }
+
+    /// Copies the state of all bodies to `state`, resizing it.
+    pub fn write_state(&self, state: &mut Vec<f64>) {
+        state.resize(self.state_len(), 0.0);
+        let mut start = 0;
+        for body in &self.bodies {
+            let end = start + body.state_len();
+            body.write_state(&mut state[start..end]);
+            start = end;
+        }
+    }
+
+    /// Gives the bodies a state whose parts have the lengths `lengths` (one a body).
+    pub(crate) fn restore(&mut self, lengths: &[usize], state: &[f64]) -> Result<(), SceneError> {
+        let mut start = 0;
+        self.current = false;
+        for (body, length) in self.bodies.iter_mut().zip(lengths) {
+            body.read_state(&state[start..start + length])
+                .map_err(|source| body_error(self.time, body.as_ref(), source))?;
+            start += length;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn write_lengths(&self, lengths: &mut Vec<usize>) {
+        lengths.clear();
+        lengths.extend(self.bodies.iter().map(|body| body.state_len()));
+    }
+
+    /// The explicit rate of change (unit of the state per time) of `state`, which the bodies take over.
+    ///
+    /// # Errors
+    /// Those of the bodies and of the flow.
+    pub fn rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError> {
+        self.read_state(state)?;
+        self.compute_flow()?;
+        self.rate_here(rate);
+        Ok(())
+    }
+
+    /// The explicit rate of change (unit of the state per time) at the present state, whose flow is computed only if it is not known yet.
+    ///
+    /// # Errors
+    /// Those of the bodies and of the flow.
+    pub fn present_rate(&mut self, rate: &mut [f64]) -> Result<(), SceneError> {
+        self.evaluate()?;
+        self.rate_here(rate);
+        Ok(())
+    }
+
+    /// The rate of change at the present state, the implicit part with it; `state` is that state or one that differs from it by what the
+    /// end of a step did.
+    pub(crate) fn whole_rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError> {
+        self.present_rate(rate)?;
+        self.add_implicit(state, 1.0, rate);
+        Ok(())
+    }
+
+    fn rate_here(&mut self, rate: &mut [f64]) {
+        let mut start = 0;
+        for (body, group) in self.bodies.iter_mut().zip(self.markers.groups()) {
+            let end = start + body.state_len();
+            body.rate(&self.markers.velocities[group.range.clone()], &mut rate[start..end]);
+            start = end;
+        }
+    }
+
+    /// Gives the bodies a state of their present lengths.
+    ///
+    /// # Errors
+    /// A state that a body refuses.
+    pub fn read_state(&mut self, state: &[f64]) -> Result<(), SceneError> {
+        self.current = false;
+        let time = self.time;
+        let mut start = 0;
+        for body in &mut self.bodies {
+            let end = start + body.state_len();
+            body.read_state(&state[start..end]).map_err(|source| body_error(time, body.as_ref(), source))?;
+            start = end;
+        }
+        Ok(())
+    }
+
+    /// Adds `factor * L(state) state` to `out`; see [`Body::add_implicit`].
+    pub fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        let mut start = 0;
+        for body in &mut self.bodies {
+            let end = start + body.state_len();
+            body.add_implicit(&state[start..end], factor, &mut out[start..end]);
+            start = end;
+        }
+    }
+
+    /// Solves `y - factor L(state) y = state` in place; see [`Body::solve_implicit`].
+    pub fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        let mut start = 0;
+        for body in &mut self.bodies {
+            let end = start + body.state_len();
+            body.solve_implicit(factor, &mut state[start..end]);
+            start = end;
+        }
+    }
+
+    /// Writes the sizes of all bodies' entries of the state; see [`Body::write_scales`].
+    pub fn write_scales(&self, scales: &mut [f64]) {
+        let mut start = 0;
+        for body in &self.bodies {
+            let end = start + body.state_len();
+            body.write_scales(&mut scales[start..end]);
+            start = end;
+        }
+    }
+
+    /// The largest over the bodies of the root mean square of `errors / scales`; both have the length of the state.
+    pub(crate) fn error_norm(&self, errors: &[f64], scales: &[f64]) -> f64 {
+        let (mut start, mut largest) = (0, 0.0_f64);
+        for body in &self.bodies {
+            let end = start + body.state_len();
+            let sum: f64 = errors[start..end].iter().zip(&scales[start..end]).map(|(e, s)| (e / s).powi(2)).sum();
+            let norm = (sum / (end - start).max(1) as f64).sqrt();
+            // Not a number counts as too large.
+            largest = if norm.is_nan() { f64::INFINITY } else { largest.max(norm) };
+            start = end;
+        }
+        largest
+    }
+}
