@@ -1,16 +1,19 @@
 //! The active droplet.
 
+mod limits;
+mod warning;
+
 use std::sync::Arc;
 
-use ib_core::{BandLimit, Hydrodynamics, Medium, StepCause, StepLimit, StepLimits, System, Vec2};
+use ib_core::{BandLimit, Hydrodynamics, Medium, System, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::filter::WiggleFilter;
 use crate::geometry::{Geometry, signed_area};
 use crate::spectral::SpectralCurve;
-use crate::{
-    CrossingFinder, Flux, InterfaceError, InterfaceState, Repair, Tension, TensionWarning, Transport, cell_peclet,
-};
+use crate::{CrossingFinder, Flux, InterfaceError, InterfaceState, Repair, Tension, Transport, cell_peclet};
+pub(crate) use limits::finest_response;
+pub use warning::DropletWarning;
 
 /// Least number of markers of a droplet.
 pub const MINIMUM_MARKERS: usize = 8;
@@ -44,26 +47,6 @@ impl Default for Motion {
     fn default() -> Self {
         Self::Equidistributed { relaxation: 5.0, filter: true }
     }
-}
-
-/// What a user should know of a run, though it can go on.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum DropletWarning {
-    /// The markers are too far apart for the edge of the concentration.
-    #[error(
-        "the cell Peclet number is {peclet:.2}, above {PECLET_LIMIT}: the edge of the concentration is not resolved, use a \
-         marker spacing below {spacing:.2e}"
-    )]
-    CellPeclet {
-        /// `ds max|V_t - W| / D`.
-        peclet: f64,
-        /// The spacing that would do (length).
-        spacing: f64,
-    },
-    /// The tension law has no plateau.
-    #[error(transparent)]
-    Tension(#[from] TensionWarning),
 }
 
 /// A droplet: a closed fluid interface that may carry active particles, which raise its tension (thesis section 2.1).
@@ -404,38 +387,4 @@ impl ActiveDroplet {
     pub(crate) fn mean_viscosity(&self, medium: &Medium) -> f64 {
         self.viscosity_inside.map_or(medium.viscosity, |inside| 0.5 * (inside + medium.viscosity))
     }
-
-    /// The stable steps; see [`ib_core::Body::step_limits`].
-    pub(crate) fn limits(&self, medium: &Medium) -> StepLimits {
-        let viscosity = self.mean_viscosity(medium);
-        let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
-        let stiffness = medium.interface_stiffness * tension;
-        let mut limits = StepLimits::from(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
-        if let Motion::Equidistributed { relaxation, .. } = self.motion {
-            limits.push(StepLimit::decay(2.0 / relaxation, "the relaxation of the marker spacing"));
-        }
-        if self.transport.is_some() {
-            // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.
-            let coupling = self.concentrations.iter().map(|&c| c * self.tension.slope(c).abs()).fold(0.0_f64, f64::max);
-            let unit = finest_response(medium) * viscosity / coupling;
-            let (remainder, cause) = if self.stabilised {
-                (8.0, StepCause::Stabilised { bare: 2.5 * unit })
-            } else {
-                (2.5, StepCause::Decay)
-            };
-            let reason = "the coupling of concentration and tension";
-            limits.push(StepLimit { dt: remainder * unit, reason, cause });
-            let slip = self.slip.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
-            // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, holds up to about two segments a step.
-            let dt = 1.8 * self.geometry.mean_length() / slip;
-            limits.push(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
-        }
-        limits
-    }
-}
-
-/// The length below which the flow no longer responds to forces along an interface: the grid spacing, or 2/q for the largest resolved
-/// wave number q, of which the interface's stiffness is a quarter.
-pub(crate) fn finest_response(medium: &Medium) -> f64 {
-    medium.spacing.unwrap_or(0.5 / medium.interface_stiffness)
 }
