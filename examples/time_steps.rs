@@ -143,7 +143,7 @@ fn stiff_walls(until: f64, report: &mut String) -> Result<()> {
     let chebyshev = |step| run(channel(RungeKuttaChebyshev::new(), ACTIVITY)?, until, step);
     let exact = midpoint(StepSize::OfLimit(REFERENCE))?;
     tell(report, line("midpoint (reference)", &format!("{REFERENCE} of the limit"), &exact, &exact)?)?;
-    for fraction in [0.9, 0.5] {
+    for fraction in [0.9, 0.5, 0.25] {
         let cost = midpoint(StepSize::OfLimit(fraction))?;
         tell(report, line("midpoint", &format!("{fraction} of the limit"), &cost, &exact)?)?;
     }
@@ -159,7 +159,7 @@ fn stiff_walls(until: f64, report: &mut String) -> Result<()> {
 }
 
 /// Steps of the reference between stiff walls, as part of the midpoint rule's limit.
-const REFERENCE: f64 = 0.25;
+const REFERENCE: f64 = 0.125;
 
 /// Whether `steps` steps of `dt` from a slightly rough start stay bounded.
 fn is_stable<I: Integrator>(integrator: I, dt: f64, steps: usize) -> Result<bool> {

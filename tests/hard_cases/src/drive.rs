@@ -1,10 +1,11 @@
 //! Runs a scene and measures what changed.
 
 use std::any::Any;
+use std::f64::consts::PI;
 use std::time::Instant;
 
 use motile::active_interface::{ActiveDroplet, polygon_area};
-use motile::ib_core::{Body, Hydrodynamics, Integrator, MarkerKind, RungeKuttaChebyshev, Scene, StepSize, System};
+use motile::ib_core::{Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, StepSize, System, Vec2};
 use motile::{AnyFlow, Method, Swimmer};
 
 use crate::{CaseError, Ending, Look, Outcome, Way};
@@ -22,25 +23,33 @@ fn droplets<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &Activ
     system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
 }
 
-/// The area of a droplet (length squared): of the smooth curve through equally spaced markers, to sixth order in their distance; of the polygon
-/// where they are not. A polygon that becomes rounder grows by `pi/6 (L^2 - L'^2)/N^2` though the curve does not.
-fn area(droplet: &ActiveDroplet) -> f64 {
+/// The area that a droplet keeps (length squared): that of the polygon of its markers on a grid, and without one that of the smooth curve
+/// through them, from which the polygon's differs by `pi/6 L^2/N^2`, more for longer curves.
+fn area(droplet: &ActiveDroplet, on_grid: bool) -> f64 {
     let markers = droplet.markers();
     let count = markers.len();
-    if !matches!(droplet.kind(), MarkerKind::Interface { .. }) || count < 8 {
+    if on_grid {
         return polygon_area(markers).unwrap_or(f64::NAN);
     }
-    // Half the integral of x cross dx, the derivative by the number of the marker.
-    let share = |k: usize| {
-        let along = |j: usize| markers[(k + j) % count] - markers[(k + count - j) % count];
-        0.5 * markers[k].perp(&(0.75 * along(1) - 0.15 * along(2) + along(3) / 60.0))
+    // Half the integral of x cross dx, the derivative that of the interpolating trigonometric polynomial.
+    let unit = PI / count as f64;
+    let weight = |j: usize| {
+        let angle = unit * j as f64;
+        let size = if count.is_multiple_of(2) { angle.tan().recip() } else { angle.sin().recip() };
+        if j.is_multiple_of(2) { size } else { -size }
     };
-    (0..count).map(share).sum()
+    let weights: Vec<f64> = (1..count).map(weight).collect();
+    let share = |k: usize| {
+        let along: Vec2 = weights.iter().zip(1..).map(|(w, j)| *w * markers[(k + count - j) % count]).sum();
+        markers[k].perp(&along)
+    };
+    0.5 * unit * (0..count).map(share).sum::<f64>()
 }
 
 /// Areas and particle numbers of the droplets of `system`.
 fn contents<H: Hydrodynamics>(system: &System<H>) -> Vec<[f64; 2]> {
-    droplets(system).map(|droplet| [area(droplet), droplet.particle_numbers().iter().sum()]).collect()
+    let on_grid = system.hydrodynamics().medium().spacing.is_some();
+    droplets(system).map(|droplet| [area(droplet, on_grid), droplet.particle_numbers().iter().sum()]).collect()
 }
 
 /// How much area and particles of the droplets of `system` have changed, the droplet that changed most, since they were `start`.
