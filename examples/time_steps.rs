@@ -1,7 +1,7 @@
 //! What time steps cost: Runge-Kutta-Chebyshev against the midpoint rule between stiff walls, the largest stable steps
-//! against the predicted ones, and adaptive against fixed steps for a swimmer that starts.
+//! against the predicted ones between walls and of swimmers, and adaptive against fixed steps for a swimmer that starts.
 //!
-//! `cargo run --release --example time_steps` prints three tables and writes them to `out/time_steps/tables.md`.
+//! `cargo run --release --example time_steps` prints four tables and writes them to `out/time_steps/tables.md`.
 //! `--study` chooses one of them; `--help` lists the flags.
 
 use std::fmt::Write as _;
@@ -11,9 +11,11 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::{Parser, ValueEnum};
-use motile::active_interface::{ActiveDroplet, polygon_moments};
+use motile::active_interface::{ActiveDroplet, centroid_velocity, polygon_moments};
 use motile::elastic_solids::Moduli;
-use motile::ib_core::{Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2};
+use motile::ib_core::{
+    Checkpoint, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2,
+};
 use motile::{AnyFlow, ElasticChannel, Method, Swimmer};
 use support::{make_directory, positive, say};
 
@@ -22,8 +24,10 @@ use support::{make_directory, positive, say};
 enum Study {
     /// Cost at equal error between stiff walls.
     StiffWalls,
-    /// Largest stable steps.
+    /// Largest stable steps between stiff walls.
     Limits,
+    /// Largest stable steps of swimmers, with and without the stabiliser of the coupling of concentration and tension.
+    Coupling,
     /// Adaptive and fixed steps of a swimmer that starts.
     Transient,
 }
@@ -52,6 +56,9 @@ fn study(flags: &Flags) -> Result<()> {
     let wanted = |study| flags.study.is_none_or(|chosen| chosen == study);
     if wanted(Study::Limits) {
         limits(&mut report)?;
+    }
+    if wanted(Study::Coupling) {
+        coupling(&mut report)?;
     }
     if wanted(Study::Transient) {
         transient(&mut report)?;
@@ -132,25 +139,27 @@ fn stiff_walls(until: f64, report: &mut String) -> Result<()> {
         report,
         format_args!("\nWalls k = 1e6, viscosity 10, width 2, h = 0.1, activity -2, to t = {until}:\n\n{HEADING}"),
     )?;
-    let rkc = RungeKuttaChebyshev::new;
-    let exact = run(channel(rkc(), ACTIVITY)?, until, StepSize::Fixed(5e-4))?;
-    tell(report, line("RKC (reference)", "0.0005", &exact, &exact)?)?;
-    for dt in [2e-3, 4e-3, 8e-3, 1.2e-2] {
-        match run(channel(rkc(), ACTIVITY)?, until, StepSize::Fixed(dt)) {
-            Ok(cost) => tell(report, line("RKC", &format!("{dt}"), &cost, &exact)?)?,
-            Err(error) => tell(report, format_args!("| RKC | {dt} | {error} |"))?,
-        }
-    }
-    for tolerance in [1e-4, 1e-5, 1e-6] {
-        let cost = run(channel(rkc(), ACTIVITY)?, until, StepSize::Adaptive { tolerance })?;
-        tell(report, line("RKC", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?)?;
+    let midpoint = |step| run(channel(Midpoint::default(), ACTIVITY)?, until, step);
+    let chebyshev = |step| run(channel(RungeKuttaChebyshev::new(), ACTIVITY)?, until, step);
+    let exact = midpoint(StepSize::OfLimit(REFERENCE))?;
+    tell(report, line("midpoint (reference)", &format!("{REFERENCE} of the limit"), &exact, &exact)?)?;
+    for fraction in [0.9, 0.5, 0.25] {
+        let cost = midpoint(StepSize::OfLimit(fraction))?;
+        tell(report, line("midpoint", &format!("{fraction} of the limit"), &cost, &exact)?)?;
     }
     for fraction in [0.9, 0.5] {
-        let cost = run(channel(Midpoint::default(), ACTIVITY)?, until, StepSize::OfLimit(fraction))?;
-        tell(report, line("midpoint", &format!("{fraction} of the limit"), &cost, &exact)?)?;
+        let cost = chebyshev(StepSize::OfLimit(fraction))?;
+        tell(report, line("RKC", &format!("{fraction} of the limit"), &cost, &exact)?)?;
+    }
+    for tolerance in [1e-3, 1e-4, 1e-5] {
+        let cost = chebyshev(StepSize::Adaptive { tolerance })?;
+        tell(report, line("RKC", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?)?;
     }
     Ok(())
 }
+
+/// Steps of the reference between stiff walls, as part of the midpoint rule's limit.
+const REFERENCE: f64 = 0.125;
 
 /// Whether `steps` steps of `dt` from a slightly rough start stay bounded.
 fn is_stable<I: Integrator>(integrator: I, dt: f64, steps: usize) -> Result<bool> {
@@ -177,7 +186,7 @@ fn limits(report: &mut String) -> Result<()> {
         let rate = scene.system().limits().map(|(limit, _)| limit.decay_rate()).fold(0.0, f64::max);
         Ok(stages.map_or(2.0, |s| 0.6535 * (s * s - 1) as f64) / rate)
     };
-    for stages in [None, Some(3), Some(5), Some(8)] {
+    for stages in [None, Some(3), Some(5), Some(8), Some(12)] {
         let dt = predicted(stages)?;
         let mut largest = None;
         for factor in factors {
@@ -193,6 +202,75 @@ fn limits(report: &mut String) -> Result<()> {
         let name = stages.map_or_else(|| "midpoint".to_owned(), |s| format!("RKC, {s} stages"));
         let found = largest.map_or_else(|| "below 0.7".to_owned(), |factor| format!("{factor}"));
         tell(report, format_args!("| {name} | {dt:.2e} | {found} |"))?;
+    }
+    Ok(())
+}
+
+/// A swimmer's scene, its particles coupled with the stabiliser or without.
+fn free(swimmer: &Swimmer, stabilised: bool) -> Result<Scene<AnyFlow>> {
+    let mut scene = swimmer.empty_box()?;
+    scene.add(swimmer.droplet_for_method()?.with_stabiliser(stabilised));
+    Ok(scene)
+}
+
+fn speed<I: Integrator>(scene: &mut Scene<AnyFlow, I>) -> Result<f64> {
+    let markers = scene.system_mut().evaluate()?;
+    Ok(centroid_velocity(&markers.positions, &markers.velocities)?.norm())
+}
+
+/// Steps that must keep a steady swimmer's speed to a part in a hundred.
+const KEPT: usize = 150;
+
+/// The limit of a steady swimmer, what sets it, and the largest step by which its speed is kept.
+fn steady_limit<I: Integrator>(
+    make: impl Fn() -> Result<Scene<AnyFlow, I>>,
+    steady: &Checkpoint,
+) -> Result<(f64, String, f64)> {
+    let resumed = || -> Result<_> {
+        let mut scene = make()?;
+        scene.resume(steady)?;
+        Ok(scene)
+    };
+    let mut scene = resumed()?;
+    let expected = speed(&mut scene)?;
+    let (limit, reason, _) = scene.step_limit().context("a droplet has a limit")?;
+    let (limit, reason) = (limit, reason.to_owned());
+    let mut largest = 0.0;
+    let mut dt = 0.5 * limit;
+    loop {
+        let mut scene = resumed()?;
+        let kept = (0..KEPT).all(|_| scene.step(dt).is_ok());
+        if !kept || (speed(&mut scene)? / expected - 1.0).abs() > 0.01 {
+            return Ok((limit, reason, largest));
+        }
+        largest = dt;
+        dt *= 1.1;
+    }
+}
+
+fn coupling(report: &mut String) -> Result<()> {
+    tell(
+        report,
+        "\nLargest step that keeps the speed of a steady swimmer (viscosity 100, h = 0.1 or 48 nodes; 150 steps, to 1 %), over the predicted one:\n\n\
+         | activity | flow | steps | predicted | set by | largest/predicted |\n|---|---|---|---|---|---|",
+    )?;
+    for (flow, method) in [("grid", Method::ImmersedBoundary), ("integrals", Method::BoundaryIntegral)] {
+        for activity in [-2.0, -4.0] {
+            let base =
+                Swimmer { activity, spacing: 0.1, method, nodes: 48, concentration_cells: 192, ..Swimmer::default() };
+            let mut scene = free(&base, true)?;
+            scene.run(30.0).go()?;
+            let steady = scene.checkpoint("");
+            let results = [
+                ("midpoint, no stabiliser", steady_limit(|| free(&base, false), &steady)?),
+                ("midpoint", steady_limit(|| free(&base, true), &steady)?),
+                ("RKC", steady_limit(|| Ok(free(&base, true)?.advanced_by(RungeKuttaChebyshev::new())), &steady)?),
+            ];
+            for (name, (limit, reason, largest)) in results {
+                let times = largest / limit;
+                tell(report, format_args!("| {activity} | {flow} | {name} | {limit:.4} | {reason} | {times:.1} |"))?;
+            }
+        }
     }
     Ok(())
 }

@@ -10,13 +10,14 @@
 
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
 use motile::active_interface::{ActiveDroplet, centroid_velocity, polygon_moments};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
 use motile::{AnyFlow, Swimmer};
 use support::{
-    DropletFlags, MethodFlags, OutputFlags, Progress, Summary, Trajectory, pair, positive, say, write_scene_picture,
+    DropletFlags, MethodFlags, OutputFlags, Progress, Summary, Trajectory, check_run, pair, positive, say,
+    write_scene_picture,
 };
 
 /// How the droplets start.
@@ -36,9 +37,9 @@ struct Flags {
     /// How the droplets start
     #[arg(long, value_enum, default_value_t = Meeting::HeadOn)]
     meeting: Meeting,
-    /// Distance of their centres at the start (R0)
-    #[arg(long, default_value_t = 4.0, value_parser = positive, allow_hyphen_values = true)]
-    distance: f64,
+    /// Distance of their centres at the start (R0); without it 4, and side by side half of the box
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    distance: Option<f64>,
     /// Sides of the box (R0)
     #[arg(long = "box", value_name = "X,Y", default_value = "12,6", value_parser = pair, allow_hyphen_values = true)]
     sides: [f64; 2],
@@ -67,8 +68,18 @@ fn main() -> ExitCode {
 }
 
 fn meet(flags: &Flags) -> Result<()> {
+    let (along, usual) = match flags.meeting {
+        Meeting::SideBySide => (flags.sides[1], 0.5 * flags.sides[1]),
+        Meeting::HeadOn | Meeting::LeaderAndFollower => (flags.sides[0], 4.0),
+    };
+    let distance = flags.distance.unwrap_or(usual);
+    ensure!(
+        distance > 2.0 && distance < along - 2.0,
+        "--distance {distance}: the droplets or their images overlap, give more than 2 and less than {}",
+        along - 2.0
+    );
     // Both droplets: where they start and which way they swim.
-    let half = 0.5 * flags.distance;
+    let half = 0.5 * distance;
     let (places, second_angle) = match flags.meeting {
         Meeting::HeadOn => ([[-half, 0.0], [half, 0.0]], 180.0),
         Meeting::SideBySide => ([[0.0, -half], [0.0, half]], 0.0),
@@ -95,6 +106,7 @@ fn meet(flags: &Flags) -> Result<()> {
 
     // The run, observed.
     let end = flags.method.time;
+    check_run(&scene, end, flags.method.step())?;
     let description = format!("two_droplets: {first:?} {second:?}");
     flags.output.checkpoints.resume(&mut scene, &description, end)?;
     let directory = flags.output.directory("two_droplets")?;

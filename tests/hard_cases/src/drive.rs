@@ -1,10 +1,11 @@
 //! Runs a scene and measures what changed.
 
 use std::any::Any;
+use std::f64::consts::PI;
 use std::time::Instant;
 
 use motile::active_interface::{ActiveDroplet, polygon_area};
-use motile::ib_core::{Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, StepSize, System};
+use motile::ib_core::{Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, StepSize, System, Vec2};
 use motile::{AnyFlow, Method, Swimmer};
 
 use crate::{CaseError, Ending, Look, Outcome, Way};
@@ -22,15 +23,41 @@ fn droplets<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &Activ
     system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
 }
 
-/// How much area and particles of the droplets of `system` have changed, the droplet that changed most; `numbers` are the particles at the
-/// start.
-pub fn drift<H: Hydrodynamics>(system: &System<H>, numbers: &[f64]) -> Drift {
+/// The area that a droplet keeps (length squared): that of the polygon of its markers on a grid, and without one that of the smooth curve
+/// through them, from which the polygon's differs by `pi/6 L^2/N^2`, more for longer curves.
+fn area(droplet: &ActiveDroplet, on_grid: bool) -> f64 {
+    let markers = droplet.markers();
+    let count = markers.len();
+    if on_grid {
+        return polygon_area(markers).unwrap_or(f64::NAN);
+    }
+    // Half the integral of x cross dx, the derivative that of the interpolating trigonometric polynomial.
+    let unit = PI / count as f64;
+    let weight = |j: usize| {
+        let angle = unit * j as f64;
+        let size = if count.is_multiple_of(2) { angle.tan().recip() } else { angle.sin().recip() };
+        if j.is_multiple_of(2) { size } else { -size }
+    };
+    let weights: Vec<f64> = (1..count).map(weight).collect();
+    let share = |k: usize| {
+        let along: Vec2 = weights.iter().zip(1..).map(|(w, j)| *w * markers[(k + count - j) % count]).sum();
+        markers[k].perp(&along)
+    };
+    0.5 * unit * (0..count).map(share).sum::<f64>()
+}
+
+/// Areas and particle numbers of the droplets of `system`.
+fn contents<H: Hydrodynamics>(system: &System<H>) -> Vec<[f64; 2]> {
+    let on_grid = system.hydrodynamics().medium().spacing.is_some();
+    droplets(system).map(|droplet| [area(droplet, on_grid), droplet.particle_numbers().iter().sum()]).collect()
+}
+
+/// How much area and particles of the droplets of `system` have changed, the droplet that changed most, since they were `start`.
+fn drift<H: Hydrodynamics>(system: &System<H>, start: &[[f64; 2]]) -> Drift {
     let larger = |a: f64, b: f64| if b.is_nan() || b.abs() > a.abs() { b } else { a };
-    droplets(system).zip(numbers).fold(Drift::default(), |drift, (droplet, number)| {
-        let area = polygon_area(droplet.markers()).unwrap_or(f64::NAN) / droplet.initial_area() - 1.0;
-        let total: f64 = droplet.particle_numbers().iter().sum();
-        let particles = if *number > 0.0 { total / number - 1.0 } else { 0.0 };
-        Drift { area: larger(drift.area, area), particles: larger(drift.particles, particles) }
+    contents(system).iter().zip(start).fold(Drift::default(), |drift, (now, start)| {
+        let particles = if start[1] > 0.0 { now[1] / start[1] - 1.0 } else { 0.0 };
+        Drift { area: larger(drift.area, now[0] / start[0] - 1.0), particles: larger(drift.particles, particles) }
     })
 }
 
@@ -48,10 +75,10 @@ pub(crate) fn measured<I: Integrator>(
     look: Look<'_>,
     body: impl FnOnce(&mut Scene<AnyFlow, I>) -> Result<(), motile::ib_core::SceneError>,
 ) -> Outcome {
-    let numbers: Vec<f64> = droplets(scene.system()).map(|droplet| droplet.particle_numbers().iter().sum()).collect();
-    let start = Instant::now();
+    let start = contents(scene.system());
+    let clock = Instant::now();
     let outcome = body(scene);
-    let seconds = start.elapsed().as_secs_f64();
+    let seconds = clock.elapsed().as_secs_f64();
     look(scene.system_mut());
     let report = scene.step_report();
     Outcome {
@@ -61,7 +88,7 @@ pub(crate) fn measured<I: Integrator>(
         steps: scene.steps(),
         taken_back: report.rejections + report.failures,
         evaluations: scene.system().hydrodynamics().work().evaluations,
-        drift: drift(scene.system(), &numbers),
+        drift: drift(scene.system(), &start),
         seconds,
     }
 }

@@ -53,9 +53,8 @@ pub(crate) fn trials() -> Vec<Trial> {
             run_way(way, scene, extent.pick(5.0, 60.0), look)
         })
         .area_within(2e-3),
-        Recipe::new(10, "a long time: no creep", ALL, |way, extent, look| {
-            in_box(way, &coarse(), extent.pick(40.0, 1000.0), look)
-        }),
+        Recipe::new(10, "a long time: no creep", &[Way::Grid, Way::Integral], long),
+        Recipe::new(10, "a long time: no creep", &[Way::Thesis], long).ending_in(WIGGLING),
         Recipe::new(11, "no particles on half of the interface", EVERY, |way, extent, look| {
             filled(way, extent, look, |x| if x < 0.5 { 1.0 } else { 0.0 })
         }),
@@ -74,6 +73,7 @@ pub(crate) fn trials() -> Vec<Trial> {
             let base = Swimmer { spacing: 0.3, lengths: [2.1, 300.0], ..coarse() };
             in_box(way, &base, extent.pick(1.0, 10.0), look)
         })
+        .ending_in(DRAINED)
         .area_within(1e-2),
         Recipe::new(16, "a grid of 997 x 991", &[Way::Grid], |way, extent, look| {
             let base = Swimmer { spacing: 0.0125, lengths: [12.4625, 12.3875], ..coarse() };
@@ -87,6 +87,10 @@ pub(crate) fn trials() -> Vec<Trial> {
             in_box(way, &Swimmer { marker_spacing: Some(0.01), ..coarse() }, extent.pick(0.5, 20.0), look)
         }),
     ])
+}
+
+fn long(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
+    in_box(way, &coarse(), extent.pick(40.0, 1000.0), look)
 }
 
 fn low_viscosity(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {

@@ -13,7 +13,7 @@ mod steps;
 mod walls;
 mod weight;
 
-pub use drive::{Drift, drift};
+pub use drive::Drift;
 pub use ending::{CaseError, Ending};
 pub use weight::Weight;
 

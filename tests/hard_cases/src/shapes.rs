@@ -39,7 +39,7 @@ fn relax(way: Way, curve: &Curve, side: f64, until: f64, look: Look<'_>) -> Resu
 }
 
 /// Change of the area of shapes that relax.
-const RELAXED: f64 = 2e-5;
+const RELAXED: f64 = 1e-4;
 
 /// A channel of viscosity 1 in which the fluid is driven, with a droplet of tension 10 at the height y.
 fn carried(

@@ -18,13 +18,30 @@ fn bits<H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>) -> Vec<u8> {
 }
 
 /// A run to `until` that is interrupted after each of the given numbers of steps, saved and resumed in a scene made anew, against one
-/// that is not.
+/// that is not; on the thread of the test, and with the feature `rayon` also in pools of one and two threads.
 fn compare<H: Hydrodynamics, I: Integrator>(
-    make: impl Fn() -> Scene<H, I>,
+    make: impl Fn() -> Scene<H, I> + Sync,
     until: f64,
     step: StepSize,
     stops: &[usize],
 ) {
+    let alone = whole_and_in_parts(&make, until, step, stops);
+    #[cfg(feature = "rayon")]
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+        let pooled = pool.install(|| whole_and_in_parts(&make, until, step, stops));
+        assert!(pooled == alone, "a pool of {threads} threads comes to something else");
+    }
+    assert!(!alone.is_empty());
+}
+
+/// The last state.
+fn whole_and_in_parts<H: Hydrodynamics, I: Integrator>(
+    make: &(impl Fn() -> Scene<H, I> + Sync),
+    until: f64,
+    step: StepSize,
+    stops: &[usize],
+) -> Vec<u8> {
     let mut whole = make();
     whole.run(until).step_size(step).go().expect("a whole run");
     let mut parts = make();
@@ -43,7 +60,9 @@ fn compare<H: Hydrodynamics, I: Integrator>(
     parts.run(until).step_size(step).go().expect("the rest of the run");
     assert!(parts.steps() > stops.iter().sum());
     assert_eq!(parts.time().to_bits(), whole.time().to_bits());
-    assert!(bits(&parts) == bits(&whole), "a resumed run differs after {} steps", whole.steps());
+    let bits = bits(&whole);
+    assert!(self::bits(&parts) == bits, "a resumed run differs after {} steps", whole.steps());
+    bits
 }
 
 /// Numbers of steps that look random, from a seed.
@@ -118,6 +137,13 @@ fn an_elastic_channel() {
     let make = || channel.build().expect("a scene").0;
     compare(make, 3.0, AUTO, &stops(13, 10));
     compare(|| make().advanced_by(RungeKuttaChebyshev::new()), 3.0, ADAPTIVE, &stops(14, 15));
+}
+
+/// As large as it has to be for more than one thread to take part.
+#[test]
+fn a_large_box() {
+    let swimmer = Swimmer { spacing: 0.05, lengths: [24.0, 24.0], ..coarse() };
+    compare(|| built(swimmer.build()), 0.2, StepSize::Fixed(0.02), &stops(15, 4));
 }
 
 /// Threads that run scenes of their own do not disturb each other, and there are no others.
@@ -260,6 +286,9 @@ fn a_run_saves_checkpoints_and_stops_when_told() {
     assert!(matches!(error, SceneError::Checkpoint { .. }), "{error}");
     assert!(error.explanation().contains("missing"), "{}", error.explanation());
     assert!(matches!(Checkpoint::read(&nowhere), Err(CheckpointError::File { .. })));
+    // What is not a file stays what it is.
+    assert!(matches!(scene.checkpoint("").write(&directory.0), Err(CheckpointError::File { .. })));
+    assert!(directory.0.is_dir());
 }
 
 proptest! {

@@ -87,6 +87,11 @@ impl Checkpoint {
             let path = path.to_owned();
             move |source| CheckpointError::File { action, path, source }
         };
+        // A device or a directory must not be replaced.
+        if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+            let source = std::io::Error::other("there is something there that is not a file");
+            return Err(problem("write", path)(source));
+        }
         let written = File::create(&temporary).and_then(|mut file| {
             file.write_all(&bytes)?;
             file.sync_all()
