@@ -14,7 +14,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::{Parser, ValueEnum};
-use motile::{WallMaterial, WallMesh};
+use motile::{WallMaterial, WallMesh, WallSurface};
 use support::{OutputFlags, RunPool, Summary, say, write_results};
 
 use crate::run::{Job, Purpose};
@@ -195,7 +195,9 @@ fn narrow(h: f64, jobs: &mut Vec<Job>) {
     for young in [1e3, 1e4] {
         for activity in [-1.0, -2.0, -3.0, -4.0, -5.0] {
             let job = Job::new(Purpose::Narrow, 1.0, activity, young, h, 60.0);
-            jobs.push(Job { material: WallMaterial::NeoHookean, mesh: WallMesh::Unstructured, ..job });
+            // Set back, walls as soft as the softer ones are entered by the droplet or turn inside out.
+            let surface = WallSurface::Corrected;
+            jobs.push(Job { material: WallMaterial::NeoHookean, mesh: WallMesh::Unstructured, surface, ..job });
         }
     }
 }

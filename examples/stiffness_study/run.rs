@@ -4,7 +4,7 @@ use anyhow::{Result, bail};
 use motile::active_interface::{ActiveDroplet, RegimeCriteria, TrajectoryRecorder};
 use motile::elastic_solids::{AnySolid, Channel, Constriction, Moduli, StraightChannel, width_between};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
-use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, stokes_grid::Drive};
+use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, WallSurface, stokes_grid::Drive};
 use support::{Decided, Passage, Steadiness, Summary};
 
 use crate::history::History;
@@ -51,6 +51,8 @@ pub(crate) struct Job {
     pub(crate) stiffness: f64,
     pub(crate) material: WallMaterial,
     pub(crate) mesh: WallMesh,
+    /// What is done about the walls' surfaces.
+    pub(crate) surface: WallSurface,
     pub(crate) thesis: bool,
     pub(crate) spacing: f64,
     pub(crate) time: f64,
@@ -69,6 +71,7 @@ impl Job {
             stiffness,
             material: WallMaterial::Springs,
             mesh: WallMesh::Equilateral,
+            surface: WallSurface::SetBack,
             thesis: false,
             spacing,
             time,
@@ -79,9 +82,10 @@ impl Job {
         let Self { purpose, width, activity, excluded_volume, viscosity, stiffness, spacing, time, .. } = self;
         let kind = format!("{purpose:?}_{:?}_{:?}", self.material, self.mesh).to_lowercase();
         let method = if self.thesis { "_thesis" } else { "" };
+        let surface = if self.surface == WallSurface::Corrected { "_corrected" } else { "" };
         let ratio = if self.ratio == 1.0 { String::new() } else { format!("_ratio{}", self.ratio) };
         format!(
-            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}"
+            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}{surface}"
         )
     }
 
@@ -165,6 +169,7 @@ impl Job {
         let channel = ElasticChannel {
             material: self.material,
             mesh: if self.thesis { base.mesh } else { self.mesh },
+            surface: if self.thesis { base.surface } else { self.surface },
             // Whether springs turn inside out is reported.
             may_invert: true,
             ..base
