@@ -34,6 +34,8 @@ enum Part {
     Narrow,
     /// Droplets more viscous than their surroundings.
     Contrast,
+    /// How a droplet in contact with stiff walls starts by the method of the thesis.
+    Start,
 }
 
 /// Droplets between elastic walls of many stiffnesses.
@@ -116,6 +118,7 @@ fn jobs(flags: &Flags) -> Vec<Job> {
             Part::Comparison => comparisons(h, &mut jobs),
             Part::Narrow => narrow(h, &mut jobs),
             Part::Contrast => contrasts(h, &mut jobs),
+            Part::Start => starts(h, &mut jobs),
         }
     }
     if let Some(text) = &flags.matching {
@@ -189,6 +192,15 @@ fn contrasts(h: f64, jobs: &mut Vec<Job>) {
             jobs.push(Job { viscosity: 100.0 / ratio, ratio, ..job });
         }
     }
+}
+
+fn starts(h: f64, jobs: &mut Vec<Job>) {
+    let start = Job { thesis: true, ..Job::new(Purpose::Start, 2.0, -5.0, 1e6, h, 15.0) };
+    jobs.extend([0.0, 0.3 * h, 0.6 * h, h].map(|back| Job { back, ..start }));
+    jobs.push(Job { equidistant: true, ..start });
+    let passage = Job { purpose: Purpose::Passage, time: 300.0, ..start };
+    jobs.push(Job { back: 0.6 * h, ..passage });
+    jobs.push(Job { equidistant: true, ..passage });
 }
 
 fn narrow(h: f64, jobs: &mut Vec<Job>) {
