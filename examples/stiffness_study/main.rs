@@ -14,7 +14,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::{Parser, ValueEnum};
-use motile::{WallMaterial, WallMesh};
+use motile::{WallMaterial, WallMesh, WallSurface};
 use support::{OutputFlags, RunPool, Summary, say, write_results};
 
 use crate::run::{Job, Purpose};
@@ -34,6 +34,8 @@ enum Part {
     Narrow,
     /// Droplets more viscous than their surroundings.
     Contrast,
+    /// How a droplet in contact with stiff walls starts by the method of the thesis.
+    Start,
 }
 
 /// Droplets between elastic walls of many stiffnesses.
@@ -116,6 +118,7 @@ fn jobs(flags: &Flags) -> Vec<Job> {
             Part::Comparison => comparisons(h, &mut jobs),
             Part::Narrow => narrow(h, &mut jobs),
             Part::Contrast => contrasts(h, &mut jobs),
+            Part::Start => starts(h, &mut jobs),
         }
     }
     if let Some(text) = &flags.matching {
@@ -191,11 +194,22 @@ fn contrasts(h: f64, jobs: &mut Vec<Job>) {
     }
 }
 
+fn starts(h: f64, jobs: &mut Vec<Job>) {
+    let start = Job { thesis: true, ..Job::new(Purpose::Start, 2.0, -5.0, 1e6, h, 15.0) };
+    jobs.extend([0.0, 0.3 * h, 0.6 * h, h].map(|back| Job { back, ..start }));
+    jobs.push(Job { equidistant: true, ..start });
+    let passage = Job { purpose: Purpose::Passage, time: 300.0, ..start };
+    jobs.push(Job { back: 0.6 * h, ..passage });
+    jobs.push(Job { equidistant: true, ..passage });
+}
+
 fn narrow(h: f64, jobs: &mut Vec<Job>) {
     for young in [1e3, 1e4] {
         for activity in [-1.0, -2.0, -3.0, -4.0, -5.0] {
             let job = Job::new(Purpose::Narrow, 1.0, activity, young, h, 60.0);
-            jobs.push(Job { material: WallMaterial::NeoHookean, mesh: WallMesh::Unstructured, ..job });
+            // Set back, walls as soft as the softer ones are entered by the droplet or turn inside out.
+            let surface = WallSurface::Corrected;
+            jobs.push(Job { material: WallMaterial::NeoHookean, mesh: WallMesh::Unstructured, surface, ..job });
         }
     }
 }

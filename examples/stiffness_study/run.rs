@@ -1,10 +1,10 @@
 //! A run by its parameters, and what is measured in it.
 
 use anyhow::{Result, bail};
-use motile::active_interface::{ActiveDroplet, RegimeCriteria, TrajectoryRecorder};
+use motile::active_interface::{ActiveDroplet, Motion, RegimeCriteria, TrajectoryRecorder};
 use motile::elastic_solids::{AnySolid, Channel, Constriction, Moduli, StraightChannel, width_between};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
-use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, stokes_grid::Drive};
+use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, WallSurface, stokes_grid::Drive};
 use support::{Decided, Passage, Steadiness, Summary};
 
 use crate::history::History;
@@ -35,6 +35,8 @@ pub(crate) enum Purpose {
     Narrow,
     /// A droplet more viscous than its surroundings.
     Contrast,
+    /// The beginning of a run by the method of the thesis, in a straight channel.
+    Start,
 }
 
 /// A run by its parameters.
@@ -51,7 +53,13 @@ pub(crate) struct Job {
     pub(crate) stiffness: f64,
     pub(crate) material: WallMaterial,
     pub(crate) mesh: WallMesh,
+    /// What is done about the walls' surfaces.
+    pub(crate) surface: WallSurface,
     pub(crate) thesis: bool,
+    /// Whether markers are kept equally spaced, also by the method of the thesis.
+    pub(crate) equidistant: bool,
+    /// How much further back than the shape says the walls stand (R0).
+    pub(crate) back: f64,
     pub(crate) spacing: f64,
     pub(crate) time: f64,
 }
@@ -69,7 +77,10 @@ impl Job {
             stiffness,
             material: WallMaterial::Springs,
             mesh: WallMesh::Equilateral,
+            surface: WallSurface::SetBack,
             thesis: false,
+            equidistant: false,
+            back: 0.0,
             spacing,
             time,
         }
@@ -79,9 +90,12 @@ impl Job {
         let Self { purpose, width, activity, excluded_volume, viscosity, stiffness, spacing, time, .. } = self;
         let kind = format!("{purpose:?}_{:?}_{:?}", self.material, self.mesh).to_lowercase();
         let method = if self.thesis { "_thesis" } else { "" };
+        let equidistant = if self.equidistant { "_equidistant" } else { "" };
+        let back = if self.back == 0.0 { String::new() } else { format!("_back{}", self.back) };
+        let surface = if self.surface == WallSurface::Corrected { "_corrected" } else { "" };
         let ratio = if self.ratio == 1.0 { String::new() } else { format!("_ratio{}", self.ratio) };
         format!(
-            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}"
+            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}{surface}{equidistant}{back}"
         )
     }
 
@@ -102,6 +116,7 @@ impl Job {
             offset,
             // The thesis' step of 1e-3 would only cost time.
             step: StepSize::OfLimit(OF_LIMIT),
+            motion: if self.equidistant { Motion::default() } else { base.motion },
             ..base
         }
     }
@@ -165,6 +180,7 @@ impl Job {
         let channel = ElasticChannel {
             material: self.material,
             mesh: if self.thesis { base.mesh } else { self.mesh },
+            surface: if self.thesis { base.surface } else { self.surface },
             // Whether springs turn inside out is reported.
             may_invert: true,
             ..base
@@ -201,11 +217,12 @@ impl Job {
     }
 
     fn shape(&self) -> Result<Channel> {
-        Ok(if self.purpose == Purpose::Passage {
+        let shape = if self.purpose == Purpose::Passage {
             Constriction { width: self.width, ..Constriction::thesis() }.channel()?
         } else {
             StraightChannel { period: LENGTH, width: self.width }.channel()?
-        })
+        };
+        Ok(if self.back > 0.0 { shape.widened(2.0 * self.back)? } else { shape })
     }
 
     fn measure_walls<H: Hydrodynamics>(

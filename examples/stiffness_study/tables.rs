@@ -27,6 +27,7 @@ pub(crate) fn print(points: &Points) {
     comparison(points);
     narrow(points);
     contrast(points);
+    starts(points);
 }
 
 /// Speed between rigid walls or unconfined, if it was computed.
@@ -145,10 +146,25 @@ fn passages(points: &Points) {
             summary.number("furthest_x"),
             summary.number("minimum_gap"),
             summary.number("smallest_jacobian"),
-            if job.thesis { "  thesis" } else { "" },
+            method(job),
             failure(summary)
         ));
     }
+}
+
+/// What is not the default in a run.
+fn method(job: &Job) -> String {
+    let mut text = String::new();
+    if job.thesis {
+        text += "  thesis";
+    }
+    if job.equidistant {
+        text += ", markers equally spaced";
+    }
+    if job.back > 0.0 {
+        text += &format!(", walls {:.3} further back", job.back);
+    }
+    text
 }
 
 fn comparison(points: &Points) {
@@ -244,5 +260,18 @@ fn contrast(points: &Points) {
             let [speed, aspect, narrow, wide] = [0, 1, 2, 3].map(|column| rows.at(time, column));
             say(format_args!("    t {time:>4}  speed {speed:.5}  aspect {aspect:.4}  width {narrow:.4} to {wide:.4}"));
         }
+    }
+}
+
+fn starts(points: &Points) {
+    let chosen = of(points, Purpose::Start);
+    if !chosen.is_empty() {
+        say("Starts in contact with walls of k = 1e6 in a straight channel, method of the thesis, activity -5");
+    }
+    for (job, summary) in chosen {
+        let rows = Rows::of(summary);
+        let speeds: Vec<String> =
+            [1.5, 5.0, 9.0, 15.0].iter().map(|&time| format!("{:.3} at t = {time}", rows.at(time, 0))).collect();
+        say(format_args!("  h {:<5}{}: speed {}{}", job.spacing, method(job), speeds.join(", "), failure(summary)));
     }
 }
