@@ -57,9 +57,8 @@ pub struct Swimmer {
     /// Marker spacing on a grid (length); `None` for h/2.
     pub marker_spacing: Option<f64>,
     /// Shape nodes of the boundary integrals. With the default, and its cells of the concentration, all observables (speed, shape, stresslet,
-    /// squirmer coefficients, active region, largest concentration) are right to a per cent at activities of -1 to -5 in boxes, and the speed
-    /// in channels down to a width of two radii, where the stresslet may be wrong by two. For the speed alone a third of it will do
-    /// ([`crate::recommend`]).
+    /// squirmer coefficients, active region, largest concentration) were within a per cent in boxes at activities of -4 and -5, and in a channel
+    /// of width 2 at -4 except the stresslet (1.6 per cent). For the speed alone a third of it will do ([`crate::recommend`]).
     pub nodes: usize,
     /// Cells of the concentration, and markers, with boundary integrals; at least as many as nodes.
     pub concentration_cells: usize,
