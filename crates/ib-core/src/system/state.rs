@@ -92,7 +92,7 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// Adds `factor * L(state) state` to `out`; see [`Body::add_implicit`].
+    /// Adds `factor * L(state) state` to `out`; see [`crate::Body::add_implicit`].
     pub fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
         let mut start = 0;
         for body in &mut self.bodies {
@@ -102,7 +102,7 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
-    /// Solves `y - factor L(state) y = state` in place; see [`Body::solve_implicit`].
+    /// Solves `y - factor L(state) y = state` in place; see [`crate::Body::solve_implicit`].
     pub fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
         let mut start = 0;
         for body in &mut self.bodies {
@@ -112,7 +112,7 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
-    /// Writes the sizes of all bodies' entries of the state; see [`Body::write_scales`].
+    /// Writes the sizes of all bodies' entries of the state; see [`crate::Body::write_scales`].
     pub fn write_scales(&self, scales: &mut [f64]) {
         let mut start = 0;
         for body in &self.bodies {
