@@ -15,6 +15,8 @@ pub(crate) const LENGTH: f64 = 12.0;
 const OVERLAP: f64 = 0.25;
 /// Part of the stability limit that steps take.
 const OF_LIMIT: f64 = 0.7;
+/// The same between walls so soft that they fold around the droplet, where 0.7 is not stable.
+const OF_LIMIT_NARROW: f64 = 0.2;
 
 /// What a run contributes to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,7 +117,7 @@ impl Job {
             spacing: self.spacing,
             offset,
             // The thesis' step of 1e-3 would only cost time.
-            step: StepSize::OfLimit(OF_LIMIT),
+            step: StepSize::OfLimit(if self.purpose == Purpose::Narrow { OF_LIMIT_NARROW } else { OF_LIMIT }),
             motion: if self.equidistant { Motion::default() } else { base.motion },
             ..base
         }
