@@ -22,7 +22,7 @@ struct Flags {
     /// Steps of each scene
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u16).range(2..))]
     steps: u16,
-    /// Smaller scenes: 512 x 512 cells, 16,000 points
+    /// Smaller scenes: 900 x 900 cells, 32,000 points
     #[arg(long)]
     quick: bool,
 }
@@ -32,7 +32,7 @@ fn main() -> ExitCode {
 }
 
 fn compare(flags: &Flags) -> Result<()> {
-    let (cells, spacing) = if flags.quick { (512.0, 0.05) } else { (1024.0, 0.025) };
+    let (cells, spacing) = if flags.quick { (900.0, 0.04) } else { (1024.0, 0.025) };
     let boxed = Swimmer {
         activity: -3.0,
         lengths: [4.0, 4.0],

@@ -67,7 +67,7 @@
 //! even `nx` is a third faster than an odd one; other prime factors take two to nine times as long. In a channel this concerns
 //! `nx` alone for [`ChannelStokes`], both directions for [`ProjectionStokes`].
 //!
-//! With the feature `rayon`, off by default, [`PeriodicStokes`] uses the threads of the current pool from 200,000 cells on, to the same
+//! With the feature `rayon`, off by default, [`PeriodicStokes`] uses the threads of the current pool from 800,000 cells on, to the same
 //! bits for any number of them.
 //!
 //! `cargo bench -p stokes-grid` prints times in units of plain real transforms of the same size in the same run: about 1.1 pairs for

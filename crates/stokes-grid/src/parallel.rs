@@ -15,7 +15,7 @@ const SHARES: usize = 16;
 const BATCH: usize = 8;
 
 /// Cells from which several threads pay.
-const LEAST_CELLS: usize = 200_000;
+const LEAST_CELLS: usize = 800_000;
 
 /// Room for one real forward and inverse transform in shares that any thread may take, and the numbers in between.
 ///
@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn several_threads_give_the_bits_of_one() {
-        for (nx, ny) in [(512, 400), (449, 470), (500, 403)] {
+        for (nx, ny) in [(900, 896), (901, 889), (1000, 805)] {
             let grid = Grid::periodic(nx, ny, 0.01).unwrap();
             let mut force = StaggeredField::zeros(grid);
             let (x, y) = force.components_mut();

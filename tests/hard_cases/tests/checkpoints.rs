@@ -142,7 +142,7 @@ fn an_elastic_channel() {
 /// As large as it has to be for more than one thread to take part.
 #[test]
 fn a_large_box() {
-    let swimmer = Swimmer { spacing: 0.05, lengths: [24.0, 24.0], ..coarse() };
+    let swimmer = Swimmer { spacing: 0.05, lengths: [46.0, 46.0], ..coarse() };
     compare(|| built(swimmer.build()), 0.2, StepSize::Fixed(0.02), &stops(15, 4));
 }
 

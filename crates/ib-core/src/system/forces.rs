@@ -4,7 +4,7 @@ use crate::{Body, BodyError, Medium, Vec2};
 
 /// Markers from which a half of the bodies pays for a thread.
 #[cfg(feature = "rayon")]
-const LEAST_MARKERS: usize = 4000;
+const LEAST_MARKERS: usize = 15_000;
 
 /// Writes markers and forces of `bodies`, the first of which has the number `first`.
 pub(super) fn write_forces(

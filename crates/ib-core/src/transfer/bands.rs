@@ -8,13 +8,14 @@ use super::{Band, interpolate as interpolate_some, spread as spread_some};
 use crate::{Kernel, MAX_SUPPORT, Vec2};
 
 /// Markers from which several threads pay.
-const LEAST_MARKERS: usize = 4000;
+const LEAST_MARKERS: usize = 30_000;
 
 /// Bands of rows, and pieces of the list of markers, whatever the number of threads.
 const BANDS: usize = 16;
 
-/// Fewest rows of a band: more than the kernels reach, so that what is folded back at a wall stays in the band at the wall.
-const LEAST_ROWS: usize = 8;
+/// Fewest rows of a band: many more than the kernels reach, so that few markers reach into two, and what is folded back at a wall
+/// stays in the band at the wall.
+const LEAST_ROWS: usize = 40;
 
 /// Rows that no kernel reaches beyond, and one.
 const REACH: i64 = MAX_SUPPORT as i64 / 2 + 1;
@@ -148,16 +149,16 @@ mod tests {
     fn several_threads_give_the_bits_of_one() {
         let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let grids =
-            [Grid::channel(64, 50, 0.1), Grid::channel(70, 161, 0.1), Grid::periodic(48, 35, 0.1)].map(Result::unwrap);
+            [Grid::channel(64, 90, 0.1), Grid::channel(70, 161, 0.1), Grid::periodic(48, 97, 0.1)].map(Result::unwrap);
         for (grid, kernel) in grids.into_iter().flat_map(|grid| AnyKernel::ALL.map(|kernel| (grid, kernel))) {
             let [_, ly] = grid.lengths();
             let y0 = grid.origin()[1];
             // Everywhere, the walls themselves included.
             let place = |k: usize| {
                 let k = k as f64;
-                Vec2::new(0.0137 * k - 20.0, y0 + ly * (0.5 + 0.5 * (1.1 * (0.37 * k).sin()).clamp(-1.0, 1.0)))
+                Vec2::new(0.00137 * k - 20.0, y0 + ly * (0.5 + 0.5 * (1.1 * (0.37 * k).sin()).clamp(-1.0, 1.0)))
             };
-            let positions: Vec<Vec2> = (0..6000).map(place).collect();
+            let positions: Vec<Vec2> = (0..31_000).map(place).collect();
             let forces: Vec<Vec2> = positions.iter().map(|x| Vec2::new(x.y.sin(), (3.0 * x.x).cos())).collect();
             let both = |threads| {
                 pool(threads).install(|| {
