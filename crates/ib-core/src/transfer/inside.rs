@@ -197,3 +197,47 @@ fn gather_rows<L: Lanes, const N: usize>(l: L, window: &[f64], nx: usize, rows: 
 fn sum([a, b, c, d]: [f64; 4]) -> f64 {
     (a + c) + (b + d)
 }
+
+#[cfg(test)]
+mod tests {
+    use stokes_grid::Grid;
+
+    use super::*;
+    use crate::CubicQuadratic;
+    use crate::transfer::lanes::{Portable, dispatch};
+
+    /// On a machine without wide instructions both are the same.
+    #[test]
+    fn all_instructions_give_the_same_bits() {
+        let grid = Grid::channel(20, 16, 0.1).unwrap();
+        let kernel = CubicQuadratic::default();
+        let anywhere = Anywhere::new(&kernel, &grid);
+        let pieces = kernel.pieces().unwrap();
+        let places: Vec<[f64; 2]> =
+            (0..500).map(|k| f64::from(k) * 0.731).map(|k| [k % 20.0, (k * 0.39) % 16.0]).collect();
+        let forces: Vec<Vec2> = places.iter().map(|[x, y]| Vec2::new(x.sin(), (y * 1.7).cos())).collect();
+        let cells = 20 * 17;
+        let both = |wide: bool| {
+            let (mut fx, mut fy) = (vec![0.0; cells - 20], vec![0.0; cells]);
+            let markers = places.iter().zip(&forces);
+            let (fx_mut, fy_mut) = (&mut fx[..], &mut fy[..]);
+            let task = Spreading { anywhere, pieces, scale: 3.0, markers, first_row: 0, fx: fx_mut, fy: fy_mut };
+            if wide {
+                dispatch(task);
+            } else {
+                task.run(Portable);
+            }
+            let mut velocities = vec![Vec2::zeros(); places.len()];
+            let task = Interpolation { anywhere, pieces, places: &places, u: &fx, v: &fy, velocities: &mut velocities };
+            if wide {
+                dispatch(task);
+            } else {
+                task.run(Portable);
+            }
+            (fx, fy, velocities)
+        };
+        let (wide, plain) = (both(true), both(false));
+        assert!(plain.0.iter().any(|value| *value != 0.0));
+        assert_eq!(wide, plain);
+    }
+}
