@@ -47,15 +47,8 @@ fn study(flags: &Flags) -> Result<()> {
         .threads
         .map_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
     let runs = directory.join("runs");
-    let results = RunPool::new(&runs, threads, flags.output.quiet)?.run(&jobs, Job::name, Job::run);
-    let mut points: Vec<(Job, Summary)> = Vec::new();
-    let mut failures = Vec::new();
-    for (job, result) in jobs.into_iter().zip(results) {
-        match result {
-            Ok(summary) => points.push((job, summary)),
-            Err(error) => failures.push(error),
-        }
-    }
+    let pool = RunPool::new(&runs, threads, flags.output.quiet)?;
+    let (points, failures) = pool.study(jobs, Job::name, Job::run);
     let rows: Vec<Summary> = points.iter().map(|(_, summary)| summary.clone()).collect();
     write_results(&directory.join("points.csv"), &rows)?;
     let table = statements::table(&points);

@@ -71,6 +71,24 @@ impl<'a> RunPool<'a> {
         results.into_iter().map(|result| result.unwrap_or_else(|| Err(anyhow!("a run was lost")))).collect()
     }
 
+    /// The same for a study: the jobs that finished with their results, and the errors of the others.
+    pub fn study<J: Sync>(
+        &self,
+        jobs: Vec<J>,
+        name: impl Fn(&J) -> String + Sync,
+        run: impl Fn(&J) -> Result<Summary> + Sync,
+    ) -> (Vec<(J, Summary)>, Vec<anyhow::Error>) {
+        let results = self.run(&jobs, name, run);
+        let (mut points, mut failures) = (Vec::new(), Vec::new());
+        for (job, result) in jobs.into_iter().zip(results) {
+            match result {
+                Ok(summary) => points.push((job, summary)),
+                Err(error) => failures.push(error),
+            }
+        }
+        (points, failures)
+    }
+
     fn one(&self, name: &str, run: impl FnOnce() -> Result<Summary>) -> Result<Summary> {
         let path = self.directory.join(format!("{name}.json"));
         // A file that cannot be read or is of something else is no result.
