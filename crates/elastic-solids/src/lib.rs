@@ -66,6 +66,7 @@ mod outline;
 mod quality;
 mod region;
 mod relaxation;
+mod rounded_kink;
 mod saint_venant_kirchhoff;
 mod segments;
 mod solid;

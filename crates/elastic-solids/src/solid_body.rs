@@ -38,7 +38,8 @@ impl<F: ElasticForces> Body for Solid<F> {
     fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.compute_forces()?;
         if let Some(surface) = &mut self.surface {
-            surface.prepare(&self.mesh, &self.free, medium.viscosity, medium.spacing);
+            surface.prepare(&self.mesh, &self.free, medium.spacing);
+            surface.update(&self.mesh, &self.free, medium, &self.positions, &self.forces);
         }
         for (force, &point) in forces.iter_mut().zip(&self.free) {
             *force = self.forces[point];
@@ -70,8 +71,8 @@ impl<F: ElasticForces> Body for Solid<F> {
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(velocities) {
             pair.copy_from_slice(velocity.as_slice());
         }
-        if let Some(surface) = &mut self.surface {
-            surface.add(&self.positions, &self.forces, rate);
+        if let Some(surface) = &self.surface {
+            surface.add(rate);
         }
     }
 

@@ -1,37 +1,47 @@
 //! Putting back the mobility that the grid takes from the surface of a solid.
 
-use ib_core::{MobilityDeficit, Vec2};
+use ib_core::{Medium, MobilityDeficit, Vec2};
 
 use crate::TriangleMesh;
+use crate::rounded_kink::{Beside, RoundedKink};
 
 /// The mobility correction of a solid's surface.
 ///
-/// On the surface the elastic stress jumps by the traction, and with it the velocity gradient of the fluid. Spreading
-/// and interpolation smear that kink: where the traction is f_t per length along the surface, points at the distance d
-/// from it miss the velocity
+/// On the surface the elastic stress jumps by the traction, and with it the velocity gradient of the fluid. Spreading and interpolation
+/// round that kink off; without the correction the velocity has an error of first order in h, and a stiff wall stops the fluid about
+/// 0.3 to 0.6 h inside the channel. With D the flow beside a missing velocity along the surface ([`RoundedKink`]) the points move, besides
+/// with the fluid, with
 /// ```text
-/// (h/eta) phi(d/h) f_t,    phi(s) = 1/2 (E|s + Z| - |s|),    phi(0) = G_t(0)
+/// V = (h/eta) D G^(1/2) P l^-1 P G^(1/2) D^T F
 /// ```
-/// with a random number Z that stands for the kernels and the grid (a cubic B-spline for the default kernel, whose
-/// phi(0) is 7/30), and the deficit G_t of a flat interface ([`MobilityDeficit`]). Without it the velocity has an error
-/// of first order in h: a stiff wall stops the fluid about 0.3 to 0.6 h inside the channel.
+/// where D^T F are the forces F of the points as they work on the surface, l the lengths of its edges, P an average over neighbours, and G the
+/// deficit G_t of a flat interface ([`MobilityDeficit::flat`]) over what D has on the surface. D has no divergence: else surfaces are
+/// compressed for as long as forces vary along them, by what no flow undoes (0.015 R0 at k = 1e6 and h = 0.1). The operator is symmetric and
+/// positive, as reciprocity asks: it takes energy in any state. With the force of the surface's points in place of D^T F
+/// soft surfaces fold.
 #[derive(Debug, Clone)]
 pub(crate) struct SurfaceCorrection {
     vertices: Vec<Vertex>,
-    /// Tangents of the reference state.
-    tangents: Vec<Vec2>,
-    /// phi(0) at vertices by their tangent.
-    deficits: Vec<f64>,
+    deficit: MobilityDeficit,
+    /// G_t(0) at vertices, by their tangent in the reference state.
+    flat: Vec<f64>,
+    /// The square root of what is missing where the vertices are now, zero where they are pinned.
+    roots: Vec<f64>,
     near: Vec<Near>,
     /// Grid spacing that `near` is made for.
     spacing: f64,
-    /// Viscosity of the last evaluation.
-    viscosity: f64,
-    tractions: Vec<f64>,
-    smoothed: Vec<f64>,
-    /// How often the tractions are averaged over neighbours.
+    /// How often forces, and then missing velocities, are averaged over neighbours.
     passes: usize,
-    slips: Vec<Vec2>,
+    /// The edges that begin at the vertices as they are now, and beside them.
+    edges: Vec<Edge>,
+    kinks: Vec<RoundedKink>,
+    /// Where the points of `near` are now.
+    feet: Vec<Foot>,
+    /// Missing along the surface at vertices (length per time).
+    missing: Vec<f64>,
+    /// Its slope (1/time).
+    slopes: Vec<f64>,
+    scratch: Vec<f64>,
 }
 
 /// A point of the surface between its neighbours along it.
@@ -42,86 +52,79 @@ struct Vertex {
     own: usize,
     before: usize,
     after: usize,
-    /// What to add to the vector from the neighbour before to the one after, across the seam of a periodic mesh.
-    shift: f64,
     pinned: bool,
 }
 
-/// A point next to the surface.
+/// A point near the surface, as a place among the free points, and the vertex at which the edge begins that is nearest in the reference
+/// state.
 #[derive(Debug, Clone, Copy)]
 struct Near {
-    /// Place among the free points.
     marker: usize,
-    /// The edge nearest to it, by its first vertex, and where along it.
+    vertex: usize,
+}
+
+/// A straight piece of the surface.
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    from: Vec2,
+    tangent: Vec2,
+    length: f64,
+}
+
+/// The place of the surface nearest to a point.
+#[derive(Debug, Clone, Copy)]
+struct Foot {
     vertex: usize,
     fraction: f64,
-    /// phi at its distance.
-    weight: f64,
+    /// `None` where the point has come out of reach.
+    beside: Option<Beside>,
 }
 
-/// How often tractions are averaged with those of their neighbours, (1, 2, 1)/4, where the points are one grid spacing
-/// apart. The deficit falls with the wave number q along the surface; four times make it `exp(-(q h)^2)`, which is near
-/// enough where it matters, for q h up to 0.5, and the least that does not make nearly incompressible solids (kappa =
-/// 20 mu) stiffer.
+/// How often both together are averaged, (1, 2, 1)/4, where the points are one grid spacing apart. The deficit falls with the
+/// wave number q along the surface; four times make it `exp(-(q h)^2)`, which is near enough where it matters, for q h up to
+/// 0.5.
 const SMOOTHING: f64 = 4.0;
 
-/// phi(0) of the shape below.
-const SHAPE_AT_ZERO: f64 = 7.0 / 30.0;
-
-/// phi(s) for a cubic B-spline: its second derivative is the spline, its slope at 0 is -1/2, and it ends at 2.
-fn shape(s: f64) -> f64 {
-    if s < 1.0 {
-        SHAPE_AT_ZERO + s * (-0.5 + s * (1.0 / 3.0 + s * s * (-1.0 / 12.0 + s / 40.0)))
-    } else if s < 2.0 {
-        (2.0 - s).powi(5) / 120.0
-    } else {
-        0.0
-    }
-}
+/// Edges along which the nearest one is looked for.
+const FARTHEST: usize = 100;
 
 impl SurfaceCorrection {
     /// For the free points of a mesh; parts of the surface that are pinned have no traction.
     pub(crate) fn new(mesh: &TriangleMesh, free: &[usize], deficit: &MobilityDeficit) -> Self {
         let mut vertices = Vec::new();
+        let mut flat = Vec::new();
         for boundary in mesh.boundary_loops() {
             let (start, count) = (vertices.len(), boundary.points.len());
             for (k, &point) in boundary.points.iter().enumerate() {
                 let (before, after) = ((k + count - 1) % count, (k + 1) % count);
                 let span = nearest_step(mesh, boundary.points[before], point)
                     + nearest_step(mesh, point, boundary.points[after]);
-                let shift = span.x - (mesh.points()[boundary.points[after]] - mesh.points()[boundary.points[before]]).x;
+                flat.push(deficit.flat(span.try_normalize(0.0).unwrap_or_else(Vec2::zeros)));
                 vertices.push(Vertex {
                     point,
                     own: start + k,
                     before: start + before,
                     after: start + after,
-                    shift,
                     pinned: false,
                 });
             }
         }
         let count = vertices.len();
-        let mut correction = Self {
-            tangents: vec![Vec2::zeros(); count],
-            deficits: vec![0.0; count],
+        let correction = Self {
+            deficit: deficit.clone(),
+            flat,
+            roots: vec![0.0; count],
             near: Vec::new(),
             spacing: 0.0,
-            viscosity: 0.0,
-            tractions: vec![0.0; count],
-            smoothed: vec![0.0; count],
             passes: 0,
-            slips: vec![Vec2::zeros(); count],
+            edges: vec![Edge { from: Vec2::zeros(), tangent: Vec2::zeros(), length: 0.0 }; count],
+            kinks: Vec::new(),
+            feet: Vec::new(),
+            missing: vec![0.0; count],
+            slopes: vec![0.0; count],
+            scratch: vec![0.0; count],
             vertices,
         };
-        let flat = deficit.at(0.0);
-        for k in 0..count {
-            let tangent = correction.span(k, mesh.points()).try_normalize(0.0).unwrap_or_else(Vec2::zeros);
-            let z = tangent.x.powi(4) + tangent.y.powi(4) - 0.75;
-            let missing =
-                flat.tangential + flat.tangential_slope * z + flat.tangential_curvature * (32.0 * z * z - 1.0);
-            correction.tangents[k] = tangent;
-            correction.deficits[k] = missing.max(0.0);
-        }
         correction.with_free(free)
     }
 
@@ -135,16 +138,8 @@ impl SurfaceCorrection {
         self
     }
 
-    /// From the neighbour before a vertex to the one after.
-    fn span(&self, vertex: usize, positions: &[Vec2]) -> Vec2 {
-        let Vertex { before, after, shift, .. } = self.vertices[vertex];
-        let span = positions[self.vertices[after].point] - positions[self.vertices[before].point];
-        span + Vec2::new(shift, 0.0)
-    }
-
-    /// Takes the fluid over; finds the points next to the surface for a new grid spacing.
-    pub(crate) fn prepare(&mut self, mesh: &TriangleMesh, free: &[usize], viscosity: f64, spacing: Option<f64>) {
-        self.viscosity = viscosity;
+    /// Finds the points near the surface for a new grid spacing, if there is one.
+    pub(crate) fn prepare(&mut self, mesh: &TriangleMesh, free: &[usize], spacing: Option<f64>) {
         let spacing = spacing.unwrap_or(0.0);
         if self.spacing == spacing {
             return;
@@ -152,109 +147,187 @@ impl SurfaceCorrection {
         self.spacing = spacing;
         self.near.clear();
         if spacing > 0.0 {
-            let lengths = (0..self.vertices.len()).map(|k| 0.5 * self.span(k, mesh.points()).norm());
-            let edge = lengths.sum::<f64>() / self.vertices.len() as f64;
-            self.passes = (SMOOTHING * (spacing / edge).powi(2)).round().max(1.0) as usize;
-            let found =
-                free.iter().enumerate().filter_map(|(marker, &point)| self.find(mesh, marker, mesh.points()[point]));
-            self.near = found.collect();
+            self.find_edges(mesh, mesh.points());
+            let edge = self.edges.iter().map(|edge| edge.length).sum::<f64>() / self.edges.len() as f64;
+            self.passes = (0.5 * SMOOTHING * (spacing / edge).powi(2)).round().max(1.0) as usize;
+            let found = free.iter().enumerate();
+            let found = found.filter_map(|(marker, &point)| self.find(mesh, marker, mesh.points()[point]));
+            let feet: Vec<(Near, f64)> = found.collect();
+            // The deepest point of a solid is half as deep as the solid is thick.
+            let room = feet.iter().map(|(_, depth)| depth / spacing).fold(0.0, f64::max);
+            let deficit = |vertex: &Vertex| 0.5 * (self.flat[vertex.own] + self.flat[vertex.after]);
+            self.kinks = self.vertices.iter().map(|vertex| RoundedKink::new(deficit(vertex), room)).collect();
+            let reaches = |(near, depth): &(Near, f64)| *depth < spacing * self.kinks[near.vertex].reach();
+            self.near = feet.into_iter().filter(reaches).map(|(near, _)| near).collect();
+            self.feet.clear();
+            self.feet.resize(self.near.len(), Foot { vertex: 0, fraction: 0.0, beside: None });
         }
     }
 
-    /// The edge of the surface nearest to a point, if the point is within its reach.
-    fn find(&self, mesh: &TriangleMesh, marker: usize, place: Vec2) -> Option<Near> {
-        let mut nearest: Option<(f64, usize, f64)> = None;
-        for (k, vertex) in self.vertices.iter().enumerate() {
-            if vertex.pinned && self.vertices[vertex.after].pinned {
-                continue;
-            }
-            let mut from = place - mesh.points()[vertex.point];
-            if let Some(period) = mesh.period() {
-                from.x -= period * (from.x / period).round();
-            }
-            let edge = nearest_step(mesh, vertex.point, self.vertices[vertex.after].point);
-            let fraction = (from.dot(&edge) / edge.norm_squared()).clamp(0.0, 1.0);
-            let distance = (from - edge * fraction).norm();
-            if nearest.is_none_or(|(least, ..)| distance < least) {
-                nearest = Some((distance, k, fraction));
-            }
-        }
-        let (distance, vertex, fraction) = nearest?;
-        let after = self.vertices[vertex].after;
-        let deficit = self.deficits[vertex] * (1.0 - fraction) + self.deficits[after] * fraction;
-        // The shape of another kernel is as much wider as its deficit is larger; the slope at 0 is that of the kink.
-        let scale = deficit / SHAPE_AT_ZERO;
-        let weight = if scale > 0.0 { scale * shape(distance / (self.spacing * scale)) } else { 0.0 };
-        (weight > 0.0).then_some(Near { marker, vertex, fraction, weight })
+    /// The edge of the surface nearest to a point of the reference state, and how far away it is (length).
+    fn find(&self, mesh: &TriangleMesh, marker: usize, place: Vec2) -> Option<(Near, f64)> {
+        let free = self.vertices.iter().filter(|vertex| !(vertex.pinned && self.vertices[vertex.after].pinned));
+        let distances = free.map(|vertex| (vertex.own, self.away(vertex.own, place, mesh.period()).0.norm()));
+        let nearest = distances.fold(None, |nearest: Option<(usize, f64)>, this| match nearest {
+            Some(least) if least.1 <= this.1 => nearest,
+            _ => Some(this),
+        });
+        nearest.map(|(vertex, distance)| (Near { marker, vertex }, distance))
     }
 
-    /// Adds the missing velocities (length per time) to the rates of the free points, for the present positions
-    /// (length) and forces (force) of all points.
-    pub(crate) fn add(&mut self, positions: &[Vec2], forces: &[Vec2], rate: &mut [f64]) {
+    /// Takes over where the surface is.
+    fn find_edges(&mut self, mesh: &TriangleMesh, positions: &[Vec2]) {
+        for (edge, vertex) in self.edges.iter_mut().zip(&self.vertices) {
+            let from = positions[vertex.point];
+            let along = wrapped(positions[self.vertices[vertex.after].point] - from, mesh.period());
+            let length = along.norm();
+            *edge = Edge { from, tangent: if length > 0.0 { along / length } else { Vec2::zeros() }, length };
+        }
+    }
+
+    /// The vector to a point from the nearest place of an edge, and where along the edge that is.
+    fn away(&self, vertex: usize, point: Vec2, period: Option<f64>) -> (Vec2, f64) {
+        let Edge { from, tangent, length } = self.edges[vertex];
+        let away = wrapped(point - from, period);
+        let along = away.dot(&tangent).clamp(0.0, length);
+        (away - tangent * along, if length > 0.0 { along / length } else { 0.0 })
+    }
+
+    /// The place of the surface nearest to a point now, from one edge on: a sheared solid carries its points far along its surface.
+    fn foot(&self, mut vertex: usize, point: Vec2, period: Option<f64>) -> Foot {
+        let (mut away, mut fraction) = self.away(vertex, point, period);
+        for _ in 0..FARTHEST {
+            let Vertex { before, after, .. } = self.vertices[vertex];
+            let next = if fraction <= 0.0 {
+                before
+            } else if fraction >= 1.0 {
+                after
+            } else {
+                break;
+            };
+            let there = self.away(next, point, period);
+            if there.0.norm_squared() >= away.norm_squared() {
+                break;
+            }
+            (vertex, (away, fraction)) = (next, there);
+        }
+        let beside = self.kinks[vertex].beside(away, self.edges[vertex].tangent, self.spacing);
+        Foot { vertex, fraction, beside }
+    }
+
+    /// What is missing at the vertices: the deficit of an interface of their direction and, where the surface runs along the grid, the
+    /// first grid harmonic ([`MobilityDeficit::harmonic`]), which follows their place between the grid lines.
+    fn find_roots(&mut self, origin: [f64; 2]) {
+        for (root, vertex) in self.roots.iter_mut().zip(&self.vertices) {
+            let Edge { from, tangent, .. } = self.edges[vertex.own];
+            let harmonic = |across: usize| {
+                // An inclined surface passes from line to line at this wave number.
+                let amplitude = self.deficit.harmonic(std::f64::consts::PI * tangent[across]);
+                let place = (from[across] - origin[across]) / self.spacing;
+                if amplitude == 0.0 { 0.0 } else { 2.0 * amplitude * (std::f64::consts::TAU * place).cos() }
+            };
+            let missing = self.flat[vertex.own] - harmonic(0) - harmonic(1);
+            *root = if vertex.pinned { 0.0 } else { missing.max(0.0).sqrt() };
+        }
+    }
+
+    /// Finds the missing velocities for the present positions (length) and forces (force) of all points.
+    pub(crate) fn update(
+        &mut self,
+        mesh: &TriangleMesh,
+        free: &[usize],
+        medium: &Medium,
+        positions: &[Vec2],
+        forces: &[Vec2],
+    ) {
         if self.near.is_empty() {
             return;
         }
-        for (k, vertex) in self.vertices.iter().enumerate() {
-            let span = self.span(k, positions);
-            let length = span.norm();
-            let along = if length > 0.0 { span / length } else { Vec2::zeros() };
-            self.tangents[k] = along;
-            let pulled = !vertex.pinned && length > 0.0;
-            self.tractions[k] = if pulled { forces[vertex.point].dot(&along) / (0.5 * length) } else { 0.0 };
+        self.find_edges(mesh, positions);
+        self.find_roots(medium.domain.origin);
+        self.missing.fill(0.0);
+        self.slopes.fill(0.0);
+        let mut feet = std::mem::take(&mut self.feet);
+        for (foot, near) in feet.iter_mut().zip(&self.near) {
+            let point = free[near.marker];
+            *foot = self.foot(near.vertex, positions[point], mesh.period());
         }
-        for _ in 0..self.passes {
-            for (smooth, vertex) in self.smoothed.iter_mut().zip(&self.vertices) {
-                let [before, here, after] = [vertex.before, vertex.own, vertex.after].map(|k| self.tractions[k]);
-                *smooth = 0.5 * here + 0.25 * (before + after);
+        self.feet = feet;
+        for (Foot { vertex, fraction, beside }, near) in self.feet.iter().zip(&self.near) {
+            if let Some(beside) = beside {
+                let after = self.vertices[*vertex].after;
+                let [along, across] = beside.work(forces[free[near.marker]]);
+                for (at, share) in [(*vertex, 1.0 - fraction), (after, *fraction)] {
+                    self.missing[at] += share * along;
+                    self.slopes[at] += share * across;
+                }
             }
-            std::mem::swap(&mut self.smoothed, &mut self.tractions);
         }
-        for ((slip, along), traction) in self.slips.iter_mut().zip(&self.tangents).zip(&self.tractions) {
-            *slip = along * (traction * self.spacing / self.viscosity);
+        for vertex in &self.vertices {
+            let change = self.slopes[vertex.own] * self.inverse_span(vertex);
+            self.missing[vertex.after] += change;
+            self.missing[vertex.before] -= change;
         }
-        for near in &self.near {
-            let after = self.vertices[near.vertex].after;
-            let slip = self.slips[near.vertex].lerp(&self.slips[after], near.fraction) * near.weight;
-            rate[2 * near.marker] += slip.x;
-            rate[2 * near.marker + 1] += slip.y;
+        self.weigh(1.0);
+        self.smooth();
+        for vertex in &self.vertices {
+            self.missing[vertex.own] *= 2.0 * self.inverse_span(vertex);
+        }
+        self.smooth();
+        self.weigh(self.spacing / medium.viscosity);
+        for (slope, vertex) in self.slopes.iter_mut().zip(&self.vertices) {
+            let span = self.edges[vertex.before].length + self.edges[vertex.own].length;
+            let change = self.missing[vertex.after] - self.missing[vertex.before];
+            *slope = if span > 0.0 { change / span } else { 0.0 };
         }
     }
+
+    /// One over the length of both edges of a vertex.
+    fn inverse_span(&self, vertex: &Vertex) -> f64 {
+        let span = self.edges[vertex.before].length + self.edges[vertex.own].length;
+        if span > 0.0 { 1.0 / span } else { 0.0 }
+    }
+
+    /// Multiplies by the root of what is missing and a factor.
+    fn weigh(&mut self, factor: f64) {
+        for (value, root) in self.missing.iter_mut().zip(&self.roots) {
+            *value *= factor * root;
+        }
+    }
+
+    fn smooth(&mut self) {
+        for _ in 0..self.passes {
+            for (smooth, vertex) in self.scratch.iter_mut().zip(&self.vertices) {
+                let [before, here, after] = [vertex.before, vertex.own, vertex.after].map(|k| self.missing[k]);
+                *smooth = 0.5 * here + 0.25 * (before + after);
+            }
+            std::mem::swap(&mut self.scratch, &mut self.missing);
+        }
+    }
+
+    /// Adds the missing velocities (length per time) to the rates of the free points.
+    pub(crate) fn add(&self, rate: &mut [f64]) {
+        for (Foot { vertex, fraction, beside }, near) in self.feet.iter().zip(&self.near) {
+            if let Some(beside) = beside {
+                let after = self.vertices[*vertex].after;
+                let between = |values: &[f64]| values[*vertex] + fraction * (values[after] - values[*vertex]);
+                let velocity = beside.velocity(between(&self.missing), between(&self.slopes));
+                rate[2 * near.marker] += velocity.x;
+                rate[2 * near.marker + 1] += velocity.y;
+            }
+        }
+    }
+}
+
+/// A vector in x-periodic space at its shortest.
+fn wrapped(mut vector: Vec2, period: Option<f64>) -> Vec2 {
+    if let Some(period) = period.filter(|period| vector.x.abs() > 0.5 * period) {
+        vector.x -= period * (vector.x / period).round();
+    }
+    vector
 }
 
 /// From a point of the surface to the next, in the reference state.
 fn nearest_step(mesh: &TriangleMesh, from: usize, to: usize) -> Vec2 {
-    let mut step = mesh.points()[to] - mesh.points()[from];
-    if let Some(period) = mesh.period() {
-        step.x -= period * (step.x / period).round();
-    }
-    step
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_shape_is_the_mean_distance_from_a_spline() {
-        // phi(s) = 1/2 (E|s + Z| - |s|) by quadrature over the cubic B-spline.
-        let spline = |z: f64| {
-            let a = z.abs();
-            if a < 1.0 { 2.0 / 3.0 - a * a + 0.5 * a * a * a } else { (2.0 - a).powi(3) / 6.0 }
-        };
-        for s in [0.0, 0.3, 0.9, 1.0, 1.4, 2.0, 2.5] {
-            let steps = 40_000;
-            let mean: f64 = (0..steps)
-                .map(|k| 4.0 * (f64::from(k) + 0.5) / f64::from(steps) - 2.0)
-                .map(|z| spline(z) * (s + z).abs() * 4.0 / f64::from(steps))
-                .sum();
-            assert!((shape(s) - 0.5 * (mean - s)).abs() < 1e-8, "{s}");
-        }
-    }
-
-    #[test]
-    fn the_deficit_of_the_default_kernel_is_that_of_the_shape() {
-        let flat = MobilityDeficit::new(&ib_core::CubicQuadratic::default()).at(0.0);
-        let along_the_grid = flat.tangential + 0.25 * flat.tangential_slope + flat.tangential_curvature;
-        assert!((along_the_grid - SHAPE_AT_ZERO).abs() < 2e-3, "{along_the_grid}");
-    }
+    wrapped(mesh.points()[to] - mesh.points()[from], mesh.period())
 }

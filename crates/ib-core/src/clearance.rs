@@ -4,8 +4,8 @@ use crate::{MarkerGroup, MarkerKind, Markers, Vec2};
 
 /// Distance up to which it is measured, in grid spacings.
 const REACH: f64 = 6.0;
-/// A stiff lattice stops the fluid this far in front of its outermost row, in grid spacings.
-const OFFSET: f64 = 0.37;
+/// How much further away than its surface the nearest point of a solid is for markers close to it, on average, in grid spacings.
+const OFFSET: f64 = 0.2;
 
 /// Distances of the markers of an interface from the nearest points of solids.
 #[derive(Debug, Default)]
@@ -17,7 +17,7 @@ pub(crate) struct Clearance {
 }
 
 impl Clearance {
-    /// The gaps between the markers of an interface and where solids stop the fluid, in grid spacings; infinite beyond the
+    /// The gaps between the markers of an interface and the surfaces of solids, in grid spacings; infinite beyond the
     /// reach. Empty without solids. Points that put no force on the fluid (tracers) stop nothing.
     pub(crate) fn gaps(&mut self, markers: &Markers, interface: usize, spacing: f64, period: f64) -> &[f64] {
         self.gaps.clear();
@@ -89,7 +89,7 @@ mod tests {
         markers.forces[10] = Vec2::new(1.0, 0.0);
         // The row repeats itself with the period of 4.
         let gaps = clearance.gaps(&markers, 0, 0.1, 4.0).to_vec();
-        assert!((gaps[0] - 0.63).abs() < 1e-9 && gaps[1] == 0.0 && gaps[2] == f64::INFINITY, "{gaps:?}");
+        assert!((gaps[0] - 0.8).abs() < 1e-9 && (gaps[1] - 0.1).abs() < 1e-9 && gaps[2] == f64::INFINITY, "{gaps:?}");
         let mut alone = Markers::new();
         alone.push_group(3, MarkerKind::Interface { viscosity_inside: None });
         assert!(clearance.gaps(&alone, 0, 0.1, 4.0).is_empty());

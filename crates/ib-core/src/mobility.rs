@@ -1,7 +1,7 @@
 //! What spreading, the grid and interpolation take from the mobility of an interface.
 
 use crate::quadrature::GAUSS_10;
-use crate::{Kernel, Role};
+use crate::{Kernel, Role, Vec2};
 
 /// Largest tabulated wave number (in units of 1/h); above it the grid does not respond at all.
 const LAST: f64 = 6.3;
@@ -150,6 +150,15 @@ impl MobilityDeficit {
         }
         let [tangential, tangential_slope, tangential_curvature, normal, normal_slope, cross] = row;
         Deficit { tangential, tangential_slope, tangential_curvature, normal, normal_slope, cross }
+    }
+
+    /// The tangential deficit `G_t(0)` of forces that do not vary along a flat interface with this unit `tangent` (no dimension): half
+    /// of how much the grid rounds off the kink in the velocity, in units of h/eta times the force per length.
+    #[must_use]
+    pub fn flat(&self, tangent: Vec2) -> f64 {
+        let rest = self.at(0.0);
+        let z = tangent.x.powi(4) + tangent.y.powi(4) - 0.75;
+        (rest.tangential + rest.tangential_slope * z + rest.tangential_curvature * (32.0 * z * z - 1.0)).max(0.0)
     }
 
     /// The second grid harmonic over the first, `H_2 / H`, for forces that vary slowly; H_2 is H with 4 pi for 2 pi and multiplies
