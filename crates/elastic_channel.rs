@@ -241,7 +241,9 @@ impl ElasticChannel {
     pub fn start_shape(&self) -> Option<(f64, f64)> {
         let ([lx, ly], y, radius) = (self.swimmer.lengths, self.swimmer.offset[1], self.swimmer.radius);
         let room = 0.5 * ly - y.abs();
-        if room >= radius * (1.0 - 1e-12) {
+        // What touches a wall that stops the fluid at its surface has no film, and none would come between them.
+        let film = if self.surface == WallSurface::Corrected { FILM * radius } else { 0.0 };
+        if room >= radius * (1.0 - 1e-12) + film {
             return Some((0.0, radius));
         }
         let half = room - FILM * radius;
