@@ -75,7 +75,7 @@ fn window<L: Lanes>(l: L, pieces: &impl Polynomials, spot: &Spot) -> Window {
 /// The weights of the windows of a marker at an edge of the grid from those of its stencil. At a wall the x component is odd, the
 /// y component even.
 #[inline(never)]
-fn at_edge(edge: Edge, mut window: Window) -> Window {
+fn at_edge(edge: Edge, window: &mut Window) {
     let [u, v] = window.rows;
     if edge.below {
         window.rows = [[u[1] - u[0], u[2], 0.0, 0.0], [v[1], v[2] + v[0], v[3], 0.0]];
@@ -93,7 +93,6 @@ fn at_edge(edge: Edge, mut window: Window) -> Window {
             };
         }
     }
-    window
 }
 
 /// Spreading of forces to both components, of all rows or those of a band.
@@ -136,9 +135,10 @@ impl<K: Kernel, P: Polynomials> LanesTask for Spreading<'_, K, P> {
                         add_rows::<L, 3>(l, &mut fx[base..], nx, x_columns, l.store(x_rows));
                         add_rows::<L, 4>(l, &mut fy[base..], nx, y_columns, l.store(y_rows));
                     } else if spot.base != Spot::ELSEWHERE {
-                        let window = at_edge(spot.edge(), window(l, &pieces, spot));
+                        let mut window = window(l, &pieces, spot);
+                        at_edge(spot.edge(), &mut window);
                         let force = force.map(|force| l.splat(force));
-                        add_window(l, window, force, base, nx, [&mut *fx, &mut *fy]);
+                        add_window(l, &window, force, base, nx, [&mut *fx, &mut *fy]);
                     } else if let Some(place) = elsewhere.get(spot.kind as usize) {
                         anywhere.add(*place, force, first_row, fx, fy);
                     }
@@ -150,7 +150,7 @@ impl<K: Kernel, P: Polynomials> LanesTask for Spreading<'_, K, P> {
 
 /// Adds the rows of a window or two that are there.
 #[inline(always)]
-fn add_window<L: Lanes>(l: L, window: Window, force: [L::Four; 2], base: usize, nx: usize, fields: [&mut [f64]; 2]) {
+fn add_window<L: Lanes>(l: L, window: &Window, force: [L::Four; 2], base: usize, nx: usize, fields: [&mut [f64]; 2]) {
     for ((k, field), force) in fields.into_iter().enumerate().zip(force) {
         // From the last four columns to the first.
         for (base, columns) in [(base, window.columns[k]), (base.wrapping_add(4).wrapping_sub(nx), window.beyond[k])] {
@@ -226,11 +226,12 @@ impl<K: Kernel, P: Polynomials> LanesTask for Interpolation<'_, K, P> {
                 let y = l.mul_add(l.splat(y_rows[3]), cells(l, v3, base), y);
                 *out = l.sums(l.mul(x, x_columns), l.mul(y, y_columns)).into();
             } else if spot.base != Spot::ELSEWHERE {
-                let window = at_edge(spot.edge(), window(l, &pieces, spot));
-                *out = gather(l, &rows, base, window.rows, window.columns);
+                let mut window = window(l, &pieces, spot);
+                at_edge(spot.edge(), &mut window);
+                *out = gather(l, &rows, base, &window.rows, &window.columns);
                 if window.wraps {
                     // From the last four columns to the first.
-                    *out += gather(l, &rows, (base + 4).wrapping_sub(nx), window.rows, window.beyond);
+                    *out += gather(l, &rows, (base + 4).wrapping_sub(nx), &window.rows, &window.beyond);
                 }
             } else if let Some(place) = elsewhere.get(spot.kind as usize) {
                 *out = anywhere.gather(*place, u, v).into();
@@ -241,7 +242,7 @@ impl<K: Kernel, P: Polynomials> LanesTask for Interpolation<'_, K, P> {
 
 /// The velocity from three rows of the x component and four of the y component.
 #[inline(always)]
-fn gather<L: Lanes>(l: L, fields: &[&[f64]; 7], base: usize, rows: [[f64; 4]; 2], columns: [[f64; 4]; 2]) -> Vec2 {
+fn gather<L: Lanes>(l: L, fields: &[&[f64]; 7], base: usize, rows: &[[f64; 4]; 2], columns: &[[f64; 4]; 2]) -> Vec2 {
     let mut totals = [l.splat(0.0); 2];
     for (k, field) in fields.iter().enumerate() {
         let (component, row) = if k < 3 { (0, k) } else { (1, k - 3) };
