@@ -29,7 +29,8 @@ use visits::STRIDE;
 /// wall (docs/method.md, section 2).
 ///
 /// Weights are not kept but computed twice: for the kernels that are polynomials ([`Kernel::pieces`]) that is faster than
-/// to read them from memory.
+/// to read them from memory. Where the machine has fused multiply-add it is used, so that results differ between machines by
+/// round-off; on one machine they do not depend on the number of threads (feature `rayon`).
 #[derive(Debug, Clone)]
 pub struct Transfer<K> {
     kernel: K,
