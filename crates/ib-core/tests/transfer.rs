@@ -223,3 +223,28 @@ fn polynomials_and_weights_one_by_one_transfer_alike() {
         }
     }
 }
+
+/// Scenes refuse such markers before; the transfer itself must not fail, and leaves other markers alone.
+#[test]
+fn what_is_not_in_the_box_does_no_harm() {
+    let far = [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.350_891_108_598_784e16, 1e9, -1e300];
+    for grid in [Grid::channel(14, 8, 1.0), Grid::periodic(14, 8, 1.0)].map(Result::unwrap) {
+        for kernel in [AnyKernel::BSpline3, AnyKernel::BSpline4] {
+            let velocity = noise(grid, 3);
+            let good = Vec2::new(0.3, 0.4);
+            let positions: Vec<Vec2> =
+                far.into_iter().flat_map(|r| [Vec2::new(r, 0.1), good, Vec2::new(0.1, r), Vec2::new(r, r)]).collect();
+            let mut transfer = Transfer::new(grid, kernel);
+            let mut alone = vec![Vec2::zeros()];
+            transfer.locate(&[good]);
+            transfer.interpolate(&velocity, &mut alone);
+            transfer.locate(&positions);
+            transfer.spread(&vec![Vec2::new(1.0, 2.0); positions.len()], &mut StaggeredField::zeros(grid));
+            let mut velocities = vec![Vec2::zeros(); positions.len()];
+            transfer.interpolate(&velocity, &mut velocities);
+            for chunk in velocities.chunks(4) {
+                assert!((chunk[1] - alone[0]).norm() < 1e-15, "{}", kernel.name());
+            }
+        }
+    }
+}

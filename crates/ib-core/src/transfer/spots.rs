@@ -163,11 +163,12 @@ impl Spots {
     /// The spot of a place whose stencil is a window but for one row beyond a wall and columns that wrap around.
     fn near_edge(&self, shift: f64, place: [f64; 2]) -> Option<Spot> {
         let [(i, tx), (j, ty)] = place.map(|r| split(r + shift));
+        let [first_column, first_row] = [i, j].map(|whole| whole.saturating_sub(1));
         let [columns, rows] = self.windows().map(|count| count as i64);
         if columns < 1 || rows < 2 {
             return None;
         }
-        let (row, below, above) = match j - 1 {
+        let (row, below, above) = match first_row {
             row if (0..rows).contains(&row) => (row, false, false),
             -1 if self.walls => (0, true, false),
             row if self.walls && row == rows => (rows - 1, false, true),
@@ -175,7 +176,7 @@ impl Spots {
         };
         let nx = self.columns as i64;
         // Wrapped, a place is in the box or at its end.
-        let column = if i < 1 { i - 1 + nx } else { i - 1 };
+        let column = if first_column < 0 { first_column.saturating_add(nx) } else { first_column };
         let (column, wrapped) = match column {
             column if (0..columns).contains(&column) => (column, 0),
             column if (columns..nx).contains(&column) => (columns - 1, (nx - column) as usize),
@@ -212,7 +213,7 @@ impl LanesTask for Finding<'_> {
             let places = l.add(places, shift4);
             let shifted = l.add(l.add(places, minus_half), big);
             let fractions = l.store(l.add(places, l.mul(minus_one, l.add(shifted, minus_big))));
-            let [i0, j0, i1, j1] = l.store(shifted).map(|shifted| (whole(shifted) - 1) as u64);
+            let [i0, j0, i1, j1] = l.store(shifted).map(|shifted| whole(shifted).wrapping_sub(1) as u64);
             let [x0, y0, x1, y1] = fractions;
             let [first, second] = spots;
             for (spot, position, i, j, fractions) in
