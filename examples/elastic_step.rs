@@ -74,7 +74,7 @@ fn time(flags: &Flags) -> Result<()> {
         }
         Ok(())
     })?;
-    let locate = median("weights", &mut || {
+    let locate = median("places", &mut || {
         transfer.locate(&markers.positions);
         Ok(())
     })?;

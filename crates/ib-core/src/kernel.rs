@@ -10,6 +10,7 @@ pub use any::AnyKernel;
 pub use bspline::{CompositeBSpline, CubicQuadratic};
 pub use classical::{Peskin4, Roma3};
 pub use gaussian::Gaussian6;
+pub(crate) use pieces::CUBIC_QUADRATIC;
 pub use pieces::Pieces;
 
 /// Most grid points in one direction that a kernel of this crate reaches.

@@ -5,12 +5,17 @@ mod anywhere;
 mod bands;
 mod inside;
 mod lanes;
+mod spots;
+mod visits;
 
 use stokes_grid::{Grid, StaggeredField};
 
+use crate::kernel::CUBIC_QUADRATIC;
 use crate::{Kernel, Vec2};
 use anywhere::Anywhere;
-use inside::{Interpolation, Spreading};
+use inside::{CubicQuadratics, Interpolation, Spreading};
+use spots::{Spot, Spots};
+use visits::STRIDE;
 
 /// Transfer between markers and a staggered grid, the adjoint pair of the immersed boundary method (thesis (2.33),
 /// (2.34)):
@@ -24,13 +29,13 @@ use inside::{Interpolation, Spreading};
 /// wall (docs/method.md, section 2).
 ///
 /// Weights are not kept but computed twice: for the kernels that are polynomials ([`Kernel::pieces`]) that is faster than
-/// to read them from memory.
+/// to read them from memory. Where the machine has fused multiply-add it is used, so that results differ between machines by
+/// round-off; on one machine they do not depend on the number of threads (feature `rayon`).
 #[derive(Debug, Clone)]
 pub struct Transfer<K> {
     kernel: K,
     grid: Grid,
-    /// In units of h from the origin of the grid, wrapped where the box is periodic.
-    places: Vec<[f64; 2]>,
+    spots: Spots,
     #[cfg(feature = "rayon")]
     bands: bands::Bands,
 }
@@ -42,7 +47,7 @@ impl<K: Kernel> Transfer<K> {
         Self {
             kernel,
             grid,
-            places: Vec::new(),
+            spots: Spots::new(&grid),
             #[cfg(feature = "rayon")]
             bands: bands::Bands::default(),
         }
@@ -57,19 +62,9 @@ impl<K: Kernel> Transfer<K> {
     /// Takes the `positions` of markers (length, not wrapped). They must be finite: what is not lands somewhere in
     /// the box ([`crate::ImmersedBoundary`] refuses it).
     pub fn locate(&mut self, positions: &[Vec2]) {
-        let (scale, [x0, y0]) = (1.0 / self.grid.spacing(), self.grid.origin());
-        let [columns, rows] = [self.grid.nx() as f64, self.grid.ny() as f64];
-        let wraps = !self.grid.has_walls();
-        // Wrapping before the weights keeps the column arithmetic exact for droplets that have travelled far.
-        let wrapped = |x: f64, period: f64| if (0.0..period).contains(&x) { x } else { x.rem_euclid(period) };
-        let place = |position: &Vec2| {
-            let y = scale * (position.y - y0);
-            [wrapped(scale * (position.x - x0), columns), if wraps { wrapped(y, rows) } else { y }]
-        };
-        self.places.clear();
-        self.places.extend(positions.iter().map(place));
+        self.spots.find(self.kernel.pieces(), positions);
         #[cfg(feature = "rayon")]
-        self.bands.find(Anywhere::new(&self.kernel, &self.grid), &self.places);
+        self.bands.find(Anywhere::new(&self.kernel, &self.grid), &self.spots);
     }
 
     /// Adds the force density of the located markers to `density` (force per volume), thesis (2.33). `forces` (force) has an
@@ -80,54 +75,91 @@ impl<K: Kernel> Transfer<K> {
         let (fx, fy) = density.components_mut();
         #[cfg(feature = "rayon")]
         if self.bands.are_used() {
-            self.bands.spread(anywhere, &self.places, forces, scale, [fx, fy]);
+            self.bands.spread(anywhere, &self.spots, forces, scale, [fx, fy]);
             return;
         }
-        spread(anywhere, scale, Band { markers: self.places.iter().zip(forces), first_row: 0, fx, fy });
+        let markers = Markers {
+            spots: self.spots.all(),
+            forces,
+            stride: stride(&self.kernel),
+            elsewhere: self.spots.elsewhere(),
+        };
+        spread(anywhere, scale, markers, Band { first_row: 0, fx, fy });
     }
 
     /// The velocities at the located markers (length per time), thesis (2.34). `velocities` has an entry for each of them.
     pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) {
         let anywhere = Anywhere::new(&self.kernel, &self.grid);
+        let elsewhere = self.spots.elsewhere();
         #[cfg(feature = "rayon")]
         if self.bands.are_used() {
-            bands::interpolate(anywhere, &self.places, velocity, velocities);
+            bands::interpolate(anywhere, self.spots.all(), elsewhere, velocity, velocities);
             return;
         }
-        interpolate(anywhere, &self.places, velocity, velocities);
+        interpolate(anywhere, self.spots.all(), elsewhere, velocity, velocities);
     }
 }
 
-/// Some rows of both components and the markers that reach them.
-struct Band<'a, M> {
-    markers: M,
+/// Markers to be spread.
+#[derive(Debug)]
+struct Markers<'a> {
+    spots: &'a [Spot],
+    forces: &'a [Vec2],
+    /// Distance within a block from one marker to that which is added next.
+    stride: usize,
+    elsewhere: &'a [[f64; 2]],
+}
+
+/// Some rows of both components.
+#[derive(Debug)]
+struct Band<'a> {
     first_row: usize,
     fx: &'a mut [f64],
     fy: &'a mut [f64],
 }
 
-fn spread<'a, K: Kernel, M: Iterator<Item = (&'a [f64; 2], &'a Vec2)>>(
-    anywhere: Anywhere<'_, K>,
-    scale: f64,
-    band: Band<'_, M>,
-) {
-    let Band { markers, first_row, fx, fy } = band;
+/// The distance between markers that are added one after another.
+fn stride<K: Kernel>(kernel: &K) -> usize {
+    // Other kernels take so long that it does not matter.
+    if kernel.pieces().is_some() { STRIDE } else { 1 }
+}
+
+fn spread<K: Kernel>(anywhere: Anywhere<'_, K>, scale: f64, markers: Markers<'_>, band: Band<'_>) {
     if let Some(pieces) = anywhere.kernel().pieces() {
-        lanes::dispatch(Spreading { anywhere, pieces, scale, markers, first_row, fx, fy });
+        if *pieces == CUBIC_QUADRATIC {
+            lanes::dispatch(Spreading { anywhere, pieces: CubicQuadratics, scale, markers, band });
+        } else {
+            lanes::dispatch(Spreading { anywhere, pieces, scale, markers, band });
+        }
     } else {
-        for (place, force) in markers {
-            anywhere.add(*place, (scale * force).into(), first_row, fx, fy);
+        for (spot, force) in markers.spots.iter().zip(markers.forces) {
+            if let Some(place) = markers.elsewhere.get(spot.kind as usize) {
+                anywhere.add(*place, (scale * force).into(), band.first_row, band.fx, band.fy);
+            }
         }
     }
 }
 
-fn interpolate<K: Kernel>(anywhere: Anywhere<'_, K>, places: &[[f64; 2]], velocity: &StaggeredField, out: &mut [Vec2]) {
+fn interpolate<K: Kernel>(
+    anywhere: Anywhere<'_, K>,
+    spots: &[Spot],
+    elsewhere: &[[f64; 2]],
+    velocity: &StaggeredField,
+    velocities: &mut [Vec2],
+) {
     let (u, v) = (velocity.x(), velocity.y());
     if let Some(pieces) = anywhere.kernel().pieces() {
-        lanes::dispatch(Interpolation { anywhere, pieces, places, u, v, velocities: out });
+        if *pieces == CUBIC_QUADRATIC {
+            let pieces = CubicQuadratics;
+            lanes::dispatch(Interpolation { anywhere, pieces, spots, elsewhere, u, v, velocities });
+        } else {
+            lanes::dispatch(Interpolation { anywhere, pieces, spots, elsewhere, u, v, velocities });
+        }
     } else {
-        for (place, out) in places.iter().zip(out) {
-            *out = anywhere.gather(*place, u, v).into();
+        for (spot, out) in spots.iter().zip(velocities) {
+            if let Some(place) = elsewhere.get(spot.kind as usize) {
+                *out = anywhere.gather(*place, u, v).into();
+            }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Spreading and interpolation as an adjoint pair, in boxes and channels, for every kernel.
 
-use ib_core::{AnyKernel, Kernel, Role, Transfer, Vec2};
+use ib_core::{AnyKernel, Kernel, MAX_SUPPORT, Role, Transfer, Vec2};
 use proptest::prelude::*;
 use stokes_grid::{Grid, StaggeredField};
 
@@ -156,6 +156,95 @@ proptest! {
                 }
             }
             prop_assert!((found[0] - expected).norm() < 1e-13, "{}: {} {expected}", kernel.name(), found[0]);
+        }
+    }
+}
+
+/// A kernel whose weights are computed one by one.
+#[derive(Debug, Clone)]
+struct OneByOne(AnyKernel);
+
+impl Kernel for OneByOne {
+    fn name(&self) -> &'static str {
+        self.0.name()
+    }
+
+    fn support(&self, role: Role) -> usize {
+        self.0.support(role)
+    }
+
+    fn weights(&self, role: Role, r: f64, weights: &mut [f64; MAX_SUPPORT]) -> i64 {
+        self.0.weights(role, r, weights)
+    }
+
+    fn value(&self, role: Role, r: f64) -> f64 {
+        self.0.value(role, r)
+    }
+}
+
+/// Everywhere in and beyond the box: near walls, across the ends, far outside.
+#[test]
+fn polynomials_and_weights_one_by_one_transfer_alike() {
+    let grids =
+        [Grid::channel(24, 13, 0.1), Grid::channel(4, 4, 0.1), Grid::periodic(19, 30, 0.1), Grid::periodic(4, 5, 0.1)]
+            .map(Result::unwrap);
+    let kernels = [AnyKernel::BSpline3, AnyKernel::BSpline4];
+    for (grid, kernel) in grids.into_iter().flat_map(|grid| kernels.map(|kernel| (grid, kernel))) {
+        let [_, ly] = grid.lengths();
+        let y0 = grid.origin()[1];
+        let beyond = if grid.has_walls() { 0.02 } else { 7.0 };
+        let place = |k: u32| {
+            let k = f64::from(k);
+            // Whole numbers of cells among them.
+            let x =
+                if k % 5.0 == 0.0 { 0.1 * (k - 300.0) } else { 0.0193 * k - 6.0 + 1e5 * grid.lengths()[0] * (k % 3.0) };
+            Vec2::new(x, y0 + 0.5 * ly + (0.5 * ly + beyond) * (0.37 * k).sin())
+        };
+        let positions: Vec<Vec2> = (0..997).map(place).collect();
+        let forces: Vec<Vec2> = positions.iter().map(|r| Vec2::new(r.y.sin(), (3.0 * r.x).cos())).collect();
+        let velocity = noise(grid, 5);
+        let mut fast = Transfer::new(grid, kernel);
+        let mut slow = Transfer::new(grid, OneByOne(kernel));
+        fast.locate(&positions);
+        slow.locate(&positions);
+        let mut densities = [StaggeredField::zeros(grid), StaggeredField::zeros(grid)];
+        fast.spread(&forces, &mut densities[0]);
+        slow.spread(&forces, &mut densities[1]);
+        let size = densities[1].x().iter().chain(densities[1].y()).fold(0.0_f64, |size, value| size.max(value.abs()));
+        let pairs = densities[0].x().iter().zip(densities[1].x()).chain(densities[0].y().iter().zip(densities[1].y()));
+        for (k, (fast, slow)) in pairs.enumerate() {
+            assert!((fast - slow).abs() < 1e-13 * size, "{} {k}: {fast} {slow}", kernel.name());
+        }
+        let mut velocities = [vec![Vec2::zeros(); positions.len()], vec![Vec2::zeros(); positions.len()]];
+        fast.interpolate(&velocity, &mut velocities[0]);
+        slow.interpolate(&velocity, &mut velocities[1]);
+        for (k, (fast, slow)) in velocities[0].iter().zip(&velocities[1]).enumerate() {
+            assert!((fast - slow).norm() < 1e-13, "{} at {:?}: {fast} {slow}", kernel.name(), positions[k]);
+        }
+    }
+}
+
+/// Scenes refuse such markers before; the transfer itself must not fail, and leaves other markers alone.
+#[test]
+fn what_is_not_in_the_box_does_no_harm() {
+    let far = [f64::NAN, -f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.350_891_108_598_784e16, 1e9, -1e300];
+    for grid in [Grid::channel(14, 8, 1.0), Grid::periodic(14, 8, 1.0)].map(Result::unwrap) {
+        for kernel in [AnyKernel::BSpline3, AnyKernel::BSpline4] {
+            let velocity = noise(grid, 3);
+            let good = Vec2::new(0.3, 0.4);
+            let positions: Vec<Vec2> =
+                far.into_iter().flat_map(|r| [Vec2::new(r, 0.1), good, Vec2::new(0.1, r), Vec2::new(r, r)]).collect();
+            let mut transfer = Transfer::new(grid, kernel);
+            let mut alone = vec![Vec2::zeros()];
+            transfer.locate(&[good]);
+            transfer.interpolate(&velocity, &mut alone);
+            transfer.locate(&positions);
+            transfer.spread(&vec![Vec2::new(1.0, 2.0); positions.len()], &mut StaggeredField::zeros(grid));
+            let mut velocities = vec![Vec2::zeros(); positions.len()];
+            transfer.interpolate(&velocity, &mut velocities);
+            for chunk in velocities.chunks(4) {
+                assert!((chunk[1] - alone[0]).norm() < 1e-15, "{}", kernel.name());
+            }
         }
     }
 }

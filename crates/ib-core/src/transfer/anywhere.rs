@@ -4,6 +4,7 @@ use stokes_grid::Grid;
 
 use super::inside::weights;
 use super::lanes::Portable;
+use super::spots::split;
 use crate::{Kernel, MAX_SUPPORT, Role};
 
 /// Weights along one direction, of the points `first, first + 1, ...`.
@@ -49,14 +50,20 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
         self.kernel
     }
 
-    /// Columns and rows of cells.
+    /// Columns of cells.
     #[inline(always)]
-    pub(super) fn cells(&self) -> [usize; 2] {
-        [self.columns, self.rows]
+    pub(super) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// Rows of cells.
+    #[cfg(feature = "rayon")]
+    pub(super) fn rows(&self) -> usize {
+        self.rows
     }
 
     /// Whether there are walls at the bottom and the top.
-    #[inline(always)]
+    #[cfg(feature = "rayon")]
     pub(super) fn has_walls(&self) -> bool {
         self.walls
     }
@@ -89,10 +96,9 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
         });
         let [normal, tangential] = &mut lines;
         if let Some(pieces) = self.kernel.pieces() {
-            // The bits must not depend on which way a marker is treated.
-            let (whole, both) = weights(Portable, pieces, r);
-            for (line, found) in [normal, tangential].into_iter().zip(both) {
-                line.first = i64::from(whole) - 1;
+            let (whole, t) = split(r + pieces.shift);
+            for (line, found) in [normal, tangential].into_iter().zip(weights(Portable, &pieces, t)) {
+                line.first = whole.saturating_sub(1);
                 line.weights[..4].copy_from_slice(&found);
             }
         } else {
@@ -120,7 +126,7 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
                 }
             } else {
                 for (j, column) in columns[..x.len].iter().enumerate() {
-                    line[(first + j) % nx] += weight * column;
+                    line[self.wrapped(first + j)] += weight * column;
                 }
             }
         }
@@ -140,7 +146,7 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
                 }
             } else {
                 for (j, sum) in sums[..x.len].iter_mut().enumerate() {
-                    *sum += weight * line[(first + j) % nx];
+                    *sum += weight * line[self.wrapped(first + j)];
                 }
             }
         }
@@ -155,6 +161,19 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
         // Mostly one period away at most; the division is slow.
         let near = if column < 0 { column + nx } else { column };
         (if (0..nx).contains(&near) { near } else { column.rem_euclid(nx) }) as usize
+    }
+
+    /// The stored column that stands for one from zero on.
+    #[inline]
+    fn wrapped(&self, column: usize) -> usize {
+        let nx = self.columns;
+        if column < nx {
+            column
+        } else if column < 2 * nx {
+            column - nx
+        } else {
+            column % nx
+        }
     }
 
     /// The stored row and the sign that stand for row `row` of the extended field.

@@ -4,7 +4,9 @@ use rayon::prelude::*;
 use stokes_grid::StaggeredField;
 
 use super::anywhere::Anywhere;
-use super::{Band, interpolate as interpolate_some, spread as spread_some};
+use super::spots::{Spot, Spots};
+use super::visits::{BLOCK, visits};
+use super::{Band, Markers, interpolate as interpolate_some, spread as spread_some, stride};
 use crate::{Kernel, MAX_SUPPORT, Vec2};
 
 /// Markers from which several threads pay.
@@ -17,8 +19,8 @@ const BANDS: usize = 16;
 /// stays in the band at the wall.
 const LEAST_ROWS: usize = 40;
 
-/// Rows that no kernel reaches beyond, and one.
-const REACH: i64 = MAX_SUPPORT as i64 / 2 + 1;
+/// Rows that no kernel reaches beyond, and two by which the row of a marker may be off.
+const REACH: i64 = MAX_SUPPORT as i64 / 2 + 2;
 
 /// Markers that one share interpolates.
 const SHARE: usize = 1024;
@@ -42,9 +44,9 @@ impl Bands {
     }
 
     /// Sorts the markers into bands, if there are enough of them.
-    pub(super) fn find<K: Kernel>(&mut self, anywhere: Anywhere<'_, K>, places: &[[f64; 2]]) {
-        let [_, rows] = anywhere.cells();
-        let pays = places.len() >= LEAST_MARKERS && rows >= 2 * LEAST_ROWS && rayon::current_num_threads() > 1;
+    pub(super) fn find<K: Kernel>(&mut self, anywhere: Anywhere<'_, K>, spots: &Spots) {
+        let (rows, all) = (anywhere.rows(), spots.all());
+        let pays = all.len() >= LEAST_MARKERS && rows >= 2 * LEAST_ROWS && rayon::current_num_threads() > 1;
         self.rows = if pays { (rows / BANDS).max(LEAST_ROWS) } else { 0 };
         if !pays {
             return;
@@ -52,14 +54,14 @@ impl Bands {
         let (band_rows, bands) = (self.rows, rows / self.rows);
         let walls = anywhere.has_walls();
         self.lists.resize_with(BANDS * BANDS, Vec::new);
-        let piece = places.len().div_ceil(BANDS);
-        let pieces = places.par_chunks(piece).zip(self.lists.par_chunks_mut(BANDS));
-        pieces.enumerate().for_each(|(index, (places, lists))| {
+        // Of whole blocks, so that markers are visited in the order of one thread.
+        let stride = stride(anywhere.kernel());
+        let piece = all.len().div_ceil(BANDS).next_multiple_of(BLOCK);
+        let pieces = all.par_chunks(piece).zip(self.lists.par_chunks_mut(BANDS));
+        pieces.enumerate().for_each(|(index, (piece_spots, lists))| {
             lists.iter_mut().for_each(Vec::clear);
-            for (k, place) in places.iter().enumerate() {
-                let marker = (index * piece + k) as u32;
-                // Rounded towards zero, which is one row off at most; what is not finite lands somewhere.
-                let row = place[1] as i64;
+            for k in visits(piece_spots.len(), stride) {
+                let (marker, row) = ((index * piece + k) as u32, spots.row(&piece_spots[k]));
                 let (first, last) = (row.saturating_sub(REACH), row.saturating_add(REACH));
                 // Beyond a wall a stencil is folded back by less than a band.
                 let band = |row: i64| {
@@ -86,22 +88,28 @@ impl Bands {
     pub(super) fn spread<K: Kernel>(
         &self,
         anywhere: Anywhere<'_, K>,
-        places: &[[f64; 2]],
+        spots: &Spots,
         forces: &[Vec2],
         scale: f64,
         components: [&mut [f64]; 2],
     ) {
-        let bands = anywhere.cells()[1] / self.rows;
+        let bands = anywhere.rows() / self.rows;
         let work = |band: usize, [fx, fy]: [&mut [f64]; 2]| {
+            let (mut near, mut pushing) = ([Spot::NONE; BLOCK], [Vec2::zeros(); BLOCK]);
             for lists in self.lists.chunks_exact(BANDS) {
-                let markers = lists[band].iter().filter_map(|&marker| {
-                    let marker = marker as usize;
-                    Some((places.get(marker)?, forces.get(marker)?))
-                });
-                spread_some(anywhere, scale, Band { markers, first_row: band * self.rows, fx: &mut *fx, fy: &mut *fy });
+                for some in lists[band].chunks(BLOCK) {
+                    for (k, marker) in some.iter().enumerate() {
+                        (near[k], pushing[k]) = (spots.all()[*marker as usize], forces[*marker as usize]);
+                    }
+                    let (near, pushing) = (&near[..some.len()], &pushing[..some.len()]);
+                    // The list is in the order in which they are added.
+                    let markers = Markers { spots: near, forces: pushing, stride: 1, elsewhere: spots.elsewhere() };
+                    let band = Band { first_row: band * self.rows, fx: &mut *fx, fy: &mut *fy };
+                    spread_some(anywhere, scale, markers, band);
+                }
             }
         };
-        divide(0, bands, self.rows * anywhere.cells()[0], components, &work);
+        divide(0, bands, self.rows * anywhere.columns(), components, &work);
     }
 }
 
@@ -129,14 +137,15 @@ fn divide(
 /// Interpolation, marker by marker.
 pub(super) fn interpolate<K: Kernel>(
     anywhere: Anywhere<'_, K>,
-    places: &[[f64; 2]],
+    spots: &[Spot],
+    elsewhere: &[[f64; 2]],
     velocity: &StaggeredField,
     velocities: &mut [Vec2],
 ) {
-    places
+    spots
         .par_chunks(SHARE)
         .zip(velocities.par_chunks_mut(SHARE))
-        .for_each(|(places, velocities)| interpolate_some(anywhere, places, velocity, velocities));
+        .for_each(|(spots, velocities)| interpolate_some(anywhere, spots, elsewhere, velocity, velocities));
 }
 
 #[cfg(test)]

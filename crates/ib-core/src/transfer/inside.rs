@@ -2,121 +2,165 @@
 
 use super::anywhere::Anywhere;
 use super::lanes::{Lanes, LanesTask};
+use super::spots::{Edge, Spot};
+use super::visits::BLOCK;
+use super::{Band, Markers};
+use crate::kernel::CUBIC_QUADRATIC;
 use crate::{Kernel, Pieces, Vec2};
 
-/// The smallest number above which doubles have no fraction, times one and a half to leave room for negative ones.
-const WHOLE: f64 = 6_755_399_441_055_744.0;
-
-/// The whole part of `x` and the rest in [0, 1], without the library call that `floor` is on machines of old. Below 2^31
-/// in size; at a whole number the rest may be one instead of zero, where continuous weights agree.
-#[inline(always)]
-fn split(x: f64) -> (i32, f64) {
-    let shifted = (x - 0.5) + WHOLE;
-    (shifted.to_bits() as u32 as i32, x - (shifted - WHOLE))
+/// Where the coefficients of a kernel come from.
+pub(super) trait Polynomials: Copy {
+    /// They.
+    fn pieces(&self) -> &Pieces;
 }
 
-/// The whole part of a coordinate and the weights of `pieces` there, in the normal and the tangential role.
-#[inline(always)]
-pub(super) fn weights<L: Lanes>(l: L, pieces: &Pieces, r: f64) -> (i32, [L::Four; 2]) {
-    let (whole, t) = split(r + pieces.shift);
-    let t = l.splat(t);
-    let [c0, c1, c2, c3] = pieces.normal;
-    let square = l.mul(t, t);
-    // Not by Horner's rule: what can be done side by side is done sooner.
-    let low = l.add(l.load(c0), l.mul(t, l.load(c1)));
-    let high = l.add(l.load(c2), l.mul(t, l.load(c3)));
-    let normal = l.add(low, l.mul(square, high));
-    let [c0, c1, c2] = pieces.tangential;
-    let tangential = l.add(l.add(l.load(c0), l.mul(t, l.load(c1))), l.mul(square, l.load(c2)));
-    (whole, [normal, tangential])
-}
-
-/// A stencil within the stored rows and columns: where it begins, and its weights by row for both components.
-struct Stencil {
-    base: usize,
-    rows: [[f64; 4]; 2],
-}
-
-/// The stencil of a marker, with the rows beyond a wall folded back; nothing for the few that reach across the ends of
-/// the box.
-#[inline(always)]
-fn stencil<K: Kernel>(anywhere: &Anywhere<'_, K>, wholes: [i32; 2], rows: [[f64; 4]; 2]) -> Option<Stencil> {
-    let [columns, count] = anywhere.cells();
-    // What is negative becomes large.
-    let [i, j] = wholes.map(|whole| (whole - 1) as u32 as usize);
-    if i >= columns.saturating_sub(3) {
-        None
-    } else if j < count.saturating_sub(3) {
-        Some(Stencil { base: j * columns + i, rows })
-    } else {
-        let (row, rows) = folded(wholes[1] - 1, count, anywhere.has_walls(), rows)?;
-        Some(Stencil { base: row * columns + i, rows })
+impl Polynomials for &Pieces {
+    #[inline(always)]
+    fn pieces(&self) -> &Pieces {
+        self
     }
 }
 
-/// The first row and the weights of a stencil that begins one row below the bottom, or ends one row above the top, of a
-/// channel: the x component is odd about a wall, the y component even.
+/// Those of the default kernel, as constants, which saves reading them for every marker.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CubicQuadratics;
+
+impl Polynomials for CubicQuadratics {
+    #[inline(always)]
+    fn pieces(&self) -> &Pieces {
+        const { &CUBIC_QUADRATIC }
+    }
+}
+
+/// The weights of `pieces` at the fraction `t` of a coordinate, in the normal and the tangential role.
+#[inline(always)]
+pub(super) fn weights<L: Lanes>(l: L, pieces: &impl Polynomials, t: f64) -> [L::Four; 2] {
+    let t = l.splat(t);
+    let Pieces { normal, tangential, .. } = pieces.pieces();
+    let [c0, c1, c2, c3] = *normal;
+    let square = l.mul(t, t);
+    // Not by Horner's rule: what can be done side by side is done sooner.
+    let low = l.mul_add(t, l.load(c1), l.load(c0));
+    let high = l.mul_add(t, l.load(c3), l.load(c2));
+    let normal = l.mul_add(square, high, low);
+    let [c0, c1, c2] = *tangential;
+    let tangential = l.mul_add(square, l.load(c2), l.mul_add(t, l.load(c1), l.load(c0)));
+    [normal, tangential]
+}
+
+/// The weights of the window of a marker as numbers, each for both components: of the rows, of the columns, and of the columns of a
+/// second window at the other end of the same rows.
+#[derive(Debug, Clone, Copy)]
+struct Window {
+    rows: [[f64; 4]; 2],
+    columns: [[f64; 4]; 2],
+    beyond: [[f64; 4]; 2],
+    /// Whether there is a second window.
+    wraps: bool,
+}
+
+/// The weights of the stencil of a marker.
+#[inline(always)]
+fn window<L: Lanes>(l: L, pieces: &impl Polynomials, spot: &Spot) -> Window {
+    let [x_columns, y_columns] = weights(l, pieces, spot.fractions[0]);
+    let [y_rows, x_rows] = weights(l, pieces, spot.fractions[1]);
+    Window {
+        rows: [l.store(x_rows), l.store(y_rows)],
+        columns: [l.store(x_columns), l.store(y_columns)],
+        beyond: [[0.0; 4]; 2],
+        wraps: false,
+    }
+}
+
+/// The weights of the windows of a marker at an edge of the grid from those of its stencil. At a wall the x component is odd, the
+/// y component even.
 #[inline(never)]
-fn folded(row: i32, count: usize, walls: bool, [u, v]: [[f64; 4]; 2]) -> Option<(usize, [[f64; 4]; 2])> {
-    if !walls || count < 4 {
-        None
-    } else if row == -1 {
-        Some((0, [[u[1] - u[0], u[2], 0.0, 0.0], [v[1], v[2] + v[0], v[3], 0.0]]))
-    } else if row == count as i32 - 2 {
-        Some((count - 3, [[0.0, u[0], u[1] - u[2], 0.0], [0.0, v[0], v[1] + v[3], v[2]]]))
-    } else if row == count as i32 - 3 {
-        Some((count - 3, [u, v]))
-    } else {
-        None
+fn at_edge(edge: Edge, window: &mut Window) {
+    let [u, v] = window.rows;
+    if edge.below {
+        window.rows = [[u[1] - u[0], u[2], 0.0, 0.0], [v[1], v[2] + v[0], v[3], 0.0]];
+    } else if edge.above {
+        window.rows = [[0.0, u[0], u[1] - u[2], 0.0], [0.0, v[0], v[1] + v[3], v[2]]];
+    }
+    if edge.wrapped > 0 {
+        window.wraps = true;
+        for (columns, beyond) in window.columns.iter_mut().zip(&mut window.beyond) {
+            let [a, b, c, d] = *columns;
+            (*columns, *beyond) = match edge.wrapped {
+                1 => ([0.0, 0.0, 0.0, a], [b, c, d, 0.0]),
+                2 => ([0.0, 0.0, a, b], [c, d, 0.0, 0.0]),
+                _ => ([0.0, a, b, c], [d, 0.0, 0.0, 0.0]),
+            };
+        }
     }
 }
 
 /// Spreading of forces to both components, of all rows or those of a band.
 #[derive(Debug)]
-pub(super) struct Spreading<'a, K, M> {
+pub(super) struct Spreading<'a, K, P> {
     pub(super) anywhere: Anywhere<'a, K>,
-    pub(super) pieces: &'static Pieces,
+    pub(super) pieces: P,
     pub(super) scale: f64,
-    /// Places and forces of the markers, in the order in which they are added.
-    pub(super) markers: M,
-    /// The first row that `fx` and `fy` have.
-    pub(super) first_row: usize,
-    pub(super) fx: &'a mut [f64],
-    pub(super) fy: &'a mut [f64],
+    pub(super) markers: Markers<'a>,
+    pub(super) band: Band<'a>,
 }
 
-impl<'a, K: Kernel, M: Iterator<Item = (&'a [f64; 2], &'a Vec2)>> LanesTask for Spreading<'_, K, M> {
+impl<K: Kernel, P: Polynomials> LanesTask for Spreading<'_, K, P> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let Self { anywhere, pieces, scale, markers, first_row, fx, fy } = self;
+        let Self { anywhere, pieces, scale, markers, band } = self;
+        let Markers { spots, forces, stride, elsewhere } = markers;
+        let Band { first_row, fx, fy } = band;
         // Known to be four or more, the first four of a row need no check.
-        let nx = anywhere.cells()[0].max(4);
-        let (offset, end) = (first_row * nx, fx.len().min(fy.len()));
-        for (place, force) in markers {
-            let force = [scale * force.x, scale * force.y];
-            let (column, [normal_x, tangential_x]) = weights(l, pieces, place[0]);
-            let (row, [normal_y, tangential_y]) = weights(l, pieces, place[1]);
-            let columns = [l.mul(l.splat(force[0]), normal_x), l.mul(l.splat(force[1]), tangential_x)];
-            let rows = [l.store(tangential_y), l.store(normal_y)];
-            let stencil = stencil(&anywhere, [column, row], rows);
-            if let Some(Stencil { base, rows }) = stencil {
-                // What begins below the band is far beyond its end when the subtraction wraps.
-                let base = base.wrapping_sub(offset);
-                if base < end && base + 3 * nx < fy.len() {
-                    add_rows::<L, 3>(l, &mut fx[base..], nx, columns[0], rows[0]);
-                    add_rows::<L, 4>(l, &mut fy[base..], nx, columns[1], rows[1]);
-                } else {
-                    for (r, weight) in rows[0][..3].iter().enumerate() {
-                        let start = base.wrapping_add(r * nx);
-                        add_row(l, fx.get_mut(start..).unwrap_or_default(), columns[0], *weight);
-                    }
-                    for (r, weight) in rows[1].iter().enumerate() {
-                        let start = base.wrapping_add(r * nx);
-                        add_row(l, fy.get_mut(start..).unwrap_or_default(), columns[1], *weight);
+        let nx = anywhere.columns().max(4);
+        let offset = first_row * nx;
+        // Windows that begin before this are within the band.
+        let end = fx.len().saturating_sub(2 * nx + 3).min(fy.len().saturating_sub(3 * nx + 3));
+        for (spots, forces) in spots.chunks(BLOCK).zip(forces.chunks(BLOCK)) {
+            let count = spots.len().min(forces.len());
+            let (spots, forces) = (&spots[..count], &forces[..count]);
+            for first in 0..stride.min(count) {
+                let mut next = first;
+                while next < count {
+                    let (spot, force) = (&spots[next], &forces[next]);
+                    next += stride;
+                    let force = [scale * force.x, scale * force.y];
+                    // What begins below the band is far beyond its end when the subtraction wraps.
+                    let base = (spot.base as usize).wrapping_sub(offset);
+                    if spot.kind == Spot::WITHIN && base < end {
+                        let [normal, tangential] = weights(l, &pieces, spot.fractions[0]);
+                        let [y_rows, x_rows] = weights(l, &pieces, spot.fractions[1]);
+                        let (x_columns, y_columns) =
+                            (l.mul(l.splat(force[0]), normal), l.mul(l.splat(force[1]), tangential));
+                        add_rows::<L, 3>(l, &mut fx[base..], nx, x_columns, l.store(x_rows));
+                        add_rows::<L, 4>(l, &mut fy[base..], nx, y_columns, l.store(y_rows));
+                    } else if spot.base != Spot::ELSEWHERE {
+                        let mut window = window(l, &pieces, spot);
+                        at_edge(spot.edge(), &mut window);
+                        let force = force.map(|force| l.splat(force));
+                        add_window(l, &window, force, base, nx, [&mut *fx, &mut *fy]);
+                    } else if let Some(place) = elsewhere.get(spot.kind as usize) {
+                        anywhere.add(*place, force, first_row, fx, fy);
                     }
                 }
-            } else {
-                anywhere.add(*place, force, first_row, fx, fy);
+            }
+        }
+    }
+}
+
+/// Adds the rows of a window or two that are there.
+#[inline(always)]
+fn add_window<L: Lanes>(l: L, window: &Window, force: [L::Four; 2], base: usize, nx: usize, fields: [&mut [f64]; 2]) {
+    for ((k, field), force) in fields.into_iter().enumerate().zip(force) {
+        // From the last four columns to the first.
+        for (base, columns) in [(base, window.columns[k]), (base.wrapping_add(4).wrapping_sub(nx), window.beyond[k])] {
+            let columns = l.mul(force, l.load(columns));
+            for (r, weight) in window.rows[k][..3 + k].iter().enumerate() {
+                let row = field.get_mut(base.wrapping_add(r * nx)..).unwrap_or_default();
+                add_row(l, row, columns, *weight);
+            }
+            if !window.wraps {
+                break;
             }
         }
     }
@@ -126,7 +170,7 @@ impl<'a, K: Kernel, M: Iterator<Item = (&'a [f64; 2], &'a Vec2)>> LanesTask for 
 #[inline(always)]
 fn add_row<L: Lanes>(l: L, row: &mut [f64], columns: L::Four, weight: f64) {
     if let Some(cells) = row.first_chunk_mut::<4>() {
-        *cells = l.store(l.add(l.load(*cells), l.mul(l.splat(weight), columns)));
+        *cells = l.store(l.mul_add(l.splat(weight), columns, l.load(*cells)));
     }
 }
 
@@ -145,57 +189,79 @@ fn add_rows<L: Lanes, const N: usize>(l: L, window: &mut [f64], nx: usize, colum
 
 /// Interpolation of both components.
 #[derive(Debug)]
-pub(super) struct Interpolation<'a, K> {
+pub(super) struct Interpolation<'a, K, P> {
     pub(super) anywhere: Anywhere<'a, K>,
-    pub(super) pieces: &'static Pieces,
-    pub(super) places: &'a [[f64; 2]],
+    pub(super) pieces: P,
+    /// Those of the markers to interpolate at.
+    pub(super) spots: &'a [Spot],
+    pub(super) elsewhere: &'a [[f64; 2]],
     pub(super) u: &'a [f64],
     pub(super) v: &'a [f64],
     pub(super) velocities: &'a mut [Vec2],
 }
 
-impl<K: Kernel> LanesTask for Interpolation<'_, K> {
+impl<K: Kernel, P: Polynomials> LanesTask for Interpolation<'_, K, P> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let Self { anywhere, pieces, places, u, v, velocities } = self;
-        let nx = anywhere.cells()[0].max(4);
-        for (place, out) in places.iter().zip(velocities) {
-            let (column, [normal_x, tangential_x]) = weights(l, pieces, place[0]);
-            let (row, [normal_y, tangential_y]) = weights(l, pieces, place[1]);
-            let rows = [l.store(tangential_y), l.store(normal_y)];
-            let Some(Stencil { base, rows }) = stencil(&anywhere, [column, row], rows) else {
+        let Self { anywhere, pieces, spots, elsewhere, u, v, velocities } = self;
+        let nx = anywhere.columns();
+        // Both fields from each row of a window on, all of one length: one check for all of them.
+        let length = u.len().saturating_sub(2 * nx).min(v.len().saturating_sub(3 * nx));
+        let [u0, u1, u2] = [from(u, 0, length), from(u, nx, length), from(u, 2 * nx, length)];
+        let [v0, v1, v2] = [from(v, 0, length), from(v, nx, length), from(v, 2 * nx, length)];
+        let v3 = from(v, 3 * nx, length);
+        let rows = [u0, u1, u2, v0, v1, v2, v3];
+        for (spot, out) in spots.iter().zip(velocities) {
+            let base = spot.base as usize;
+            if spot.kind == Spot::WITHIN && base + 4 <= length {
+                let [x_columns, y_columns] = weights(l, &pieces, spot.fractions[0]);
+                let [y_rows, x_rows] = weights(l, &pieces, spot.fractions[1]);
+                let (x_rows, y_rows) = (l.store(x_rows), l.store(y_rows));
+                let x = l.mul(l.splat(x_rows[0]), cells(l, u0, base));
+                let x = l.mul_add(l.splat(x_rows[1]), cells(l, u1, base), x);
+                let x = l.mul_add(l.splat(x_rows[2]), cells(l, u2, base), x);
+                let y = l.mul(l.splat(y_rows[0]), cells(l, v0, base));
+                let y = l.mul_add(l.splat(y_rows[1]), cells(l, v1, base), y);
+                let y = l.mul_add(l.splat(y_rows[2]), cells(l, v2, base), y);
+                let y = l.mul_add(l.splat(y_rows[3]), cells(l, v3, base), y);
+                *out = l.sums(l.mul(x, x_columns), l.mul(y, y_columns)).into();
+            } else if spot.base != Spot::ELSEWHERE {
+                let mut window = window(l, &pieces, spot);
+                at_edge(spot.edge(), &mut window);
+                *out = gather(l, &rows, base, &window.rows, &window.columns);
+                if window.wraps {
+                    // From the last four columns to the first.
+                    *out += gather(l, &rows, (base + 4).wrapping_sub(nx), &window.rows, &window.beyond);
+                }
+            } else if let Some(place) = elsewhere.get(spot.kind as usize) {
                 *out = anywhere.gather(*place, u, v).into();
-                continue;
-            };
-            let x = gather_rows::<L, 3>(l, &u[base..], nx, rows[0]);
-            let y = gather_rows::<L, 4>(l, &v[base..], nx, rows[1]);
-            *out = Vec2::new(sum(l.store(l.mul(x, normal_x))), sum(l.store(l.mul(y, tangential_x))));
+            }
         }
     }
 }
 
-/// `total + weight row[..4]`.
+/// The velocity from three rows of the x component and four of the y component.
 #[inline(always)]
-fn gather_row<L: Lanes>(l: L, total: L::Four, row: &[f64], weight: f64) -> L::Four {
-    row.first_chunk::<4>().map_or(total, |cells| l.add(total, l.mul(l.splat(weight), l.load(*cells))))
-}
-
-/// `sum over r < N of rows[r] window[r][..4]`, of a window whose last row may end there.
-#[inline(always)]
-fn gather_rows<L: Lanes, const N: usize>(l: L, window: &[f64], nx: usize, rows: [f64; 4]) -> L::Four {
-    let mut total = l.splat(0.0);
-    let mut rest = window;
-    for weight in &rows[..N - 1] {
-        let (row, below) = rest.split_at(nx);
-        total = gather_row(l, total, row, *weight);
-        rest = below;
+fn gather<L: Lanes>(l: L, fields: &[&[f64]; 7], base: usize, rows: &[[f64; 4]; 2], columns: &[[f64; 4]; 2]) -> Vec2 {
+    let mut totals = [l.splat(0.0); 2];
+    for (k, field) in fields.iter().enumerate() {
+        let (component, row) = if k < 3 { (0, k) } else { (1, k - 3) };
+        totals[component] = l.mul_add(l.splat(rows[component][row]), cells(l, field, base), totals[component]);
     }
-    gather_row(l, total, rest, rows[N - 1])
+    let [x, y] = totals;
+    l.sums(l.mul(x, l.load(columns[0])), l.mul(y, l.load(columns[1]))).into()
 }
 
+/// `length` numbers of a field that begin at `start`, or nearer to its beginning if there are not enough.
 #[inline(always)]
-fn sum([a, b, c, d]: [f64; 4]) -> f64 {
-    (a + c) + (b + d)
+fn from(field: &[f64], start: usize, length: usize) -> &[f64] {
+    &field[start.min(field.len() - length)..][..length]
+}
+
+/// The four numbers from `base` on.
+#[inline(always)]
+fn cells<L: Lanes>(l: L, field: &[f64], base: usize) -> L::Four {
+    field[base..base + 4].first_chunk().map_or(l.splat(0.0), |cells| l.load(*cells))
 }
 
 #[cfg(test)]
@@ -205,30 +271,35 @@ mod tests {
     use super::*;
     use crate::CubicQuadratic;
     use crate::transfer::lanes::{Portable, dispatch};
+    use crate::transfer::spots::Spots;
 
     /// On a machine without wide instructions both are the same.
     #[test]
-    fn all_instructions_give_the_same_bits() {
+    fn all_instructions_agree() {
         let grid = Grid::channel(20, 16, 0.1).unwrap();
         let kernel = CubicQuadratic::default();
         let anywhere = Anywhere::new(&kernel, &grid);
-        let pieces = kernel.pieces().unwrap();
-        let places: Vec<[f64; 2]> =
-            (0..500).map(|k| f64::from(k) * 0.731).map(|k| [k % 20.0, (k * 0.39) % 16.0]).collect();
-        let forces: Vec<Vec2> = places.iter().map(|[x, y]| Vec2::new(x.sin(), (y * 1.7).cos())).collect();
+        let positions: Vec<Vec2> =
+            (0..500).map(|k| f64::from(k) * 0.0731).map(|k| Vec2::new(k % 2.0 - 1.0, (k * 0.39) % 1.6 - 0.8)).collect();
+        let forces: Vec<Vec2> = positions.iter().map(|r| Vec2::new(r.x.sin(), (r.y * 1.7).cos())).collect();
+        let mut found = Spots::new(&grid);
+        found.find(kernel.pieces(), &positions);
+        let (spots, elsewhere) = (found.all(), found.elsewhere());
         let cells = 20 * 17;
         let both = |wide: bool| {
             let (mut fx, mut fy) = (vec![0.0; cells - 20], vec![0.0; cells]);
-            let markers = places.iter().zip(&forces);
-            let (fx_mut, fy_mut) = (&mut fx[..], &mut fy[..]);
-            let task = Spreading { anywhere, pieces, scale: 3.0, markers, first_row: 0, fx: fx_mut, fy: fy_mut };
+            let markers = Markers { spots, forces: &forces, stride: 8, elsewhere };
+            let band = Band { first_row: 0, fx: &mut fx, fy: &mut fy };
+            let task = Spreading { anywhere, pieces: CubicQuadratics, scale: 3.0, markers, band };
             if wide {
                 dispatch(task);
             } else {
                 task.run(Portable);
             }
-            let mut velocities = vec![Vec2::zeros(); places.len()];
-            let task = Interpolation { anywhere, pieces, places: &places, u: &fx, v: &fy, velocities: &mut velocities };
+            let mut velocities = vec![Vec2::zeros(); positions.len()];
+            let (u, v, velocities_mut) = (&fx[..], &fy[..], &mut velocities[..]);
+            let pieces = CubicQuadratics;
+            let task = Interpolation { anywhere, pieces, spots, elsewhere, u, v, velocities: velocities_mut };
             if wide {
                 dispatch(task);
             } else {
@@ -237,7 +308,15 @@ mod tests {
             (fx, fy, velocities)
         };
         let (wide, plain) = (both(true), both(false));
-        assert!(plain.0.iter().any(|value| *value != 0.0));
-        assert_eq!(wide, plain);
+        let size = plain.0.iter().chain(&plain.1).fold(0.0_f64, |size, value| size.max(value.abs()));
+        assert!(size > 1.0);
+        // A few roundings of the largest of the sums on the way.
+        let close = |a: f64, b: f64| (a - b).abs() < 16.0 * f64::EPSILON * size;
+        let numbers = |(fx, fy, velocities): (Vec<f64>, Vec<f64>, Vec<Vec2>)| {
+            fx.into_iter().chain(fy).chain(velocities.into_iter().flat_map(|u| [u.x, u.y])).collect::<Vec<_>>()
+        };
+        for (wide, plain) in numbers(wide).into_iter().zip(numbers(plain)) {
+            assert!(close(wide, plain), "{wide} {plain}");
+        }
     }
 }

@@ -1,7 +1,6 @@
 //! Four numbers at once, with the instructions of the machine.
 
-/// Arithmetic on four numbers. Every implementation rounds each operation once, so that all give the same bits: no fused
-/// multiply-add.
+/// Arithmetic on four numbers, of which each operation is rounded once. Only [`Lanes::mul_add`] differs between machines.
 pub(super) trait Lanes: Copy {
     /// The four numbers.
     type Four: Copy;
@@ -20,6 +19,12 @@ pub(super) trait Lanes: Copy {
 
     /// `a b`, each with each.
     fn mul(self, a: Self::Four, b: Self::Four) -> Self::Four;
+
+    /// `a b + c`, each with each, rounded once where the machine has an instruction for it.
+    fn mul_add(self, a: Self::Four, b: Self::Four, c: Self::Four) -> Self::Four;
+
+    /// The sums of the numbers of a and of those of b: first with second and third with fourth, then the two.
+    fn sums(self, a: Self::Four, b: Self::Four) -> [f64; 2];
 }
 
 /// What every machine has.
@@ -53,6 +58,16 @@ impl Lanes for Portable {
     fn mul(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
         [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
     }
+
+    #[inline(always)]
+    fn mul_add(self, a: [f64; 4], b: [f64; 4], c: [f64; 4]) -> [f64; 4] {
+        self.add(self.mul(a, b), c)
+    }
+
+    #[inline(always)]
+    fn sums(self, a: [f64; 4], b: [f64; 4]) -> [f64; 2] {
+        [a, b].map(|[first, second, third, fourth]| (first + second) + (third + fourth))
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -82,6 +97,19 @@ impl Lanes for pulp::x86::V3 {
     #[inline(always)]
     fn mul(self, a: pulp::f64x4, b: pulp::f64x4) -> pulp::f64x4 {
         self.mul_f64x4(a, b)
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: pulp::f64x4, b: pulp::f64x4, c: pulp::f64x4) -> pulp::f64x4 {
+        self.mul_add_f64x4(a, b, c)
+    }
+
+    #[inline(always)]
+    fn sums(self, a: pulp::f64x4, b: pulp::f64x4) -> [f64; 2] {
+        let (a, b) = (pulp::cast(a), pulp::cast(b));
+        let (even, odd) = (self.avx._mm256_unpacklo_pd(a, b), self.avx._mm256_unpackhi_pd(a, b));
+        let [a_low, b_low, a_high, b_high]: [f64; 4] = pulp::cast(self.avx._mm256_add_pd(even, odd));
+        [a_low + a_high, b_low + b_high]
     }
 }
 
