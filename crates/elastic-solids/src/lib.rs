@@ -45,6 +45,7 @@
 //! # Ok::<(), SolidError>(())
 //! ```
 
+mod boundary;
 mod channel;
 mod channel_shapes;
 mod channel_width;
@@ -63,11 +64,13 @@ mod mooney_rivlin;
 mod neo_hookean;
 mod observables;
 mod outline;
+mod point_set;
 mod quality;
 mod region;
 mod relaxation;
 mod rounded_kink;
 mod saint_venant_kirchhoff;
+mod seeds;
 mod segments;
 mod solid;
 mod solid_body;
