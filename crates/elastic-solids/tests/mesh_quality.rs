@@ -1,8 +1,10 @@
 //! How even the meshes of the ready shapes are.
 
 use elastic_solids::{
-    BranchingChannel, Channel, Constriction, MeshQuality, Mesher, Ratchet, SinusoidalChannel, TriangleMesh, Valve,
+    BranchingChannel, Channel, Constriction, MeshQuality, Mesher, Outline, Ratchet, SinusoidalChannel, TriangleMesh,
+    Valve,
 };
+use ib_core::Vec2;
 
 const PERIOD: f64 = 12.0;
 const WIDTH: f64 = 2.0;
@@ -89,4 +91,63 @@ fn an_island_is_even_as_far_as_it_can_be() {
     }
     let order = (deviations[0] / deviations[2]).log2();
     assert!((order - 0.5).abs() < 0.2, "{deviations:?}");
+}
+
+/// Seeds that are turned: no part of a wall is a lattice.
+#[test]
+fn turned_seeds_are_even() {
+    for (spacing, bound) in [(0.1, 0.045), (0.05, 0.03)] {
+        let mesher = Mesher::new(spacing).unwrap().turned(0.2).unwrap();
+        let walls = Constriction::thesis().channel().unwrap().walls(-2.5, 2.5, &mesher).unwrap();
+        let quality = walls.lower.quality();
+        println!("constriction, turned seeds, spacing {spacing}: {quality}");
+        assert!(quality.edge_deviation <= bound && quality.smallest_angle > 35.0, "{quality}");
+    }
+}
+
+/// Of a wall, most of the variance of the edges is that of the edges at dislocations: at points next to one that has not
+/// six neighbours (four on the boundary). And there is about one dislocation for every row that ends.
+#[test]
+fn what_is_left_is_at_dislocations() {
+    let waves = SinusoidalChannel { period: PERIOD, width: WIDTH, amplitude: 0.3, waves: 2, phase: 0.0 };
+    let wall = waves.channel().unwrap().walls(-2.5, 2.5, &Mesher::new(0.1).unwrap()).unwrap().lower;
+    let mut neighbours = vec![0_usize; wall.points().len()];
+    let mut regular = vec![6; wall.points().len()];
+    wall.boundary_loops().iter().flat_map(|line| &line.points).for_each(|&point| regular[point] = 4);
+    wall.edges().iter().flat_map(|edge| edge.points).for_each(|point| neighbours[point] += 1);
+    let odd: Vec<bool> = neighbours.iter().zip(&regular).map(|(found, regular)| found != regular).collect();
+    let near: Vec<bool> = {
+        let mut near = odd.clone();
+        for edge in wall.edges() {
+            let [a, b] = edge.points;
+            near[a] |= odd[b];
+            near[b] |= odd[a];
+        }
+        near
+    };
+    let mean = wall.quality().mean_edge;
+    let (mut all, mut close) = (0.0, 0.0);
+    for edge in wall.edges() {
+        let square = (wall.edge_vector(edge, wall.points()).norm() / mean - 1.0).powi(2);
+        all += square;
+        if edge.points.iter().all(|&point| near[point]) {
+            close += square;
+        }
+    }
+    let dislocations = neighbours.iter().zip(&regular).filter(|(found, regular)| found < regular).count();
+    // Two waves rise and fall by 0.6 each time.
+    let rows = 4.0 * 0.6 / (0.1 * 0.75_f64.sqrt());
+    println!("{:.0} % of the variance, {dislocations} dislocations, {rows:.0} rows end", 100.0 * close / all);
+    assert!(close > 0.5 * all, "{close} of {all}");
+    assert!((dislocations as f64 / rows - 1.0).abs() < 0.2, "{dislocations} and {rows}");
+}
+
+/// A disc has the six disclinations of any closed boundary, without room to part them.
+#[test]
+fn a_disc_is_less_even() {
+    for (spacing, bound) in [(0.1, 0.055), (0.05, 0.04)] {
+        let quality = Outline::circle(Vec2::zeros(), 1.0).unwrap().mesh(spacing).unwrap().quality();
+        println!("disc, spacing {spacing}: {quality}");
+        assert!(quality.edge_deviation <= bound && quality.smallest_angle > 35.0, "{quality}");
+    }
 }

@@ -1,10 +1,10 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
 use motile::elastic_solids::{
-    ElasticForces, ElasticSolid, EnergyDensity, ForceBalance, Hyperelastic, InnerPoints, Mat2, MeasuredModuli, Mesher,
-    MooneyRivlin, NeoHookean, Outline, Region, SaintVenantKirchhoff, Solid, SolidError, SpringLattice, Springs,
-    TriangleMesh, equilateral_block, equilateral_strip, fitted_strip, force_balance, measured_moduli, patch_residual,
-    stress_error,
+    DeformationGradient, ElasticForces, ElasticSolid, EnergyDensity, ForceBalance, Hyperelastic, InnerPoints, Mat2,
+    MeasuredModuli, Mesher, MooneyRivlin, NeoHookean, Outline, Region, SaintVenantKirchhoff, Solid, SolidError,
+    SpringLattice, Springs, TriangleMesh, equilateral_block, equilateral_strip, fitted_strip, force_balance,
+    measured_moduli, patch_residual, stress_error,
 };
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, MobilityDeficit, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid};
@@ -16,11 +16,14 @@ pub const SHEAR: f64 = 1.3;
 /// Bulk modulus of all materials that are no springs (force per length).
 pub const BULK: f64 = 2.9;
 
-/// All energies, with their names.
+/// Things of one kind, each with its name.
+pub type Named<T> = Vec<(&'static str, Box<T>)>;
+
+/// All energies.
 ///
 /// # Errors
-/// None that can occur.
-pub fn energies() -> Result<Vec<(&'static str, Box<dyn EnergyDensity>)>, StudyError> {
+/// Moduli that are refused.
+pub fn energies() -> Result<Named<dyn EnergyDensity>, SolidError> {
     Ok(vec![
         ("neo-Hookean", Box::new(NeoHookean::new(SHEAR, BULK)?)),
         ("Saint Venant-Kirchhoff", Box::new(SaintVenantKirchhoff::new(SHEAR, BULK)?)),
@@ -34,15 +37,15 @@ pub fn energies() -> Result<Vec<(&'static str, Box<dyn EnergyDensity>)>, StudyEr
 /// smaller, the shear modulus. Over deformations with principal stretches from 0.5 to 2 between rotations.
 ///
 /// # Errors
-/// None that can occur.
-pub fn largest_stress_error(energy: &dyn EnergyDensity) -> Result<f64, StudyError> {
+/// Those of [`stress_error`].
+pub fn largest_stress_error(energy: &dyn EnergyDensity) -> Result<f64, SolidError> {
     let rotation = |angle: f64| Mat2::new(angle.cos(), -angle.sin(), angle.sin(), angle.cos());
     let mut largest = 0.0_f64;
     for first in [0.5, 0.8, 1.0, 1.3, 2.0] {
         for second in [0.5, 0.9, 1.1, 1.6, 2.0] {
             for (before, after) in [(0.0, 0.0), (0.7, -0.4), (2.1, 1.3), (-1.2, 2.9)] {
                 let deformation = rotation(after) * Mat2::new(first, 0.0, 0.0, second) * rotation(before);
-                let gradient = motile::elastic_solids::DeformationGradient::new(deformation)?;
+                let gradient = DeformationGradient::new(deformation)?;
                 let scale = energy.stress(&gradient).norm().max(SHEAR);
                 largest = largest.max(stress_error(energy, deformation, 5e-6)? / scale);
             }
@@ -51,11 +54,11 @@ pub fn largest_stress_error(energy: &dyn EnergyDensity) -> Result<f64, StudyErro
     Ok(largest)
 }
 
-/// All laws of forces on a mesh, with their names.
+/// All laws of forces on a mesh.
 ///
 /// # Errors
-/// None that can occur.
-pub fn laws(mesh: &TriangleMesh) -> Result<Vec<(&'static str, Box<dyn ElasticForces>)>, StudyError> {
+/// Moduli that are refused.
+pub fn laws(mesh: &TriangleMesh) -> Result<Named<dyn ElasticForces>, SolidError> {
     Ok(vec![
         ("springs", Box::new(Springs::new(mesh, SHEAR)?)),
         ("neo-Hookean", Box::new(Hyperelastic::new(mesh, NeoHookean::new(SHEAR, BULK)?))),
@@ -84,10 +87,10 @@ pub fn balance(mesh: &TriangleMesh, law: &dyn ElasticForces) -> Result<ForceBala
     force_balance(law, &positions)
 }
 
-/// The patch test under a stretch, shear and rotation of 10 to 30 per cent.
+/// The patch test under a stretch, shear and rotation of 10 to 20 per cent.
 ///
 /// # Errors
-/// None that can occur.
+/// Those of [`patch_residual`].
 pub fn patch(mesh: &TriangleMesh, law: &dyn ElasticForces) -> Result<f64, SolidError> {
     patch_residual(mesh, law, Mat2::new(1.1, 0.2, -0.1, 0.9))
 }
