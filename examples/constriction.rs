@@ -7,7 +7,7 @@
 
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use clap::Parser;
 use motile::elastic_solids::Constriction;
 use support::{
@@ -50,6 +50,11 @@ fn meet(flags: &Flags) -> Result<()> {
     let channel = flags.walls.channel(&flags.droplet, &method, -0.5 * flags.walls.length)?;
     let swimmer = &channel.swimmer;
     let [period, width] = swimmer.lengths;
+    ensure!(throat <= width, "--throat {throat} is wider than the channel: give a number up to --width {width}");
+    ensure!(
+        throat_length + 2.0 * ramp <= period,
+        "--throat-length {throat_length} and two --ramp {ramp} do not fit into --length {period}: make one of them smaller"
+    );
     let shape = Constriction { period, width, throat, throat_length, ramp, centre: 0.0 };
     let (mut scene, droplet, _) = channel.build_in(&shape.channel()?)?;
 

@@ -1,6 +1,7 @@
 //! A run by its parameters, and what is measured in it.
 
 use anyhow::{Result, bail};
+use clap::ValueEnum;
 use motile::active_interface::{ActiveDroplet, Motion, RegimeCriteria, TrajectoryRecorder};
 use motile::elastic_solids::{AnySolid, Channel, Constriction, Moduli, StraightChannel, width_between};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
@@ -18,27 +19,31 @@ const OF_LIMIT: f64 = 0.7;
 /// The same between walls so soft that they fold around the droplet, where 0.7 is not stable.
 const OF_LIMIT_NARROW: f64 = 0.2;
 
-/// What a run contributes to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What a run contributes to: a part of the study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Purpose {
-    /// Speed and shape of a droplet on the centre line between elastic walls (thesis figures 4.4 to 4.16).
+    /// Speed, shape and walls against stiffness (thesis figures 4.4 to 4.16).
     Speed,
     /// The same between rigid walls, without a grid.
+    #[value(skip)]
     Rigid,
     /// The same in a large box, without a grid.
+    #[value(skip)]
     Unconfined,
-    /// What becomes of a droplet off the centre line (thesis figure 4.17).
+    /// Droplets off the centre line (thesis figure 4.17).
     Lateral,
-    /// The passage through a constriction (thesis figure 4.19).
+    /// The constriction (thesis figure 4.19).
     Passage,
-    /// Kinds of walls compared (thesis figures 4.2, 4.3, 4.22, 4.23).
+    /// Springs and neo-Hookean walls, lattice and unstructured mesh (thesis figures 4.2, 4.3, 4.22, 4.23).
     Comparison,
     /// A channel half as wide as the droplet (thesis figure 4.25); the stiffness is Young's modulus.
     Narrow,
-    /// A droplet more viscous than its surroundings.
+    /// Droplets more viscous than their surroundings.
     Contrast,
-    /// The beginning of a run by the method of the thesis, in a straight channel.
+    /// How a droplet in contact with stiff walls starts by the method of the thesis.
     Start,
+    /// Whether the least active droplet comes to rest.
+    Rest,
 }
 
 /// A run by its parameters.

@@ -15,6 +15,24 @@ pub(crate) fn of(points: &Points, purpose: Purpose) -> Vec<&(Job, Summary)> {
     chosen
 }
 
+/// The runs of a purpose; if there are any, its title is printed.
+fn section<'a>(points: &'a Points, purpose: Purpose, title: &str) -> Vec<&'a (Job, Summary)> {
+    let chosen = of(points, purpose);
+    if !chosen.is_empty() {
+        say(title);
+    }
+    chosen
+}
+
+/// The same with the names of the columns below the title.
+fn table<'a>(points: &'a Points, purpose: Purpose, title: &str, columns: &str) -> Vec<&'a (Job, Summary)> {
+    let chosen = section(points, purpose, title);
+    if !chosen.is_empty() {
+        say(columns);
+    }
+    chosen
+}
+
 fn text<'a>(summary: &'a Summary, name: &str) -> &'a str {
     summary.values().get(name).and_then(|value| value.as_str()).unwrap_or("-")
 }
@@ -28,6 +46,7 @@ pub(crate) fn print(points: &Points) {
     narrow(points);
     contrast(points);
     starts(points);
+    rests(points);
 }
 
 /// Speed between rigid walls or unconfined, if it was computed.
@@ -39,15 +58,12 @@ fn speed_of(points: &Points, purpose: Purpose, width: f64, activity: f64) -> Opt
 }
 
 fn speeds(points: &Points) {
-    let chosen = of(points, Purpose::Speed);
-    if chosen.is_empty() {
-        return;
-    }
-    say("Speed between walls of springs (figures 4.4 to 4.9)");
-    say(format_args!(
+    let columns = format!(
         "  {:>5} {:>8} {:>8} {:>6}  {:>8} {:>8} {:>7}  {:>6} {:>6} {:>6}  {:>12} {:>6}",
         "width", "activity", "k", "h", "speed", "rigid", "", "aspect", "narrow", "wide", "displacement", "gap"
-    ));
+    );
+    let title = "Speed between walls of springs (figures 4.4 to 4.9)";
+    let chosen = table(points, Purpose::Speed, title, &columns);
     for (job, summary) in chosen {
         let rigid = speed_of(points, Purpose::Rigid, job.width, job.activity);
         let excess =
@@ -107,10 +123,7 @@ fn fits(points: &Points) {
 }
 
 fn lateral(points: &Points) {
-    let chosen = of(points, Purpose::Lateral);
-    if !chosen.is_empty() {
-        say("Droplets that start 0.3 R0 off the centre line (figure 4.17)");
-    }
+    let chosen = section(points, Purpose::Lateral, "Droplets that start 0.3 R0 off the centre line (figure 4.17)");
     for (job, summary) in chosen {
         say(format_args!(
             "  width {} activity {} k {:>8}: {}, amplitude {:.4}, growth rate {:+.4}{}",
@@ -126,15 +139,11 @@ fn lateral(points: &Points) {
 }
 
 fn passages(points: &Points) {
-    let chosen = of(points, Purpose::Passage);
-    if chosen.is_empty() {
-        return;
-    }
-    say("Passage through the constriction (figure 4.19)");
-    say(format_args!(
+    let columns = format!(
         "  {:>8} {:>8} {:>6}  {:>12} {:>7} {:>8} {:>7} {:>7}",
         "k", "activity", "h", "verdict", "time", "furthest", "gap", "J"
-    ));
+    );
+    let chosen = table(points, Purpose::Passage, "Passage through the constriction (figure 4.19)", &columns);
     for (job, summary) in chosen {
         say(format_args!(
             "  {:>8} {:>8} {:>6}  {:>12} {:>7.1} {:>8.2} {:>7.3} {:>7.3}{}{}",
@@ -168,10 +177,11 @@ fn method(job: &Job) -> String {
 }
 
 fn comparison(points: &Points) {
-    let chosen = of(points, Purpose::Comparison);
-    if !chosen.is_empty() {
-        say("Kinds of walls, viscosity 1000, activity -10, k = 1e4 (figures 4.2, 4.3, 4.22, 4.23)");
-    }
+    let chosen = section(
+        points,
+        Purpose::Comparison,
+        "Kinds of walls, viscosity 1000, activity -10, k = 1e4 (figures 4.2, 4.3, 4.22, 4.23)",
+    );
     for (job, summary) in &chosen {
         say(format_args!(
             "  {:<11} {:<13} h {:<5} speed {:.5}  width {:.4} to {:.4}  J {:.3}{}",
@@ -213,10 +223,7 @@ fn over_time(summary: &Summary, other: &Job, reference: &Summary) {
 }
 
 fn narrow(points: &Points) {
-    let chosen = of(points, Purpose::Narrow);
-    if !chosen.is_empty() {
-        say("Neo-Hookean channel of width 1 R0 (figure 4.25)");
-    }
+    let chosen = section(points, Purpose::Narrow, "Neo-Hookean channel of width 1 R0 (figure 4.25)");
     for (job, summary) in chosen {
         say(format_args!(
             "  activity {:>3} E {:>6} h {:<5} speed {:.5} (+- {:.1e})  aspect {:.3}  width {:.3} to {:.3}  J {:.3}  gap {:.3}{}",
@@ -239,11 +246,9 @@ fn narrow(points: &Points) {
 const COMPARED: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 
 fn contrast(points: &Points) {
-    let mut chosen = of(points, Purpose::Contrast);
+    let title = "Droplets more viscous than their surroundings between soft walls, k = 1e4, activity -2";
+    let mut chosen = section(points, Purpose::Contrast, title);
     chosen.sort_by(|(a, _), (b, _)| a.width.total_cmp(&b.width).then(a.ratio.total_cmp(&b.ratio)));
-    if !chosen.is_empty() {
-        say("Droplets more viscous than their surroundings between soft walls, k = 1e4, activity -2");
-    }
     for (job, summary) in chosen {
         say(format_args!(
             "  width {} ratio {:<4} h {:<6} gap {:.4}  J {:.3}  steps {}{}",
@@ -264,14 +269,28 @@ fn contrast(points: &Points) {
 }
 
 fn starts(points: &Points) {
-    let chosen = of(points, Purpose::Start);
-    if !chosen.is_empty() {
-        say("Starts in contact with walls of k = 1e6 in a straight channel, method of the thesis, activity -5");
-    }
+    let chosen = section(
+        points,
+        Purpose::Start,
+        "Starts in contact with walls of k = 1e6 in a straight channel, method of the thesis, activity -5",
+    );
     for (job, summary) in chosen {
-        let rows = Rows::of(summary);
-        let speeds: Vec<String> =
-            [1.5, 5.0, 9.0, 15.0].iter().map(|&time| format!("{:.3} at t = {time}", rows.at(time, 0))).collect();
-        say(format_args!("  h {:<5}{}: speed {}{}", job.spacing, method(job), speeds.join(", "), failure(summary)));
+        let speeds = speeds_at(summary, &[1.5, 5.0, 9.0, 15.0]);
+        say(format_args!("  h {:<5}{}: speed {}{}", job.spacing, method(job), speeds, failure(summary)));
     }
+}
+
+fn rests(points: &Points) {
+    for (job, summary) in section(points, Purpose::Rest, "Whether a droplet of activity -1 comes to rest, width 2 R0") {
+        let times: Vec<f64> = (1..=10).map(|n| 40.0 * f64::from(n)).collect();
+        let speeds = speeds_at(summary, &times);
+        say(format_args!("  k {:>8} h {:<5}: speed {speeds}{}", job.stiffness, job.spacing, failure(summary)));
+    }
+}
+
+/// The speed at some times of a run.
+fn speeds_at(summary: &Summary, times: &[f64]) -> String {
+    let rows = Rows::of(summary);
+    let speeds: Vec<String> = times.iter().map(|&time| format!("{:.4} at t = {time}", rows.at(time, 0))).collect();
+    speeds.join(", ")
 }

@@ -1,5 +1,5 @@
 //! Compares motile with exact and independently computed values, study by study, and prints the tables of
-//! `docs/validation.md`.
+//! `docs/validation.md`, and those of solids in `docs/elastic.md`.
 //!
 //! `cargo run --release --example validation -- all` runs everything (about half an hour on one core), a study's name
 //! only that study; `--quick` leaves out the finest grids.
@@ -8,6 +8,7 @@ mod channels;
 mod contrast;
 mod headings;
 mod interfaces;
+mod solids;
 
 use clap::{Parser, ValueEnum};
 use motile::Swimmer;
@@ -53,6 +54,7 @@ enum Study {
     InterfaceLateral,
     InterfaceSeveral,
     InterfaceLongRuns,
+    Solids,
     Cost,
 }
 
@@ -74,7 +76,7 @@ type Run = fn(bool) -> Tables;
 
 fn main() -> anyhow::Result<()> {
     let flags = Flags::parse();
-    let studies: [(Study, Run); 32] = [
+    let studies: [(Study, Run); 33] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -106,6 +108,7 @@ fn main() -> anyhow::Result<()> {
         (Study::InterfaceLateral, interfaces::lateral_modes),
         (Study::InterfaceSeveral, interfaces::several),
         (Study::InterfaceLongRuns, interfaces::long_runs),
+        (Study::Solids, solids::solids),
         (Study::Cost, interfaces::cost),
     ];
     for (study, run) in studies {

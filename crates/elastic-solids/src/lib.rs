@@ -45,9 +45,11 @@
 //! # Ok::<(), SolidError>(())
 //! ```
 
+mod boundary;
 mod channel;
 mod channel_shapes;
 mod channel_width;
+mod checks;
 mod deformation;
 mod energy;
 mod error;
@@ -63,11 +65,13 @@ mod mooney_rivlin;
 mod neo_hookean;
 mod observables;
 mod outline;
+mod point_set;
 mod quality;
 mod region;
 mod relaxation;
 mod rounded_kink;
 mod saint_venant_kirchhoff;
+mod seeds;
 mod segments;
 mod solid;
 mod solid_body;
@@ -80,6 +84,7 @@ mod triangulation;
 pub use channel::{Channel, ChannelWalls};
 pub use channel_shapes::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, StraightChannel, Valve};
 pub use channel_width::{ChannelWidth, channel_width, width_between};
+pub use checks::{ForceBalance, force_balance, patch_residual, stress_error};
 pub use deformation::{DeformationGradient, Mat2};
 pub use energy::EnergyDensity;
 pub use error::SolidError;

@@ -1,21 +1,24 @@
 //! Uniform meshes of any region.
 
-use ib_core::Vec2;
-
-use crate::error::{finite, positive, within};
-use crate::lattice::ROW_HEIGHT;
+use crate::boundary::Boundary;
+use crate::error::{finite, positive};
+use crate::point_set::PointSet;
 use crate::relaxation::relax;
-use crate::segments::Segments;
-use crate::triangulation::{PointSet, refine};
+use crate::seeds::{Fit, Lay};
+use crate::triangulation::refine;
 use crate::{Region, SolidError, TriangleMesh};
 
 /// Makes uniform triangle meshes.
 ///
 /// The outlines are resampled at equal spacing, corners kept; the inside is seeded with a lattice of equilateral
-/// triangles, no closer to the boundary than 0.45 spacings; the constrained Delaunay triangulation of all these points
-/// is relaxed, sweep after sweep, until the edges have about equal length. The two ends of a periodic wall share their
-/// points, and its spacing is changed by up to 5 per cent so that the lattice fits its height: a lattice stretched
-/// across the wall would be anisotropic, for springs by as much as the stretch.
+/// triangles, no closer to the boundary than 0.4 spacings; the constrained Delaunay triangulation of all these points
+/// is relaxed, sweep after sweep, until the edges have about equal length. In this the boundary points slide along the
+/// exact outlines, from corner to corner. Where a mesh has less than 6,000 points several lattices are tried, and the
+/// mesh whose edge lengths deviate least is returned; the same region always gives the same mesh.
+///
+/// The two ends of a periodic wall share their points, and its spacing is changed by up to 5 per cent so that the
+/// lattice fits its height: a lattice stretched across the wall would be anisotropic, for springs by as much as the
+/// stretch.
 ///
 /// ```
 /// use elastic_solids::*;
@@ -23,7 +26,7 @@ use crate::{Region, SolidError, TriangleMesh};
 ///
 /// let disc = Outline::circle(Vec2::zeros(), 1.0)?.mesh(0.1)?;
 /// println!("{}", disc.quality());
-/// assert!(disc.quality().smallest_angle > 30.0);
+/// assert!(disc.quality().smallest_angle > 35.0);
 /// # Ok::<(), SolidError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,30 +41,16 @@ enum Method {
     Refined,
 }
 
-/// How the lattice of the seeds is laid.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Fit {
-    /// Stretched a little, so that whole rows and columns fill the bounding box.
-    ToBox,
-    Equilateral,
-}
+/// Sweeps of the default.
+const SWEEPS: usize = 180;
 
 /// Distance of the seeds from the boundary over the spacing. At about half the height of a row the seeds next to the
 /// boundary stand, on average, one row away from it; a larger distance leaves too few of them, which relaxation makes
 /// up for by stretching all triangles across a wall.
-const MARGIN: f64 = 0.45;
+const MARGIN: f64 = 0.4;
 
-/// Sweeps of the default.
-const SWEEPS: usize = 120;
-
-/// Length of boundary, in spacings, beyond which two nearby parts of it are the two sides of a wall, not of a corner.
-const ACROSS: usize = 6;
-
-/// Largest change of the spacing, over itself, that makes rows of triangles fit a wall.
-const LARGEST_FIT: f64 = 0.05;
-
-/// Most points of a mesh.
-const MOST_POINTS: f64 = 1e7;
+/// Number of points of all the meshes together among which the most even is chosen.
+const TRIED_POINTS: usize = 12_000;
 
 impl Mesher {
     /// Edges of length `spacing` (length).
@@ -75,7 +64,7 @@ impl Mesher {
         })
     }
 
-    /// The same with another number of relaxation sweeps (120 otherwise; 0 to leave the seeds where they are).
+    /// The same with another number of relaxation sweeps (180 otherwise; 0 to leave the seeds where they are).
     #[must_use]
     pub fn sweeps(mut self, sweeps: usize) -> Self {
         self.method = Method::Relaxed { sweeps, angle: self.angle() };
@@ -112,247 +101,87 @@ impl Mesher {
     /// period shorter than six spacings; more than 1e7 points; a triangulation that failed.
     pub fn mesh(&self, region: &Region) -> Result<TriangleMesh, SolidError> {
         let boundary = Boundary::new(region, self.spacing, matches!(self.method, Method::Relaxed { angle: 0.0, .. }))?;
-        let mesh = match self.method {
+        match self.method {
             Method::Refined if region.period().is_some() => Err(SolidError::Unsupported {
                 what: "refining a periodic region",
                 remedy: "mesh it by relaxation, the default",
-            })?,
+            }),
             Method::Refined => {
                 let (points, triangles) = refine(&boundary.point_set(Vec::new()), self.spacing)?;
-                TriangleMesh::new(points, triangles)?
+                complete(TriangleMesh::new(points, triangles)?, &boundary)
             }
-            Method::Relaxed { sweeps, angle } => {
-                // Around a closed outline a lattice stretched to fit its box is sometimes better, sometimes worse than one
-                // of equilateral triangles.
-                let ways: &[Fit] = match boundary.period {
-                    Some(_) if angle == 0.0 => &[Fit::ToBox],
-                    None if angle == 0.0 => &[Fit::ToBox, Fit::Equilateral],
-                    _ => &[Fit::Equilateral],
-                };
-                let meshes: Vec<TriangleMesh> =
-                    ways.iter().map(|&fit| boundary.relaxed(fit, angle, sweeps)).collect::<Result<_, _>>()?;
-                let best = meshes.into_iter().min_by(|a, b| {
-                    let deviation = |mesh: &TriangleMesh| mesh.quality().edge_deviation;
-                    deviation(a).total_cmp(&deviation(b))
-                });
-                best.ok_or(SolidError::MeshingFailed { what: "there is no way to lay the seeds" })?
-            }
-        };
-        // The mesh has the boundary that was asked for, no triangle is missing or too many.
-        let found: usize = mesh.boundary_loops().iter().map(|boundary| boundary.points.len()).sum();
-        let expected: usize = boundary.outlines.iter().map(Vec::len).sum();
-        if found != expected {
-            return Err(SolidError::MeshingFailed { what: "the boundary is not that of the outlines" });
+            Method::Relaxed { sweeps, .. } => most_even(&boundary, &self.ways(region), sweeps),
         }
+    }
+
+    /// Ways to lay the seeds.
+    fn ways(&self, region: &Region) -> Vec<Lay> {
+        let angle = self.angle();
+        let lay = |fit, offset, margin| Lay { fit, angle, offset, margin };
+        let still = [0.0, 0.0];
+        match region.period() {
+            _ if angle != 0.0 => vec![lay(Fit::Equilateral, still, MARGIN)],
+            // Flat sides continue the lattice as it is.
+            Some(_) => [MARGIN, 0.45, 0.35, 0.55].map(|margin| lay(Fit::ToBox, still, margin)).to_vec(),
+            // The first suits a rectangle; nothing tells how a lattice should lie in other closed outlines.
+            None => vec![
+                lay(Fit::ToBox, still, MARGIN),
+                lay(Fit::Equilateral, [0.5, 0.2], MARGIN),
+                lay(Fit::Equilateral, [0.25, 0.0], MARGIN),
+                lay(Fit::Equilateral, [0.75, 0.0], MARGIN),
+                lay(Fit::ToBox, [0.25, 0.0], MARGIN),
+                lay(Fit::Equilateral, [0.25, 0.2], MARGIN),
+                lay(Fit::Equilateral, [0.5, 0.0], MARGIN),
+                lay(Fit::Equilateral, [0.0, 0.4], MARGIN),
+                lay(Fit::ToBox, [0.25, 0.2], MARGIN),
+                lay(Fit::ToBox, [0.25, -0.2], MARGIN),
+                lay(Fit::Equilateral, [0.25, -0.2], MARGIN),
+                lay(Fit::ToBox, [0.0, 0.2], MARGIN),
+            ],
+        }
+    }
+}
+
+/// The most even of the meshes from different seeds, of as many as are soon made.
+fn most_even(boundary: &Boundary<'_>, ways: &[Lay], sweeps: usize) -> Result<TriangleMesh, SolidError> {
+    let mut best: Option<(f64, TriangleMesh)> = None;
+    let mut points = 0;
+    for &lay in ways {
+        let Ok(mesh) = relaxed(boundary, boundary.point_set(boundary.seeds(lay)?), sweeps) else { continue };
+        let size = mesh.points().len();
+        points += size;
+        let deviation = mesh.quality().edge_deviation;
+        if best.as_ref().is_none_or(|(least, _)| deviation < *least) {
+            best = Some((deviation, mesh));
+        }
+        if points + size > TRIED_POINTS {
+            break;
+        }
+    }
+    match best {
+        Some((_, mesh)) => Ok(mesh),
+        // In a sharp tip points that slide may fold the boundary.
+        None => relaxed(boundary, boundary.point_set(boundary.seeds(ways[0])?).with_fixed_boundary(), sweeps),
+    }
+}
+
+fn relaxed(boundary: &Boundary<'_>, mut set: PointSet<'_>, sweeps: usize) -> Result<TriangleMesh, SolidError> {
+    let triangles = relax(&mut set, sweeps, boundary.spacing)?;
+    let mesh = match set.period {
+        None => TriangleMesh::new(set.points, triangles),
+        Some((_, period)) => TriangleMesh::periodic(set.points, triangles, period),
+    };
+    complete(mesh?, boundary)
+}
+
+/// The mesh, where it has the boundary that was asked for: no triangle is missing or too many.
+fn complete(mesh: TriangleMesh, boundary: &Boundary<'_>) -> Result<TriangleMesh, SolidError> {
+    let found: usize = mesh.boundary_loops().iter().map(|boundary| boundary.points.len()).sum();
+    if found == boundary.count() {
         Ok(mesh)
+    } else {
+        Err(SolidError::MeshingFailed { what: "the boundary is not that of the outlines" })
     }
-}
-
-/// The checked boundary of a region at the spacing of its mesh.
-struct Boundary {
-    spacing: f64,
-    outlines: Vec<Vec<Vec2>>,
-    segments: Segments,
-    period: Option<(f64, f64)>,
-    low: Vec2,
-    high: Vec2,
-}
-
-impl Boundary {
-    /// `fitted` where the seeds of a wall are to be a lattice between its surfaces.
-    fn new(region: &Region, asked: f64, fitted: bool) -> Result<Self, SolidError> {
-        let mut spacing = asked;
-        if let Some(period) = region.period() {
-            within("the period over the mesh spacing", period / spacing, 6.0, MOST_POINTS)?;
-        }
-        for outline in region.outlines() {
-            // Finer samples are taken below, and the inside has many more points.
-            within(
-                "the length of an outline over the mesh spacing",
-                outline.length() / spacing,
-                0.0,
-                0.1 * MOST_POINTS,
-            )?;
-        }
-        let resampled = |spacing: f64| {
-            region.outlines().iter().map(|outline| outline.resampled(spacing)).collect::<Result<Vec<_>, _>>()
-        };
-        let mut outlines = resampled(spacing)?;
-        let (low, high) = bounds(&outlines);
-        if region.period().is_some() && fitted {
-            // Triangles that fit the height of the wall without being stretched.
-            let fit = (high.y - low.y) / (rows(high.y - low.y, asked) * ROW_HEIGHT);
-            if (fit / asked - 1.0).abs() < LARGEST_FIT {
-                spacing = fit;
-                outlines = resampled(spacing)?;
-            }
-        }
-        let start = region.outlines().iter().position(|outline| outline.period().is_some());
-        let period = start.zip(region.period()).map(|(outline, period)| (outlines[outline][0].x, period));
-        if period.is_some() {
-            // Every second row of the seeds stands half a spacing further right; let flat surfaces continue that
-            // lattice.
-            let rows = rows(high.y - low.y, spacing);
-            for (points, outline) in outlines.iter_mut().zip(region.outlines()) {
-                let row = (rows * (points[0].y - low.y) / (high.y - low.y)).round();
-                if row % 2.0 == 1.0 && outline.period().is_some() {
-                    *points = outline.resampled_from(spacing, 0.5)?;
-                }
-            }
-        }
-        // The outlines themselves must not cross, nor the polygons that stand for them.
-        for lines in [&resampled(0.25 * spacing)?, &outlines] {
-            if let Some(place) = Segments::new(lines, period, 2.0 * spacing).first_crossing() {
-                return Err(SolidError::Crossing { x: place.x, y: place.y });
-            }
-        }
-        let segments = Segments::new(&outlines, period, 10.0 * spacing);
-        let boundary = Self { spacing, outlines, segments, period, low, high };
-        boundary.check_widths(region, asked)?;
-        boundary.check_walls(asked)?;
-        Ok(boundary)
-    }
-
-    /// The image of a point in the first period.
-    fn home(&self, point: Vec2) -> Vec2 {
-        let periods = self.period.map_or(0.0, |(start, period)| period * ((point.x - start) / period).floor());
-        point - Vec2::new(periods, 0.0)
-    }
-
-    /// No closed outline narrower than the spacing.
-    fn check_widths(&self, region: &Region, spacing: f64) -> Result<(), SolidError> {
-        for (number, (outline, points)) in region.outlines().iter().zip(&self.outlines).enumerate() {
-            if outline.period().is_some() {
-                continue;
-            }
-            let width = width(&outline.resampled(0.1 * spacing)?);
-            if width < spacing {
-                let [x, y] = points[0].into();
-                return Err(if self.segments.crossings_above(self.home(points[0]), Some(number)) % 2 == 1 {
-                    SolidError::HoleTooSmall { x, y, width, spacing }
-                } else {
-                    SolidError::WallTooThin { x, y, thickness: width, spacing }
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// No two sides of a wall closer than the spacing.
-    fn check_walls(&self, spacing: f64) -> Result<(), SolidError> {
-        let reach = spacing * (1.0 - 1e-6);
-        for (outline, points) in self.outlines.iter().enumerate() {
-            for (index, &point) in points.iter().enumerate() {
-                let point = self.home(point);
-                let across = self.segments.nearest(point, reach, |other| {
-                    let far = other.outline != outline
-                        || self.segments.separation(outline, index, other.index).min(self.segments.separation(
-                            outline,
-                            index,
-                            (other.index + 1) % points.len(),
-                        )) > ACROSS;
-                    far && self.segments.inside((point + (other.from + other.to) * 0.5) * 0.5)
-                });
-                if let Some(foot) = across {
-                    let thickness = (foot - point).norm();
-                    return Err(SolidError::WallTooThin { x: point.x, y: point.y, thickness, spacing });
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// The mesh after relaxation.
-    fn relaxed(&self, fit: Fit, angle: f64, sweeps: usize) -> Result<TriangleMesh, SolidError> {
-        let mut set = self.point_set(self.seeds(fit, angle)?);
-        let triangles = relax(&mut set, sweeps, self.spacing)?;
-        match set.period {
-            None => TriangleMesh::new(set.points, triangles),
-            Some((_, period)) => TriangleMesh::periodic(set.points, triangles, period),
-        }
-    }
-
-    /// A lattice inside, of equilateral triangles turned by an angle, or of nearly equilateral ones that fit the bounding
-    /// box.
-    fn seeds(&self, fit: Fit, angle: f64) -> Result<Vec<Vec2>, SolidError> {
-        let spacing = self.spacing;
-        let size = self.high - self.low;
-        let (start, width) = self.period.unwrap_or((self.low.x, size.x));
-        let mut columns = (width / spacing).round().max(1.0);
-        let mut rows = rows(size.y, spacing);
-        within("the number of points in the bounding box", columns * rows, 1.0, MOST_POINTS)?;
-        let mut step = Vec2::new(width / columns, size.y / rows);
-        let corner = Vec2::new(start, self.low.y);
-        let (rotation, centre) = (nalgebra::Rotation2::new(angle), corner + 0.5 * Vec2::new(width, size.y));
-        let mut first = corner;
-        if fit == Fit::Equilateral {
-            step = Vec2::new(spacing, ROW_HEIGHT * spacing);
-            // A square of lattice that covers the box however it is turned.
-            let reach = 0.5 * width.hypot(size.y);
-            first = centre - Vec2::repeat(reach);
-            (columns, rows) = ((2.0 * reach / step.x).ceil(), (2.0 * reach / step.y).ceil());
-        }
-        let mut seeds = Vec::new();
-        for row in 0..=rows as usize {
-            for column in 0..=columns as usize {
-                let shift = 0.5 * (row % 2) as f64;
-                let seed = first + Vec2::new((column as f64 + shift) * step.x, row as f64 * step.y);
-                let seed = if fit == Fit::ToBox { seed } else { centre + rotation * (seed - centre) };
-                // The last column of a periodic region is the first of the next.
-                let end = 1e-9 * step.x;
-                let repeated = self.period.is_some() && !(start - end..start + width - end).contains(&seed.x);
-                if !repeated
-                    && self.segments.inside(seed)
-                    && self.segments.nearest(seed, MARGIN * spacing, |_| true).is_none()
-                {
-                    seeds.push(seed);
-                }
-            }
-        }
-        if self.period.is_some() && fit == Fit::Equilateral {
-            // The turned lattice does not meet itself at the seam.
-            let margin = MARGIN * spacing;
-            let left: Vec<Vec2> =
-                seeds.iter().filter(|s| s.x < start + margin).map(|s| s + Vec2::new(width, 0.0)).collect();
-            seeds.retain(|s| s.x < start + width - margin || left.iter().all(|other| (other - s).norm() > margin));
-        }
-        Ok(seeds)
-    }
-
-    fn point_set(&self, seeds: Vec<Vec2>) -> PointSet<'_> {
-        let mut points: Vec<Vec2> = Vec::new();
-        let mut boundary = Vec::new();
-        for outline in &self.outlines {
-            let start = points.len();
-            boundary.extend((0..outline.len()).map(|k| [start + k, start + (k + 1) % outline.len()]));
-            points.extend(outline);
-        }
-        let fixed = points.len();
-        points.extend(seeds);
-        PointSet { points, fixed, boundary, segments: &self.segments, period: self.period }
-    }
-}
-
-fn bounds(outlines: &[Vec<Vec2>]) -> (Vec2, Vec2) {
-    let first = outlines[0][0];
-    outlines.iter().flatten().fold((first, first), |(low, high), point| (low.inf(point), high.sup(point)))
-}
-
-/// Rows of seeds over a height.
-fn rows(height: f64, spacing: f64) -> f64 {
-    (height / (ROW_HEIGHT * spacing)).round().max(1.0)
-}
-
-/// The smallest distance between two parallel lines that hold the points between them, over 90 directions.
-fn width(points: &[Vec2]) -> f64 {
-    (0..90)
-        .map(|degrees| {
-            let direction = nalgebra::Rotation2::new(f64::from(2 * degrees).to_radians()) * Vec2::x();
-            let along = points.iter().map(|point| point.dot(&direction));
-            let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| (a.min(s), b.max(s)));
-            high - low
-        })
-        .fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

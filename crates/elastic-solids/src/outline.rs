@@ -10,8 +10,11 @@ use crate::error::{all_points_finite, at_least, finite, positive};
 
 mod fillet;
 mod piece;
+mod track;
 
 use piece::{Piece, is_corner};
+
+pub(crate) use track::{Place, Track};
 
 /// A line that bounds a solid: closed, or repeating itself in x with a period (the surface of a channel wall).
 ///
@@ -291,44 +294,8 @@ impl Outline {
                 maximum: self.length(),
             });
         }
-        let chains = self.chains();
-        let phase = if !(0..self.pieces.len()).any(|k| self.is_corner(k)) { phase } else { 0.0 };
-        // A closed line of one or two smooth parts needs points in between to enclose an area.
-        let least = if self.period.is_some() { 1 } else { 3_usize.div_ceil(chains.len()) };
-        let mut points = Vec::new();
-        for chain in chains {
-            let total: f64 = chain.iter().map(|(piece, _)| piece.length()).sum();
-            let count = ((total / spacing).round() as usize).max(least);
-            let (mut current, mut before) = (0, 0.0);
-            for k in 0..count {
-                let along = total * (k as f64 + phase) / count as f64;
-                while current + 1 < chain.len() && along >= before + chain[current].0.length() {
-                    before += chain[current].0.length();
-                    current += 1;
-                }
-                let (piece, shift) = chain[current];
-                points.push(piece.at(along - before) + Vec2::new(shift, 0.0));
-            }
-        }
-        Ok(points)
-    }
-
-    /// Runs of pieces that join smoothly, from corner to corner, each piece with what to add to its x. Without a corner
-    /// the one run starts at the first piece.
-    fn chains(&self) -> Vec<Vec<(&Piece, f64)>> {
-        let count = self.pieces.len();
-        let corner = |k: usize| self.is_corner(k);
-        let first = (0..count).find(|&k| corner(k)).unwrap_or(0);
-        let mut chains: Vec<Vec<_>> = Vec::new();
-        for step in first..first + count {
-            let k = step % count;
-            let entry = (&self.pieces[k], if step < count { 0.0 } else { self.period.unwrap_or(0.0) });
-            match chains.last_mut() {
-                Some(chain) if !corner(k) => chain.push(entry),
-                _ => chains.push(vec![entry]),
-            }
-        }
-        chains
+        let track = Track::new(self);
+        Ok(track.places(spacing, phase).into_iter().map(|place| track.at(place)).collect())
     }
 
     /// Whether the tangent turns at the start of piece k.

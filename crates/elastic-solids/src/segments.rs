@@ -15,7 +15,7 @@ pub(crate) struct Segment {
 }
 
 /// All segments, sorted into square cells.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Segments {
     segments: Vec<Segment>,
     /// Segments of each outline.

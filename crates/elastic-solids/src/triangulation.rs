@@ -4,21 +4,7 @@ use ib_core::Vec2;
 use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementParameters, Triangulation};
 
 use crate::SolidError;
-use crate::segments::Segments;
-
-/// Points to be triangulated.
-#[derive(Debug)]
-pub(crate) struct PointSet<'a> {
-    /// Positions; the first `fixed` ones are those of the boundary.
-    pub(crate) points: Vec<Vec2>,
-    pub(crate) fixed: usize,
-    /// Boundary edges.
-    pub(crate) boundary: Vec<[usize; 2]>,
-    /// The same with positions, to tell inside from outside.
-    pub(crate) segments: &'a Segments,
-    /// Start and period in x.
-    pub(crate) period: Option<(f64, f64)>,
-}
+use crate::point_set::PointSet;
 
 /// Width of the images beyond each end of a period, in spacings. Delaunay triangles of a set without gaps are smaller
 /// than two.
@@ -33,11 +19,7 @@ const SLIVER: f64 = 1e-6;
 
 /// The triangles inside the region, each once.
 pub(crate) fn triangulate(set: &mut PointSet<'_>, spacing: f64) -> Result<Vec<[usize; 3]>, SolidError> {
-    if let Some((start, period)) = set.period {
-        for point in &mut set.points {
-            point.x -= period * ((point.x - start) / period).floor();
-        }
-    }
+    set.renew(IMAGES * spacing);
     let (vertices, originals, edges) = images(set, spacing);
     let count = vertices.len();
     let triangulation = build(vertices, edges)?;
@@ -55,7 +37,7 @@ pub(crate) fn triangulate(set: &mut PointSet<'_>, spacing: f64) -> Result<Vec<[u
         }
         let place = of.map(|(point, image)| set.points[point] + image_shift(set.period, image));
         let area = 0.5 * (place[1] - place[0]).perp(&(place[2] - place[0])).abs();
-        let flat = area < SLIVER * spacing * spacing && of.iter().all(|&(point, _)| point < set.fixed);
+        let flat = area < SLIVER * spacing * spacing && of.iter().all(|&(point, _)| point < set.on_boundary);
         if !flat && set.segments.inside((place[0] + place[1] + place[2]) / 3.0) {
             triangles.push(of.map(|(point, _)| point));
         }
@@ -121,7 +103,7 @@ fn images(set: &PointSet<'_>, spacing: f64) -> Vertices {
     for image in [0, -1, 1] {
         for (point, position) in set.points.iter().enumerate().filter(|(_, position)| near(position.x, image)) {
             let mut place = (position + image_shift(set.period, image)) / spacing;
-            if point >= set.fixed {
+            if point >= set.on_boundary {
                 place += tie_break(point);
             }
             numbers[point][(image + 1) as usize] = vertices.len();

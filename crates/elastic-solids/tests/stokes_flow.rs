@@ -1,8 +1,8 @@
-//! Solids in the flow of the grid: exact relaxation, stability limits, no allocation.
+//! Solids in the flow of the grid: where walls stand, stability limits, no allocation.
 
 use allocation_counter::measure;
 use elastic_solids::{
-    ElasticForces, ElasticSolid, Mesher, NeoHookean, Outline, Region, Solid, SpringLattice, TriangleMesh, fitted_strip,
+    ElasticForces, ElasticSolid, NeoHookean, Outline, Solid, SpringLattice, TriangleMesh, fitted_strip,
 };
 use ib_core::{Body, CubicQuadratic, FlowSample, Hydrodynamics, ImmersedBoundary, MobilityDeficit, Scene, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid};
@@ -46,73 +46,8 @@ fn corrected<F: ElasticForces>(solid: Solid<F>) -> Solid<F> {
     solid.surface_corrected(&MobilityDeficit::new(&CubicQuadratic::default()))
 }
 
-/// Mean displacement of the upper surface along x.
-fn slide<F: ElasticForces>(solid: &Solid<F>) -> f64 {
-    let boundary = solid.mesh().boundary_loops().iter().find(|boundary| boundary.periods == -1).expect("a surface");
-    let displacements: Vec<Vec2> = solid.displacements().collect();
-    boundary.points.iter().map(|&point| displacements[point].x).sum::<f64>() / boundary.points.len() as f64
-}
-
-/// The rate, times eta/mu, at which a sheared layer relaxes below a fluid of the same viscosity.
-///
-/// Under the shear gamma the stress is `eta dgamma/dt + mu gamma` in the layer (Kelvin-Voigt; exact at any shear for
-/// the neo-Hookean material), `eta du/dy` above, and the same everywhere; with both walls at rest, `a dgamma/dt + (H -
-/// a) du/dy = 0`. So gamma decays at the rate `mu/eta (1 - a/H)`.
-fn relaxation_rate<F: ElasticForces>(solid: Solid<F>, h: f64, amplitude: f64) -> f64 {
-    let sheared = |s: Vec2| s + Vec2::new(amplitude * (s.y + 0.5 * HEIGHT), 0.0);
-    let mut scene = channel(h);
-    let handle = scene.add(held(solid).deformed(sheared).expect("finite positions"));
-    let start = slide(scene.body(handle));
-    (0..50).for_each(|_| scene.step(TIME / 50.0).expect("a step"));
-    -(slide(scene.body(handle)) / start).ln()
-}
-
-/// Thickness with which the lattice is exactly equilateral at all three spacings.
-const THICKNESS: f64 = 0.866_025_403_784_438_6;
-
-fn errors(rate: impl Fn(f64) -> f64) -> [f64; 3] {
-    let exact = 1.0 - THICKNESS / HEIGHT;
-    [0.2, 0.1, 0.05].map(|h| rate(h) / exact - 1.0)
-}
-
-fn neo_hookean(mesh: TriangleMesh) -> ElasticSolid<NeoHookean> {
-    ElasticSolid::new(mesh, NeoHookean::new(SHEAR, 3.0 * SHEAR).expect("moduli"))
-}
-
 fn springs(mesh: TriangleMesh) -> SpringLattice {
     SpringLattice::new(mesh, SHEAR).expect("a modulus")
-}
-
-fn unstructured(h: f64) -> TriangleMesh {
-    let flat = |y| Outline::flat(0.0, LENGTH, y).expect("an outline");
-    let region = Region::new([flat(-0.5 * HEIGHT), flat(THICKNESS - 0.5 * HEIGHT)]).expect("a region");
-    Mesher::new(h).and_then(|mesher| mesher.turned(0.2)?.mesh(&region)).expect("a mesh")
-}
-
-#[test]
-fn a_sheared_layer_relaxes_as_kelvin_voigt() {
-    let structured = errors(|h| relaxation_rate(neo_hookean(layer(THICKNESS, h)), h, 0.3));
-    let springs = errors(|h| relaxation_rate(springs(layer(THICKNESS, h)), h, 0.01));
-    let unstructured = errors(|h| relaxation_rate(neo_hookean(unstructured(h)), h, 0.3));
-    for errors in [structured, springs, unstructured] {
-        assert!(errors[2].abs() < 0.035, "{errors:?}");
-        // First order: the stress of the layer is smeared over its surface.
-        let order = (errors[0] / errors[2]).log2() / 2.0;
-        assert!(order > 0.8, "{errors:?}, order {order}");
-    }
-    for ((one, other), lattice) in structured.iter().zip(unstructured).zip(springs) {
-        assert!((one - other).abs() < 2e-3 && (one - lattice).abs() < 2e-3, "{one} {other} {lattice}");
-    }
-}
-
-#[test]
-fn the_surface_correction_takes_the_first_order_error_off() {
-    let structured = errors(|h| relaxation_rate(corrected(neo_hookean(layer(THICKNESS, h))), h, 0.3));
-    let springs = errors(|h| relaxation_rate(corrected(springs(layer(THICKNESS, h))), h, 0.01));
-    let unstructured = errors(|h| relaxation_rate(corrected(neo_hookean(unstructured(h))), h, 0.3));
-    for errors in [structured, springs, unstructured] {
-        assert!(errors[1].abs() < 5e-3 && errors[2].abs() < 2.5e-3, "{errors:?}");
-    }
 }
 
 /// Where stiff layers on both walls stop a flow driven by a pressure gradient, in front of their surface, in grid

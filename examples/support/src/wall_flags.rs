@@ -14,6 +14,11 @@ const SOFT: f64 = 1e4;
 /// Longest channel (R0).
 const LONGEST: f64 = 1000.0;
 
+/// Fewest points along a channel.
+const LEAST_ALONG: f64 = 6.0;
+/// Most points of the walls: a run with as many would take weeks.
+const MOST_POINTS: f64 = 4e6;
+
 /// What the walls are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Material {
@@ -114,7 +119,7 @@ impl ElasticFlags {
             "a channel of --width {width} and --length {length} does not hold the droplet at --lateral-offset {offset}: give a \
              larger --width or --length or a smaller --lateral-offset"
         );
-        Ok(ElasticChannel {
+        let channel = ElasticChannel {
             material: match self.material {
                 Material::Springs => WallMaterial::Springs,
                 Material::NeoHookean => WallMaterial::NeoHookean,
@@ -134,7 +139,35 @@ impl ElasticFlags {
             },
             drive: self.drive.into(),
             ..channel
-        })
+        };
+        self.check_mesh(&channel, &method)?;
+        Ok(channel)
+    }
+
+    /// Walls that hold their mesh.
+    fn check_mesh(&self, channel: &ElasticChannel, method: &MethodFlags) -> Result<()> {
+        let (length, thickness) = (self.length, self.wall_thickness);
+        let spacing = self.mesh_spacing.unwrap_or(method.spacing());
+        let flag = if self.mesh_spacing.is_some() { "--mesh-spacing" } else { "--spacing" };
+        ensure!(
+            LEAST_ALONG * spacing <= length,
+            "points {spacing} apart are too few along --length {length}: give {flag} {} or less",
+            length / LEAST_ALONG
+        );
+        let thinnest = spacing + channel.set_back();
+        ensure!(
+            thickness >= thinnest,
+            "walls of --wall-thickness {thickness} do not hold points {spacing} apart: give {} or more, or a smaller {flag}",
+            rounded_up(thinnest)
+        );
+        // Two walls, which between them may fill the channel.
+        let finest = (length * (self.width + 2.0 * thickness) / MOST_POINTS).sqrt();
+        ensure!(
+            spacing >= finest,
+            "points {spacing} apart are too many for walls of --length {length}: give {flag} {} or more",
+            rounded_up(finest)
+        );
+        Ok(())
     }
 
     fn moduli(&self) -> Result<Moduli> {
@@ -150,6 +183,11 @@ impl ElasticFlags {
     }
 }
 
+/// To four decimals.
+fn rounded_up(length: f64) -> f64 {
+    (length * 1e4).ceil() / 1e4
+}
+
 /// The walls as they stand above a picture.
 #[must_use]
 pub fn wall_caption(channel: &ElasticChannel) -> String {
@@ -161,4 +199,45 @@ pub fn wall_caption(channel: &ElasticChannel) -> String {
     // A product such as 3/16 h k need not be written to the last digit.
     let shear = (channel.moduli.shear() * 1e4).round() / 1e4;
     format!("{material},  μ = {shear},  w = {width},  l = {length}")
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+
+    #[derive(Debug, Parser)]
+    struct Flags {
+        #[command(flatten)]
+        droplet: DropletFlags,
+        #[command(flatten)]
+        walls: ElasticFlags,
+        #[command(flatten)]
+        method: MethodFlags,
+    }
+
+    fn channel(line: &str) -> Result<ElasticChannel> {
+        let flags = Flags::try_parse_from(std::iter::once("test").chain(line.split_whitespace()))?;
+        flags.walls.channel(&flags.droplet, &flags.method, 0.0)
+    }
+
+    #[test]
+    fn walls_that_do_not_hold_their_mesh_are_refused_with_the_flag_to_change() {
+        for (line, remedy) in [
+            ("--mesh-spacing 5", "give --mesh-spacing 2 or less"),
+            ("--mesh-spacing 0.001", "give --mesh-spacing 0.0039 or more"),
+            ("--wall-thickness 0.05", "give 0.0675 or more, or a smaller --spacing"),
+            ("--width 0.1", "give a larger --width"),
+            ("--bulk-modulus 3", "leave --bulk-modulus out"),
+        ] {
+            let refused = channel(line).unwrap_err().to_string();
+            assert!(refused.contains(remedy), "{line}: {refused}");
+        }
+        for line in
+            ["", "--mesh-spacing 2 --wall-thickness 3", "--wall-thickness 0.1 --length 3", "--mesh-spacing 0.01"]
+        {
+            assert!(channel(line).is_ok(), "{line}");
+        }
+    }
 }

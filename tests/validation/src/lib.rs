@@ -22,6 +22,7 @@ mod order;
 mod reference;
 pub mod relaxation;
 pub mod resolution;
+pub mod solids;
 pub mod swimmers;
 mod table;
 
@@ -49,6 +50,9 @@ pub enum StudyError {
     /// The droplet.
     #[error(transparent)]
     Interface(#[from] motile::active_interface::InterfaceError),
+    /// The solid.
+    #[error(transparent)]
+    Solid(#[from] motile::elastic_solids::SolidError),
     /// The boundary integrals.
     #[error(transparent)]
     BoundaryIntegral(#[from] motile::boundary_integral::BoundaryIntegralError),

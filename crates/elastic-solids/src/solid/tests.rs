@@ -175,7 +175,8 @@ fn displacements_along_and_across_a_surface() {
 
 #[test]
 fn the_width_of_a_channel_between_deformed_walls() {
-    let walls = Constriction::thesis().channel().unwrap().walls(-2.5, 2.5, &Mesher::new(0.1).unwrap()).unwrap();
+    // Chords of the ramp, of curvature pi^2/4, are off it by less than 0.05^2/8 pi^2/4 = 8e-4 on either side.
+    let walls = Constriction::thesis().channel().unwrap().walls(-2.5, 2.5, &Mesher::new(0.05).unwrap()).unwrap();
     let lower = SpringLattice::new(walls.lower, 1.0).unwrap();
     let upper = ElasticSolid::new(walls.upper, NeoHookean::new(1.0, 2.0).unwrap());
     let width = width_between(&lower, &upper).unwrap();
@@ -190,7 +191,8 @@ fn the_width_of_a_channel_between_deformed_walls() {
     };
     let narrowest = (0..1000).map(|k| 0.003 * f64::from(k)).min_by(|a, b| exact(*a).total_cmp(&exact(*b))).unwrap();
     assert!((width.minimum - exact(narrowest)).abs() < 2e-3, "{width:?} {}", exact(narrowest));
-    assert!((width.minimum_at.abs() - narrowest).abs() < 0.1, "{width:?} {narrowest}");
+    let at = width.minimum_at - 12.0 * (width.minimum_at / 12.0).round();
+    assert!((at.abs() - narrowest).abs() < 0.1, "{width:?} {narrowest}");
     assert!(matches!(
         width_between(&moved, &SpringLattice::new(block(), 1.0).unwrap()),
         Err(SolidError::DifferentPeriods { .. })
