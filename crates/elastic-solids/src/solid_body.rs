@@ -1,6 +1,6 @@
 //! The solid as a body of a scene.
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Markers, Medium, Record, StepLimit, StepLimits, Vec2};
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepLimit, StepLimits, Vec2};
 
 use crate::{ElasticForces, Solid, SolidError};
 
@@ -35,26 +35,16 @@ impl<F: ElasticForces> Body for Solid<F> {
         }
     }
 
-    fn write_forces(&mut self, _medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.compute_forces()?;
+        if let Some(surface) = &mut self.surface {
+            surface.prepare(&self.mesh, &self.free, medium.spacing);
+            surface.update(&self.mesh, &self.free, medium, &self.positions, &self.forces);
+        }
         for (force, &point) in forces.iter_mut().zip(&self.free) {
             *force = self.forces[point];
         }
         Ok(())
-    }
-
-    fn meet(&mut self, medium: &Medium, markers: &Markers) {
-        if let Some(surface) = &mut self.surface {
-            surface.prepare(&self.mesh, &self.free, medium.spacing);
-            surface.place(&self.mesh, &self.free, medium, &self.positions, markers);
-            surface.update(&self.free, medium, &self.forces, markers);
-        }
-    }
-
-    fn add_velocities(&self, velocities: &mut [Vec2]) {
-        if let Some(surface) = &self.surface {
-            surface.add_to_guests(velocities);
-        }
     }
 
     fn state_len(&self) -> usize {

@@ -1,6 +1,6 @@
 //! Putting back the mobility that the grid takes from the surface of a solid.
 
-use ib_core::{MarkerKind, Markers, Medium, MobilityDeficit, Vec2};
+use ib_core::{Medium, MobilityDeficit, Vec2};
 
 use crate::TriangleMesh;
 use crate::rounded_kink::{Beside, RoundedKink};
@@ -37,8 +37,6 @@ pub(crate) struct SurfaceCorrection {
     kinks: Vec<RoundedKink>,
     /// Where the points of `near` are now.
     feet: Vec<Foot>,
-    /// Markers of interfaces close by.
-    guests: Vec<(usize, Foot)>,
     /// Missing along the surface at vertices (length per time).
     missing: Vec<f64>,
     /// Its slope (1/time).
@@ -90,9 +88,6 @@ const SMOOTHING: f64 = 4.0;
 /// Edges along which the nearest one is looked for.
 const FARTHEST: usize = 100;
 
-/// Of which vertices interfaces look at first.
-const STRIDE: usize = 8;
-
 impl SurfaceCorrection {
     /// For the free points of a mesh; parts of the surface that are pinned have no traction.
     pub(crate) fn new(mesh: &TriangleMesh, free: &[usize], deficit: &MobilityDeficit) -> Self {
@@ -125,7 +120,6 @@ impl SurfaceCorrection {
             edges: vec![Edge { from: Vec2::zeros(), tangent: Vec2::zeros(), length: 0.0 }; count],
             kinks: Vec::new(),
             feet: Vec::new(),
-            guests: Vec::new(),
             missing: vec![0.0; count],
             slopes: vec![0.0; count],
             scratch: vec![0.0; count],
@@ -237,63 +231,32 @@ impl SurfaceCorrection {
         }
     }
 
-    /// Takes over where the points are now, and the markers of interfaces close to the surface.
-    pub(crate) fn place(
+    /// Finds the missing velocities for the present positions (length) and forces (force) of all points.
+    pub(crate) fn update(
         &mut self,
         mesh: &TriangleMesh,
         free: &[usize],
         medium: &Medium,
         positions: &[Vec2],
-        markers: &Markers,
+        forces: &[Vec2],
     ) {
         if self.near.is_empty() {
             return;
         }
         self.find_edges(mesh, positions);
         self.find_roots(medium.domain.origin);
-        let mut feet = std::mem::take(&mut self.feet);
-        for (foot, near) in feet.iter_mut().zip(&self.near) {
-            *foot = self.foot(near.vertex, positions[free[near.marker]], mesh.period());
-        }
-        self.feet = feet;
-        let mut guests = std::mem::take(&mut self.guests);
-        guests.clear();
-        let viscosity = medium.viscosity;
-        let alike = |kind| matches!(kind, MarkerKind::Interface { viscosity_inside } if viscosity_inside.is_none_or(|inside| inside == viscosity));
-        for group in markers.groups().iter().filter(|group| alike(group.kind)) {
-            for marker in group.range.clone() {
-                let place = markers.positions[marker];
-                if let Some(vertex) = self.coarsely_nearest(place, mesh.period()) {
-                    let foot = self.foot(vertex, place, mesh.period());
-                    if foot.beside.is_some() {
-                        guests.push((marker, foot));
-                    }
-                }
-            }
-        }
-        self.guests = guests;
-    }
-
-    /// A vertex from which [`SurfaceCorrection::foot`] comes to the edge nearest to a point, unless that is out of reach.
-    fn coarsely_nearest(&self, place: Vec2, period: Option<f64>) -> Option<usize> {
-        let nearest = (0..self.vertices.len()).step_by(STRIDE).filter(|&k| !self.vertices[k].pinned);
-        let nearest = nearest.map(|k| (k, wrapped(place - self.edges[k].from, period).norm_squared()));
-        nearest.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(vertex, _)| vertex)
-    }
-
-    /// Finds the missing velocities for the present forces (force) of all points and of the markers.
-    pub(crate) fn update(&mut self, free: &[usize], medium: &Medium, forces: &[Vec2], markers: &Markers) {
-        if self.near.is_empty() {
-            return;
-        }
         self.missing.fill(0.0);
         self.slopes.fill(0.0);
-        let own = self.feet.iter().zip(&self.near).map(|(foot, near)| (foot, forces[free[near.marker]]));
-        let guests = self.guests.iter().map(|(marker, foot)| (foot, markers.forces[*marker]));
-        for (Foot { vertex, fraction, beside }, force) in own.chain(guests) {
+        let mut feet = std::mem::take(&mut self.feet);
+        for (foot, near) in feet.iter_mut().zip(&self.near) {
+            let point = free[near.marker];
+            *foot = self.foot(near.vertex, positions[point], mesh.period());
+        }
+        self.feet = feet;
+        for (Foot { vertex, fraction, beside }, near) in self.feet.iter().zip(&self.near) {
             if let Some(beside) = beside {
                 let after = self.vertices[*vertex].after;
-                let [along, across] = beside.work(force);
+                let [along, across] = beside.work(forces[free[near.marker]]);
                 for (at, share) in [(*vertex, 1.0 - fraction), (after, *fraction)] {
                     self.missing[at] += share * along;
                     self.slopes[at] += share * across;
@@ -344,25 +307,15 @@ impl SurfaceCorrection {
 
     /// Adds the missing velocities (length per time) to the rates of the free points.
     pub(crate) fn add(&self, rate: &mut [f64]) {
-        for (foot, near) in self.feet.iter().zip(&self.near) {
-            let velocity = self.missing_at(foot);
-            rate[2 * near.marker] += velocity.x;
-            rate[2 * near.marker + 1] += velocity.y;
+        for (Foot { vertex, fraction, beside }, near) in self.feet.iter().zip(&self.near) {
+            if let Some(beside) = beside {
+                let after = self.vertices[*vertex].after;
+                let between = |values: &[f64]| values[*vertex] + fraction * (values[after] - values[*vertex]);
+                let velocity = beside.velocity(between(&self.missing), between(&self.slopes));
+                rate[2 * near.marker] += velocity.x;
+                rate[2 * near.marker + 1] += velocity.y;
+            }
         }
-    }
-
-    /// Adds them to the velocities of the interfaces' markers.
-    pub(crate) fn add_to_guests(&self, velocities: &mut [Vec2]) {
-        for (marker, foot) in &self.guests {
-            velocities[*marker] += self.missing_at(foot);
-        }
-    }
-
-    fn missing_at(&self, Foot { vertex, fraction, beside }: &Foot) -> Vec2 {
-        let after = self.vertices[*vertex].after;
-        let between = |values: &[f64]| values[*vertex] + fraction * (values[after] - values[*vertex]);
-        let velocity = |beside: &Beside| beside.velocity(between(&self.missing), between(&self.slopes));
-        beside.as_ref().map_or_else(Vec2::zeros, velocity)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::any::Any;
 
-use crate::{BodyError, Boundary, MarkerKind, Markers, Medium, Record, StepLimits, Vec2};
+use crate::{BodyError, Boundary, MarkerKind, Medium, Record, StepLimits, Vec2};
 
 /// A step that is about to be taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,8 +18,8 @@ pub struct StepInfo {
 ///
 /// Its state is a flat list of numbers, which the integrator advances: `d state/dt = rate + L state`, the rate explicit,
 /// the linear part L (by default nothing) implicit. The calls of one evaluation come in this order, and a body may keep
-/// what it computed in one for the next: [`Body::read_state`], [`Body::write_markers`], [`Body::write_forces`], [`Body::meet`],
-/// [`Body::add_velocities`], [`Body::rate`].
+/// what it computed in one for the next: [`Body::read_state`], [`Body::write_markers`], [`Body::write_forces`],
+/// [`Body::rate`].
 pub trait Body: Any + std::fmt::Debug + Send {
     /// A name for messages.
     fn name(&self) -> &str;
@@ -38,14 +38,6 @@ pub trait Body: Any + std::fmt::Debug + Send {
     /// # Errors
     /// A state in which the forces are not defined.
     fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError>;
-
-    /// Called when positions and forces of the markers of all bodies are known, before their velocities are: for what a body has to do with
-    /// others.
-    fn meet(&mut self, _medium: &Medium, _markers: &Markers) {}
-
-    /// Adds to the velocities of all markers of the scene (length per time) what the flow does not have, once it is known; what the
-    /// body's own markers get beyond the flow is for [`Body::rate`].
-    fn add_velocities(&self, _velocities: &mut [Vec2]) {}
 
     /// Number of entries of the state, in units that only the body knows.
     fn state_len(&self) -> usize;

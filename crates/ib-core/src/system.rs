@@ -246,10 +246,8 @@ impl<H: Hydrodynamics> System<H> {
         if let Some(repulsion) = &self.repulsion {
             repulsion.add(&mut self.markers, medium.domain.periods);
         }
-        self.bodies.iter_mut().for_each(|body| body.meet(&medium, &self.markers));
         self.report =
             self.hydrodynamics.velocities(&mut self.markers).map_err(|source| SceneError::Flow { time, source })?;
-        self.bodies.iter().for_each(|body| body.add_velocities(&mut self.markers.velocities));
         Ok(())
     }
 
