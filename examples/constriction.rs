@@ -3,7 +3,7 @@
 //! `cargo run --release --example constriction` simulates it until it is clear what becomes of the droplet, prints that
 //! and what was measured, and writes to `out/constriction/` what the example `elastic_channel` writes. The channel is
 //! that of thesis figure 4.18, the droplet starts in the middle of its wide part; `--width`, `--throat` and
-//! `--throat-length` change it. `--help` lists the flags.
+//! `--throat-length` change it. Walls are set back (`--surface set-back`) unless another `--surface` is asked for. `--help` lists the flags.
 
 use std::process::ExitCode;
 
@@ -11,7 +11,8 @@ use anyhow::{Result, ensure};
 use clap::Parser;
 use motile::elastic_solids::Constriction;
 use support::{
-    DropletFlags, ElasticFlags, MethodFlags, OutputFlags, Passage, WatchedRun, caption, positive, say, wall_caption,
+    DropletFlags, ElasticFlags, MethodFlags, OutputFlags, Passage, Preset, SurfaceRule, WatchedRun, caption, positive,
+    say, wall_caption,
 };
 
 /// An active droplet meets a constriction between elastic walls.
@@ -47,7 +48,10 @@ fn meet(flags: &Flags) -> Result<()> {
     // The channel, and the droplet half a period away from the middle of the throat.
     let &Flags { throat, throat_length, ramp, patience, .. } = flags;
     let method = MethodFlags { time: patience, ..flags.method.clone() };
-    let channel = flags.walls.channel(&flags.droplet, &method, -0.5 * flags.walls.length)?;
+    // Droplets that are pressed against the mouth for long enter corrected surfaces.
+    let preset = (method.preset == Preset::Accurate).then_some(SurfaceRule::SetBack);
+    let walls = ElasticFlags { surface: flags.walls.surface.or(preset), ..flags.walls.clone() };
+    let channel = walls.channel(&flags.droplet, &method, -0.5 * walls.length)?;
     let swimmer = &channel.swimmer;
     let [period, width] = swimmer.lengths;
     ensure!(throat <= width, "--throat {throat} is wider than the channel: give a number up to --width {width}");

@@ -112,7 +112,6 @@ fn narrow(h: f64) -> Vec<Job> {
     let job = |(young, activity)| Job {
         material: WallMaterial::NeoHookean,
         mesh: WallMesh::Unstructured,
-        surface: WallSurface::Corrected,
         ..Job::new(Purpose::Narrow, 1.0, activity, young, h, 60.0)
     };
     pairs(&[1e3, 1e4], &ACTIVITIES).map(job).collect()

@@ -84,7 +84,7 @@ impl Job {
             stiffness,
             material: WallMaterial::Springs,
             mesh: WallMesh::Equilateral,
-            surface: WallSurface::SetBack,
+            surface: if purpose == Purpose::Passage { WallSurface::SetBack } else { WallSurface::Corrected },
             thesis: false,
             equidistant: false,
             back: 0.0,
@@ -99,7 +99,7 @@ impl Job {
         let method = if self.thesis { "_thesis" } else { "" };
         let equidistant = if self.equidistant { "_equidistant" } else { "" };
         let back = if self.back == 0.0 { String::new() } else { format!("_back{}", self.back) };
-        let surface = if self.surface == WallSurface::Corrected { "_corrected" } else { "" };
+        let surface = if self.surface == WallSurface::SetBack { "_setback" } else { "" };
         let ratio = if self.ratio == 1.0 { String::new() } else { format!("_ratio{}", self.ratio) };
         format!(
             "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}{surface}{equidistant}{back}"

@@ -42,7 +42,7 @@ pub enum Mesh {
 pub enum SurfaceRule {
     /// The walls are meshed as much further back.
     SetBack,
-    /// A mobility correction, for droplets that keep away from the walls.
+    /// A mobility correction.
     Corrected,
     /// Nothing.
     Plain,
