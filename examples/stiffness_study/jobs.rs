@@ -1,7 +1,7 @@
 //! Which runs the study consists of.
 
 use clap::ValueEnum;
-use motile::{WallMaterial, WallMesh, WallSurface};
+use motile::{WallMaterial, WallMesh};
 
 use crate::run::{Job, Purpose};
 
@@ -108,7 +108,6 @@ fn rests(h: f64) -> Vec<Job> {
 }
 
 fn narrow(h: f64) -> Vec<Job> {
-    // Set back, walls as soft as the softer ones are entered by the droplet or turn inside out.
     let job = |(young, activity)| Job {
         material: WallMaterial::NeoHookean,
         mesh: WallMesh::Unstructured,
