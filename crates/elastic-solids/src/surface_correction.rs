@@ -331,3 +331,6 @@ fn wrapped(mut vector: Vec2, period: Option<f64>) -> Vec2 {
 fn nearest_step(mesh: &TriangleMesh, from: usize, to: usize) -> Vec2 {
     wrapped(mesh.points()[to] - mesh.points()[from], mesh.period())
 }
+
+#[cfg(test)]
+mod tests;
