@@ -42,6 +42,8 @@ pub(crate) struct Beside {
 const SPLINE_AT_ZERO: f64 = 7.0 / 30.0;
 /// Where g ends, where there is room.
 const END: f64 = 4.0;
+/// How much shorter than the line itself one beside it may be: keeps away from centres of curvature.
+const SHORTEST: f64 = 0.3;
 
 /// phi(s) for a cubic B-spline: its second derivative is the spline, its slope at 0 is -1/2, and it ends at 2.
 fn spline(s: f64) -> f64 {
@@ -87,15 +89,17 @@ impl RoundedKink {
         [along / SPLINE_AT_ZERO, self.scale * across / SPLINE_AT_ZERO]
     }
 
-    /// What is missing at the place `away` (length) from the nearest point of a line along the unit vector `tangent`; nothing beyond the
-    /// reach.
-    pub(crate) fn beside(&self, away: Vec2, tangent: Vec2, spacing: f64) -> Option<Beside> {
+    /// What is missing at the place `away` (length) from the nearest point of a line along the unit vector `tangent` that turns to its left
+    /// with the `curvature` (1/length); nothing beyond the reach.
+    pub(crate) fn beside(&self, away: Vec2, tangent: Vec2, curvature: f64, spacing: f64) -> Option<Beside> {
         let normal = Vec2::new(-tangent.y, tangent.x);
         let height = away.dot(&normal);
         let s = height.abs() / spacing;
         (s < self.reach()).then(|| {
             let [along, across] = self.parts(s);
-            Beside { tangent, along, across: normal * (-height.signum() * across * spacing) }
+            // Lines at this distance are shorter towards the centre of curvature.
+            let shorter = (1.0 - curvature * height).max(SHORTEST);
+            Beside { tangent, along, across: normal * (-height.signum() * across * spacing / shorter) }
         })
     }
 }
@@ -147,7 +151,7 @@ mod tests {
         for kink in [RoundedKink::new(0.25, 20.0), RoundedKink::new(0.25, 2.5), RoundedKink::new(0.4, 1.2)] {
             // What is missing on y = 0 is sin(x).
             let velocity = |x: f64, y: f64| {
-                let beside = kink.beside(Vec2::new(0.0, y), Vec2::new(1.0, 0.0), spacing);
+                let beside = kink.beside(Vec2::new(0.0, y), Vec2::new(1.0, 0.0), 0.0, spacing);
                 beside.map_or_else(Vec2::zeros, |beside| beside.velocity(x.sin(), x.cos()))
             };
             let places: [(f64, f64); 5] = [(0.3, 0.2), (0.3, -0.7), (1.2, 1.1), (2.0, -2.3), (0.1, 3.0)];
@@ -166,7 +170,7 @@ mod tests {
     #[test]
     fn velocity_and_work_are_adjoint() {
         let kink = RoundedKink::new(0.25, 20.0);
-        let beside = kink.beside(Vec2::new(0.03, -0.11), Vec2::new(0.6, 0.8), 0.1).unwrap();
+        let beside = kink.beside(Vec2::new(0.03, -0.11), Vec2::new(0.6, 0.8), 0.5, 0.1).unwrap();
         let (force, missing, slope) = (Vec2::new(1.3, -0.4), 0.7, -2.1);
         let [on_missing, on_slope] = beside.work(force);
         let (power, adjoint) = (force.dot(&beside.velocity(missing, slope)), on_missing * missing + on_slope * slope);

@@ -32,8 +32,11 @@ pub(crate) struct SurfaceCorrection {
     spacing: f64,
     /// How often forces, and then missing velocities, are averaged over neighbours.
     passes: usize,
-    /// The edges that begin at the vertices as they are now, and beside them.
+    /// The edges that begin at the vertices as they are now.
     edges: Vec<Edge>,
+    /// How the surface runs at the vertices, averaged over neighbours.
+    bends: Vec<Bend>,
+    /// Beside the edges.
     kinks: Vec<RoundedKink>,
     /// Where the points of `near` are now.
     feet: Vec<Foot>,
@@ -41,6 +44,7 @@ pub(crate) struct SurfaceCorrection {
     missing: Vec<f64>,
     /// Its slope (1/time).
     slopes: Vec<f64>,
+    directions: Vec<Vec2>,
     scratch: Vec<f64>,
 }
 
@@ -69,6 +73,15 @@ struct Edge {
     from: Vec2,
     tangent: Vec2,
     length: f64,
+}
+
+/// How the surface runs at a vertex.
+#[derive(Debug, Clone, Copy, Default)]
+struct Bend {
+    /// Unit tangent.
+    tangent: Vec2,
+    /// Positive where it turns to the left of the tangent (1/length).
+    curvature: f64,
 }
 
 /// The place of the surface nearest to a point.
@@ -118,10 +131,12 @@ impl SurfaceCorrection {
             spacing: 0.0,
             passes: 0,
             edges: vec![Edge { from: Vec2::zeros(), tangent: Vec2::zeros(), length: 0.0 }; count],
+            bends: vec![Bend::default(); count],
             kinks: Vec::new(),
             feet: Vec::new(),
             missing: vec![0.0; count],
             slopes: vec![0.0; count],
+            directions: vec![Vec2::zeros(); count],
             scratch: vec![0.0; count],
             vertices,
         };
@@ -185,6 +200,24 @@ impl SurfaceCorrection {
         }
     }
 
+    /// Takes over how it runs. The flow beside it has no divergence only if directions change along it steadily.
+    fn find_bends(&mut self) {
+        for vertex in &self.vertices {
+            let [before, after] = [self.edges[vertex.before], self.edges[vertex.own]];
+            let sum = before.tangent * before.length + after.tangent * after.length;
+            self.bends[vertex.own].tangent = sum.try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+        }
+        for vertex in &self.vertices {
+            let [before, here, after] = [vertex.before, vertex.own, vertex.after].map(|k| self.bends[k].tangent);
+            self.directions[vertex.own] = (before + 2.0 * here + after).try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+        }
+        for vertex in &self.vertices {
+            let turn = self.directions[vertex.before].perp(&self.directions[vertex.after]);
+            let curvature = turn * self.inverse_span(vertex);
+            self.bends[vertex.own] = Bend { tangent: self.directions[vertex.own], curvature };
+        }
+    }
+
     /// The vector to a point from the nearest place of an edge, and where along the edge that is.
     fn away(&self, vertex: usize, point: Vec2, period: Option<f64>) -> (Vec2, f64) {
         let Edge { from, tangent, length } = self.edges[vertex];
@@ -211,7 +244,10 @@ impl SurfaceCorrection {
             }
             (vertex, (away, fraction)) = (next, there);
         }
-        let beside = self.kinks[vertex].beside(away, self.edges[vertex].tangent, self.spacing);
+        let [first, second] = [self.bends[vertex], self.bends[self.vertices[vertex].after]];
+        let tangent = first.tangent.lerp(&second.tangent, fraction).try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+        let curvature = first.curvature + fraction * (second.curvature - first.curvature);
+        let beside = self.kinks[vertex].beside(away, tangent, curvature, self.spacing);
         Foot { vertex, fraction, beside }
     }
 
@@ -244,6 +280,7 @@ impl SurfaceCorrection {
             return;
         }
         self.find_edges(mesh, positions);
+        self.find_bends();
         self.find_roots(medium.domain.origin);
         self.missing.fill(0.0);
         self.slopes.fill(0.0);
