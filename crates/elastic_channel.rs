@@ -36,8 +36,8 @@ pub enum WallSurface {
     /// start in touch with the walls starts squeezed a little, beside a film.
     Corrected,
     /// Walls are meshed as much further back ([`ElasticChannel::set_back`]). Leaves an error of first order, of a few tenths of a
-    /// grid spacing where droplets keep away, but bears droplets that are pressed against a wall for long, such as the mouth of a
-    /// constriction, where they enter corrected surfaces in time.
+    /// grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for long, such as the mouth of a
+    /// constriction, where in time they enter corrected surfaces or turn a triangle of springs inside out.
     SetBack,
     /// Nothing, as in the thesis.
     Plain,
