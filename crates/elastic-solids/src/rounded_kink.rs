@@ -15,8 +15,9 @@ use ib_core::Vec2;
 /// ```text
 /// (h^2/eta) f_t chi(s),    chi' = phi - g integral of phi,    integral of g = 1
 /// ```
-/// there is a velocity across the line too, `-(h^2/eta) f_t' chi(s)` away from it (over `1 - kappa s h` beside a line of curvature kappa). It vanishes on the line; the weight g ends it over some
-/// grid spacings, in place of the wavelength over which it really ends. The part of g is of second order in h.
+/// there is a velocity across the line too, away from it, of `-(h^2/eta) f_t' chi(s)/(1 - kappa s h)`, kappa being the curvature of the line. It
+/// vanishes on the line; the weight g ends it over some grid spacings, in place of the wavelength over which it really ends. The part
+/// of g is of second order in h.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RoundedKink {
     /// Width of the spline over that of the cubic one on a grid.

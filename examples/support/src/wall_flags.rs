@@ -227,7 +227,7 @@ mod tests {
         for (line, remedy) in [
             ("--mesh-spacing 5", "give --mesh-spacing 2 or less"),
             ("--mesh-spacing 0.001", "give --mesh-spacing 0.0039 or more"),
-            ("--wall-thickness 0.04", "give 0.05 or more, or a smaller --spacing"),
+            ("--wall-thickness 0.1 --mesh-spacing 0.15", "give 0.15 or more, or a smaller --mesh-spacing"),
             ("--wall-thickness 0.05 --surface set-back", "give 0.0675 or more, or a smaller --spacing"),
             ("--width 0.1", "give a larger --width"),
             ("--bulk-modulus 3", "leave --bulk-modulus out"),
