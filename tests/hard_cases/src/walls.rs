@@ -3,7 +3,7 @@
 use motile::elastic_solids::{Constriction, Mesher, Moduli, Solid, Springs, StraightChannel, TriangleMesh};
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid};
-use motile::{AnyFlow, ElasticChannel, Swimmer};
+use motile::{AnyFlow, ElasticChannel, Swimmer, WallSurface};
 
 use crate::drive::{run_way, swimmer};
 use crate::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
@@ -79,7 +79,8 @@ pub(crate) fn trials() -> Vec<Trial> {
                 ..Swimmer::default()
             };
             let moduli = Moduli::from_thesis_spring_constant(1e4)?;
-            let channel = ElasticChannel::new(swimmer(way, &base), moduli);
+            let channel =
+                ElasticChannel { surface: WallSurface::SetBack, ..ElasticChannel::new(swimmer(way, &base), moduli) };
             let shape =
                 Constriction { period: 8.0, width: 2.0, throat: 0.25, throat_length: 1.0, ramp: 1.0, centre: 0.0 };
             run_way(way, channel.build_in(&shape.channel()?)?.0, extent.pick(1.0, 40.0), look)
