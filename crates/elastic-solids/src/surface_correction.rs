@@ -44,6 +44,7 @@ pub(crate) struct SurfaceCorrection {
     missing: Vec<f64>,
     /// Its slope (1/time).
     slopes: Vec<f64>,
+    /// For averages.
     directions: Vec<Vec2>,
     scratch: Vec<f64>,
 }
