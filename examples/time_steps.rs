@@ -16,7 +16,7 @@ use motile::elastic_solids::Moduli;
 use motile::ib_core::{
     Checkpoint, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2,
 };
-use motile::{AnyFlow, ElasticChannel, Method, Swimmer};
+use motile::{AnyFlow, ElasticChannel, Method, Swimmer, WallSurface};
 use support::{make_directory, positive, say};
 
 /// Which table.
@@ -85,7 +85,10 @@ type Channel<I> = Scene<AnyFlow, I>;
 fn channel<I: Integrator>(integrator: I, activity: f64) -> Result<(Channel<I>, Handle<ActiveDroplet>)> {
     let swimmer = Swimmer { activity, viscosity: 10.0, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };
     let moduli = Moduli::from_thesis_spring_constant(1e6)?;
-    let (scene, droplet, _) = ElasticChannel::new(swimmer, moduli).build()?;
+    // The grid does not resolve the edge of the active region here. Between corrected surfaces there are then two states, and which one a run
+    // finds says nothing about the error of its steps.
+    let surface = WallSurface::SetBack;
+    let (scene, droplet, _) = ElasticChannel { surface, ..ElasticChannel::new(swimmer, moduli) }.build()?;
     Ok((scene.advanced_by(integrator), droplet))
 }
 
