@@ -60,8 +60,20 @@ fn lateral(full: bool, h: f64) -> Vec<Job> {
     let widths: &[f64] = if full { &[3.0, 4.0, 5.0] } else { &[3.0] };
     let activities: &[f64] = if full { &ACTIVITIES } else { &[-4.0] };
     let stiffnesses: &[f64] = if full { &[1e4, 2e4, 4e4, 6e4, 8e4, 1e5, 1e6] } else { &[1e4, 1e5, 1e6] };
-    let job =
-        |width, activity, k| Job { excluded_volume: 13.5, ..Job::new(Purpose::Lateral, width, activity, k, h, 150.0) };
+    // Wider channels take longer to cross.
+    let time = |width| {
+        if width > 4.5 {
+            600.0
+        } else if width > 3.5 {
+            400.0
+        } else {
+            150.0
+        }
+    };
+    let job = |width, activity, k| Job {
+        excluded_volume: 13.5,
+        ..Job::new(Purpose::Lateral, width, activity, k, h, time(width))
+    };
     pairs(widths, activities)
         .flat_map(|(width, activity)| stiffnesses.iter().map(move |&k| job(width, activity, k)))
         .collect()
