@@ -2,7 +2,7 @@
 
 use ib_core::Vec2;
 
-use crate::error::positive;
+use crate::error::{all_points_finite, positive};
 use crate::forces::fits;
 use crate::{DeformationGradient, ElasticForces, EnergyDensity, Mat2, SolidError, TriangleMesh};
 
@@ -49,8 +49,9 @@ pub struct ForceBalance {
 /// whatever the deformation.
 ///
 /// # Errors
-/// Those of [`ElasticForces::add_forces`].
+/// Positions that are not finite; those of [`ElasticForces::add_forces`].
 pub fn force_balance<F: ElasticForces + ?Sized>(law: &F, positions: &[Vec2]) -> Result<ForceBalance, SolidError> {
+    all_points_finite("the positions", positions)?;
     let mut forces = vec![Vec2::zeros(); positions.len()];
     law.add_forces(positions, &mut forces)?;
     let size = forces.iter().map(Vec2::norm).sum::<f64>().max(f64::MIN_POSITIVE);
@@ -63,7 +64,7 @@ pub fn force_balance<F: ElasticForces + ?Sized>(law: &F, positions: &[Vec2]) -> 
 /// and for springs on a lattice of equilateral triangles.
 ///
 /// # Errors
-/// Forces made for another mesh; those of [`ElasticForces::add_forces`].
+/// Forces made for another mesh; a deformation that is not finite; those of [`ElasticForces::add_forces`].
 pub fn patch_residual<F: ElasticForces + ?Sized>(
     mesh: &TriangleMesh,
     law: &F,
@@ -71,6 +72,7 @@ pub fn patch_residual<F: ElasticForces + ?Sized>(
 ) -> Result<f64, SolidError> {
     fits("the mesh of the forces", law.point_count(), mesh.points().len())?;
     let positions: Vec<Vec2> = mesh.points().iter().map(|s| deformation * s).collect();
+    all_points_finite("the deformed points", &positions)?;
     let mut forces = vec![Vec2::zeros(); positions.len()];
     law.add_forces(&positions, &mut forces)?;
     let mut inside = vec![true; positions.len()];
@@ -80,4 +82,22 @@ pub fn patch_residual<F: ElasticForces + ?Sized>(
         chosen.map(|(force, _)| force.norm()).fold(0.0, f64::max)
     };
     Ok(largest(true) / largest(false).max(f64::MIN_POSITIVE))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Springs, equilateral_strip};
+
+    #[test]
+    fn what_is_not_finite_is_refused() {
+        let mesh = equilateral_strip(Vec2::zeros(), 8, 4, 0.1).unwrap();
+        let law = Springs::new(&mesh, 1.0).unwrap();
+        let mut positions = mesh.points().to_vec();
+        assert!(force_balance(&law, &positions).is_ok());
+        positions[3].x = f64::NAN;
+        assert!(force_balance(&law, &positions).is_err());
+        assert!(force_balance(&law, &positions[1..]).is_err());
+        assert!(patch_residual(&mesh, &law, Mat2::new(1.0, f64::NAN, 0.0, 1.0)).is_err());
+    }
 }
