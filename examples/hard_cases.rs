@@ -11,7 +11,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
-use motile_hard_cases::{Extent, Outcome, Trial, cases};
+use motile_tests::hard_cases::{Extent, Outcome, Trial, cases};
 use support::{Summary, make_directory, say, write_results, write_scene_picture};
 
 /// Scenes that are hard to compute.

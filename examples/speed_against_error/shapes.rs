@@ -9,7 +9,7 @@ use motile::elastic_solids::{ElasticSolid, NeoHookean, fitted_strip};
 use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, MobilityDeficit, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile::{AnyFlow, Swimmer};
-use motile_validation::{Case, Reference, ReferenceFile, fixed_shapes};
+use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes};
 
 use crate::cost::{Cost, march, repeat};
 use crate::settings::{Flow, Preset, Settings};

@@ -7,7 +7,7 @@ use motile::active_interface::{ActiveDroplet, Convention, observe};
 use motile::ib_core::{StepSize, System};
 use motile::stokes_grid::Drive;
 use motile::{AnyFlow, Swimmer};
-use motile_validation::{Reference, ReferenceFile};
+use motile_tests::validation::{Reference, ReferenceFile};
 
 use crate::cost::{Cost, march};
 use crate::settings::Settings;

@@ -3,8 +3,8 @@
 use motile::Swimmer;
 use motile::ib_core::{AnyKernel, StepSize};
 use motile::stokes_grid::Drive;
-use motile_validation::lateral::{self, Method};
-use motile_validation::{Case, StudyError, Table, channel, order};
+use motile_tests::validation::lateral::{self, Method};
+use motile_tests::validation::{Case, StudyError, Table, channel, order};
 
 use crate::{Tables, per_cent, spacings};
 

@@ -1,13 +1,13 @@
 //! Droplets of another viscosity than their surroundings, on the grid.
 
 use motile::{ContrastMethod, Method, Swimmer};
-use motile_validation::contrast::{
+use motile_tests::validation::contrast::{
     CostScene, Droplet, Errors, Exact, Region, Way, cold_iterations, decaying_speeds, field_errors, growth,
     iterations_in_a_run, layer_errors, ratio_ten,
 };
-use motile_validation::growth::Mode;
-use motile_validation::swimmers::{long_run, reference_swimmer, steady};
-use motile_validation::{Case, StudyError, Table, order, relaxation};
+use motile_tests::validation::growth::Mode;
+use motile_tests::validation::swimmers::{long_run, reference_swimmer, steady};
+use motile_tests::validation::{Case, StudyError, Table, order, relaxation};
 
 use crate::{Tables, per_cent, spacings};
 

@@ -2,8 +2,8 @@
 
 use motile::Swimmer;
 use motile::ib_core::{AnyKernel, Kernel};
-use motile_validation::Table;
-use motile_validation::headings::{course, on_the_grid, without_grid};
+use motile_tests::validation::Table;
+use motile_tests::validation::headings::{course, on_the_grid, without_grid};
 
 use crate::{Tables, per_cent};
 

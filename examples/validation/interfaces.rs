@@ -4,13 +4,13 @@ use std::time::Instant;
 
 use motile::Swimmer;
 use motile::ib_core::StepSize;
-use motile_validation::growth::Mode;
-use motile_validation::interfaces::{
+use motile_tests::validation::growth::Mode;
+use motile_tests::validation::interfaces::{
     Several, growth_rate, growth_rate_limit, passing, relax, steady_in_channel, ten_in_a_box, turning,
 };
-use motile_validation::lateral::{self, Method};
-use motile_validation::swimmers::{reference_swimmer, steady, steady_without_grid, transient_without_grid};
-use motile_validation::{StudyError, Table};
+use motile_tests::validation::lateral::{self, Method};
+use motile_tests::validation::swimmers::{reference_swimmer, steady, steady_without_grid, transient_without_grid};
+use motile_tests::validation::{StudyError, Table};
 
 use crate::{Tables, per_cent};
 

@@ -15,9 +15,11 @@ use motile::Swimmer;
 use motile::active_interface::Motion;
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
 use motile::stokes_grid::Drive;
-use motile_validation::growth::Mode;
-use motile_validation::swimmers::{LongRun, long_run, reference_swimmer, steady, steady_without_grid, transient};
-use motile_validation::{Case, StudyError, Table, channel, fixed_shapes, growth, order, relaxation, resolution};
+use motile_tests::validation::growth::Mode;
+use motile_tests::validation::swimmers::{
+    LongRun, long_run, reference_swimmer, steady, steady_without_grid, transient,
+};
+use motile_tests::validation::{Case, StudyError, Table, channel, fixed_shapes, growth, order, relaxation, resolution};
 
 /// A study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

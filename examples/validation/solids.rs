@@ -1,9 +1,9 @@
 //! Elastic solids against exact results.
 
-use motile_validation::solids::{
+use motile_tests::validation::solids::{
     Layer, Material, Sample, balance, energies, largest_stress_error, laws, meshes, moduli, patch,
 };
-use motile_validation::{StudyError, Table, order};
+use motile_tests::validation::{StudyError, Table, order};
 
 use crate::{Tables, per_cent};
 

@@ -1,0 +1,1 @@
+//! Scenes of motile to copy from: the examples of this package.

@@ -1,0 +1,57 @@
+//! Channels with no-slip walls against boundary-integral values.
+
+use motile::Swimmer;
+use motile::ib_core::CubicQuadratic;
+use motile::stokes_grid::Drive;
+use motile_tests::validation::{Case, channel, order};
+
+const SPACINGS: [f64; 3] = [0.1, 0.05, 0.025];
+
+#[test]
+fn point_forces_are_second_order() {
+    for (name, drive) in channel::drives() {
+        let errors: Vec<f64> =
+            SPACINGS.iter().map(|&h| channel::point_forces(&CubicQuadratic::default(), h, drive).unwrap()).collect();
+        assert!((order(&SPACINGS, &errors) - 2.0).abs() < 0.1, "{name}: {errors:?}");
+        assert!(errors[1] < 6e-3, "{name}: {errors:?}");
+    }
+}
+
+#[test]
+fn fixed_shapes_are_second_order() {
+    let kernel = CubicQuadratic::default();
+    for (name, drive) in channel::drives() {
+        for (case, height) in
+            [(Case::Circle, 0.0), (Case::Circle, 0.3), (Case::EllipseUniform, 0.0), (Case::EllipseGradient, 0.0)]
+        {
+            let rows = SPACINGS.map(|h| channel::fixed_shape(&kernel, true, h, drive, case, height).unwrap());
+            let what = format!("{name}, {} at {height}: {rows:?}", case.name());
+            let markers: Vec<f64> = rows.iter().map(|row| row.markers.maximum).collect();
+            let field: Vec<f64> = rows.iter().map(|row| row.field).collect();
+            assert!(order(&SPACINGS, &markers) > 1.8, "{what}");
+            assert!(order(&SPACINGS, &field) > 1.8, "{what}");
+            assert!(rows[1].markers.maximum < 3e-3 && rows[1].drive.abs() < 1e-3, "{what}");
+            assert!(rows[1].wall_shear.abs() < 2e-3, "{what}");
+        }
+    }
+}
+
+/// Activity -1 is above the threshold in a box but not in a channel of its own width (thesis section 3.1).
+#[test]
+fn a_weak_swimmer_comes_to_rest() {
+    let swimmer = Swimmer { activity: -1.0, lengths: [12.0, 2.0], spacing: 0.1, ..Swimmer::default() };
+    let late = channel::speed(&swimmer, Drive::ZeroGradient, 300.0).unwrap();
+    assert!(late < 1e-4, "{late}");
+}
+
+/// The droplet as wide as the channel starts in contact with both walls and opens a film of 0.09 R0.
+#[test]
+fn steady_swimmers() {
+    for (width, speed, time) in [(2.0, 0.01, 120.0), (3.0, 0.005, 60.0)] {
+        let swimmer = Swimmer { activity: -2.0, lengths: [12.0, width], ..Swimmer::default() };
+        let errors = channel::steady(&swimmer, time).unwrap();
+        assert!(errors.speed.abs() < speed, "{errors:?}");
+        assert!(errors.gap.abs() < 0.01 && errors.flux.abs() < 0.01, "{errors:?}");
+        assert!(errors.area_change.abs() < 1e-5 && errors.particle_change.abs() < 1e-12, "{errors:?}");
+    }
+}

@@ -1,0 +1,21 @@
+//! Physics across the crates: each claim of the documentation against something exact or computed independently.
+
+mod allocation;
+mod channel;
+mod contrast;
+mod elastic_walls;
+mod errors;
+mod fixed_shapes;
+mod headings;
+mod interfaces;
+mod linear_theory;
+mod near_walls;
+mod recommended;
+mod relaxation;
+mod solids;
+mod swimmers;
+#[cfg(feature = "rayon")]
+mod threads;
+mod time_steps;
+mod without_grid;
+mod work;

@@ -1,0 +1,70 @@
+//! Elastic solids against exact results; the example `validation -- solids` prints the same figures.
+
+use motile_tests::validation::order;
+use motile_tests::validation::solids::{
+    Layer, Material, Sample, balance, energies, largest_stress_error, laws, meshes, moduli, patch,
+};
+
+const SPACINGS: [f64; 3] = [0.2, 0.1, 0.05];
+
+fn errors(layer: Layer) -> [f64; 3] {
+    SPACINGS.map(|h| layer.error(h).expect("a run"))
+}
+
+/// Springs and neo-Hookean material on a lattice, neo-Hookean material on an unstructured mesh.
+fn layers(corrected: bool) -> [[f64; 3]; 3] {
+    [(Material::NeoHookean, false), (Material::NeoHookean, true), (Material::Springs, false)]
+        .map(|(material, unstructured)| errors(Layer { material, unstructured, corrected }))
+}
+
+#[test]
+fn a_sheared_layer_relaxes_as_kelvin_voigt() {
+    let [structured, unstructured, springs] = layers(false);
+    for errors in [structured, unstructured, springs] {
+        assert!(errors[2].abs() < 0.035, "{errors:?}");
+        // First order: the stress of the layer is smeared over its surface.
+        assert!(order(&SPACINGS, &errors) > 0.8, "{errors:?}");
+    }
+    for ((one, other), lattice) in structured.iter().zip(unstructured).zip(springs) {
+        assert!((one - other).abs() < 2e-3 && (one - lattice).abs() < 2e-3, "{one} {other} {lattice}");
+    }
+}
+
+#[test]
+fn the_surface_correction_takes_the_first_order_error_off() {
+    for errors in layers(true) {
+        assert!(errors[0].abs() < 1e-3 && errors[1].abs() < 2e-4 && errors[2].abs() < 2e-4, "{errors:?}");
+    }
+}
+
+#[test]
+fn energies_forces_and_moduli_are_exact() {
+    for (name, energy) in energies().unwrap() {
+        let error = largest_stress_error(energy.as_ref()).unwrap();
+        assert!(error < 1e-8, "{name}: {error}");
+    }
+    for mesh in meshes().unwrap() {
+        for (name, law) in laws(&mesh).unwrap() {
+            let balance = balance(&mesh, law.as_ref()).unwrap();
+            assert!(balance.sum < 1e-12 && balance.torque < 1e-12, "{name}: {balance:?}");
+        }
+    }
+    let [ring, block] = meshes().unwrap();
+    for (name, law) in laws(&block).unwrap().into_iter().chain(laws(&ring).unwrap().into_iter().skip(1)) {
+        let mesh = if law.point_count() == block.points().len() { &block } else { &ring };
+        let residual = patch(mesh, law.as_ref()).unwrap();
+        assert!(residual < 1e-12, "{name}: {residual}");
+    }
+    for (sample, material, bound) in [
+        (Sample::Lattice, Material::Springs, 1e-3),
+        (Sample::Wall, Material::Springs, 0.02),
+        (Sample::Disc, Material::Springs, 0.02),
+        (Sample::Lattice, Material::NeoHookean, 1e-3),
+        (Sample::Wall, Material::NeoHookean, 1e-3),
+        (Sample::Disc, Material::NeoHookean, 1e-3),
+    ] {
+        let found = moduli(sample, material).unwrap();
+        let (shear, bulk) = (found.shear - 1.0, found.bulk - 1.0);
+        assert!(shear.abs() < bound && bulk.abs() < bound, "{sample:?}, {material:?}: {found:?}");
+    }
+}

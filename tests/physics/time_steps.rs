@@ -1,0 +1,205 @@
+//! Integrators and step sizes: order, stability, accuracy, and what is reported of them.
+
+use motile::active_interface::{ActiveDroplet, Motion, centroid_velocity};
+use motile::elastic_solids::{ElasticSolid, Moduli, NeoHookean, equilateral_strip};
+use motile::ib_core::{
+    Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
+    SceneError, SpectralEstimate, StepSize, Vec2,
+};
+use motile::stokes_grid::{ChannelStokes, Grid};
+use motile::{ElasticChannel, Swimmer};
+use motile_tests::validation::order;
+
+fn state<B: Body, H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>, body: Handle<B>) -> Vec<f64> {
+    let body = scene.body(body);
+    let mut state = vec![0.0; body.state_len()];
+    body.write_state(&mut state);
+    state
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt()
+}
+
+/// The droplet after a time of one, with equal steps; no filter, which is of first order in time.
+fn swimmer<I: Integrator>(integrator: I, dt: f64) -> Vec<f64> {
+    let motion = Motion::Equidistributed { relaxation: 5.0, filter: false };
+    let swimmer = Swimmer { spacing: 0.2, activity: -2.0, viscosity: 40.0, motion, ..Swimmer::default() };
+    let (scene, droplet) = swimmer.build_on_grid().expect("a scene");
+    let mut scene = scene.advanced_by(integrator);
+    scene.run(0.8).step_size(StepSize::Fixed(dt)).go().expect("a run");
+    state(&scene, droplet)
+}
+
+#[test]
+fn chebyshev_is_of_second_order_with_implicit_diffusion() {
+    let exact = swimmer(RungeKuttaChebyshev::new(), 0.00125);
+    let steps = [0.01, 0.005, 0.0025];
+    let errors = steps.map(|dt| distance(&swimmer(RungeKuttaChebyshev::new(), dt), &exact));
+    assert!(order(&steps, &errors) > 1.8, "{errors:?}");
+    // The midpoint rule converges to the same, from further away because of its stabiliser.
+    let others = steps.map(|dt| distance(&swimmer(Midpoint::default(), dt), &exact));
+    assert!(order(&steps, &others) > 1.4 && others[2] > 5.0 * errors[2], "{others:?}");
+}
+
+type Channel<I> = Scene<ImmersedBoundary<ChannelStokes, CubicQuadratic>, I>;
+
+/// A layer of shear modulus 1000 in fluid of viscosity 10, pinned below, its top deformed in a smooth way.
+fn block<I: Integrator>(integrator: I) -> (Channel<I>, Handle<ElasticSolid<NeoHookean>>) {
+    let grid = Grid::channel(16, 16, 0.1).expect("a grid");
+    let flow = ImmersedBoundary::new(ChannelStokes::new(grid, 10.0).expect("a solver"), CubicQuadratic::default());
+    let mesh = equilateral_strip(Vec2::new(0.0, -0.8), 16, 8, 0.1).expect("a mesh");
+    let deformed = |s: Vec2| {
+        let wave = (std::f64::consts::TAU * s.x / 1.6).sin();
+        s + 0.05 * (s.y + 0.8) * Vec2::new(1.0 + wave, wave)
+    };
+    let solid = ElasticSolid::new(mesh, NeoHookean::new(1000.0, 3000.0).expect("moduli"));
+    let solid = solid.pinned(|s| s.y < -0.79).expect("free points").deformed(deformed).expect("positions");
+    let mut scene = Scene::with_integrator(flow, integrator);
+    let handle = scene.add(solid);
+    (scene, handle)
+}
+
+fn relaxed<I: Integrator>(integrator: I, dt: f64) -> Vec<f64> {
+    let (mut scene, block) = block(integrator);
+    scene.run(0.1).step_size(StepSize::Fixed(dt)).go().expect("a run");
+    state(&scene, block)
+}
+
+/// The midpoint rule is stable up to 2 eta/mu = 0.02; the slow modes that are left at t = 0.1 are followed with second order by steps well
+/// beyond that.
+#[test]
+fn chebyshev_takes_long_steps_with_stiff_solids() {
+    let exact = relaxed(Midpoint::default(), 0.0005);
+    let steps = [0.025, 0.0125, 0.00625];
+    let errors = steps.map(|dt| distance(&relaxed(RungeKuttaChebyshev::new(), dt), &exact));
+    let order = order(&steps, &errors);
+    assert!(order > 1.8, "{order}: {errors:?}");
+    let moved = distance(&exact, &relaxed(Midpoint::default(), 0.1 / 100.0));
+    assert!(errors[0] < 1e-3 && moved < errors[2], "{errors:?} {moved}");
+}
+
+#[test]
+fn the_power_method_finds_the_rate_that_the_solid_predicts() {
+    let (mut scene, _) = block(RungeKuttaChebyshev::new());
+    scene.step(0.05).expect("a step");
+    // The bound is mu/eta; what is found is 0.6 to 1 of it, and the bound is not lowered for that.
+    let found = scene.integrator().measured();
+    assert!(found > 0.6 && found < 1.1, "{found}");
+    assert!(scene.integrator().correction() >= 1.0);
+    let work = scene.integrator_work();
+    assert!(work.estimates > 2 && work.estimates <= 30, "{work:?}");
+    // dt rate = 5 takes four stages: 0.65 * 15 = 9.8.
+    assert!(work.stages >= 3 && work.stages <= 4, "{work:?}");
+}
+
+#[test]
+fn the_stages_follow_the_step() {
+    let (mut scene, _) = block(RungeKuttaChebyshev::new().with_estimate(SpectralEstimate::Predicted));
+    let mut stages = 0;
+    // The rate is a bit above 100: 2, 4 and 8 stages reach 1.96, 9.8 and 41.
+    for (dt, expected) in [(0.01, 2), (0.05, 4), (0.3, 8)] {
+        scene.step(dt).expect("a step");
+        let taken = scene.integrator_work().stages - stages;
+        stages += taken;
+        assert_eq!(taken, expected, "{dt}");
+    }
+    assert_eq!(scene.integrator_work().estimates, 0);
+}
+
+/// Between walls whose rates lie densely up to the fastest, and beside a droplet whose rates are far slower, which is what the power method
+/// sees first.
+#[test]
+fn the_predicted_step_between_stiff_walls_is_stable() {
+    let swimmer = Swimmer { activity: 0.0, viscosity: 10.0, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };
+    let channel = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e6).expect("moduli"));
+    for stages in [5, 8] {
+        let (scene, droplet, _) = channel.build().expect("a scene");
+        let mut scene = scene.advanced_by(RungeKuttaChebyshev::new().with_most_stages(stages));
+        let start = scene.body(droplet).markers().to_vec();
+        let (limit, reason, _) = scene.step_limit().expect("a limit");
+        assert_eq!(reason, "the elastic moduli");
+        // Of fewer stages, whose number follows the step, the least are just enough.
+        for part in [0.7, 0.99] {
+            (0..30).for_each(|_| scene.step(part * limit).expect("a stable step"));
+            let moved = scene.body(droplet).markers().iter().zip(&start).map(|(a, b)| (a - b).norm());
+            assert!(moved.fold(0.0, f64::max) < 0.2, "{stages} stages, {part} of the limit");
+        }
+    }
+}
+
+/// What decays sets no bound here, and the first thing that happens is over in a thousandth of such a step.
+#[test]
+fn steps_of_a_fraction_of_a_long_limit_are_accurate() {
+    let swimmer = Swimmer { activity: -4.0, nodes: 24, concentration_cells: 96, ..Swimmer::default() };
+    let build = || swimmer.build().expect("a scene").0;
+    let (midpoint, _) = run_and_look(&mut build());
+    let (chebyshev, steps) = run_and_look(&mut build().advanced_by(RungeKuttaChebyshev::new()));
+    assert!((chebyshev / midpoint - 1.0).abs() < 1e-5, "{chebyshev} {midpoint}");
+    assert!(steps < 1500, "{steps}");
+}
+
+/// The speed at t = 60, and the steps to there.
+fn run_and_look<H: Hydrodynamics, I: Integrator>(scene: &mut Scene<H, I>) -> (f64, usize) {
+    scene.run(60.0).go().expect("a run");
+    scene.system_mut().evaluate().expect("a flow");
+    let markers = scene.system().markers();
+    let velocity = centroid_velocity(&markers.positions, &markers.velocities).expect("an interface");
+    (velocity.norm(), scene.steps())
+}
+
+fn adaptive<I: Integrator>(integrator: I, tolerance: f64) -> (Scene<motile::PeriodicBox, I>, Handle<ActiveDroplet>) {
+    let swimmer = Swimmer { spacing: 0.2, activity: -3.0, ..Swimmer::default() };
+    let (scene, droplet) = swimmer.build_on_grid().expect("a scene");
+    let mut scene = scene.advanced_by(integrator);
+    scene.run(6.0).step_size(StepSize::Adaptive { tolerance }).go().expect("a run");
+    (scene, droplet)
+}
+
+#[test]
+fn adaptive_steps_keep_the_error_they_are_asked_for() {
+    let (scene, droplet) = adaptive(Midpoint::default(), 1e-7);
+    let exact = state(&scene, droplet);
+    let positions = 2 * scene.body(droplet).marker_count();
+    let mut last = (f64::INFINITY, 0);
+    for tolerance in [1e-4, 1e-5, 1e-6] {
+        let (scene, droplet) = adaptive(Midpoint::default(), tolerance);
+        let error = distance(&state(&scene, droplet)[..positions], &exact[..positions]);
+        let report = scene.step_report();
+        // Local errors of the tolerance add up to some tens of it at most.
+        assert!(error < 60.0 * tolerance, "{tolerance}: {error:e}");
+        assert!(error < last.0 && report.steps > last.1, "{tolerance}: {error:e} {report:?}");
+        assert!(report.rejections < report.steps / 5 && report.failures == 0, "{report:?}");
+        assert_eq!(report.limiting.iter().map(|limiting| limiting.steps).sum::<usize>(), report.steps);
+        assert_eq!(report.steps, scene.steps());
+        last = (error, report.steps);
+    }
+}
+
+#[test]
+fn both_integrators_come_to_the_same() {
+    let (scene, droplet) = adaptive(Midpoint::default(), 1e-6);
+    let (other, same) = adaptive(RungeKuttaChebyshev::new(), 1e-6);
+    let (a, b) = (state(&scene, droplet), state(&other, same));
+    let positions = 2 * scene.body(droplet).marker_count();
+    assert!(distance(&a[..positions], &b[..positions]) < 3e-4, "{:e}", distance(&a[..positions], &b[..positions]));
+}
+
+#[test]
+fn a_bound_on_steps_and_their_number_ends_a_run() {
+    let (mut scene, _) = Swimmer { spacing: 0.2, ..Swimmer::default() }.build_on_grid().expect("a scene");
+    let error = scene.run(10.0).most_steps(3).go().expect_err("too few steps");
+    assert!(matches!(error, SceneError::TooManySteps { most: 3, .. }), "{error}");
+    assert_eq!(scene.steps(), 3);
+    let adaptive = StepSize::Adaptive { tolerance: 1e-9 };
+    let error = scene.run(10.0).step_size(adaptive).least_step(0.5).go().expect_err("steps too long");
+    assert!(matches!(error, SceneError::Stagnation { least: 0.5, .. }), "{error}");
+    assert_eq!(scene.steps(), 3);
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1.0] {
+        let outcome = scene.run(10.0).step_size(StepSize::Adaptive { tolerance: bad }).go();
+        assert!(matches!(outcome, Err(SceneError::Time { .. })), "{bad}");
+    }
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(matches!(scene.run(10.0).least_step(bad).go(), Err(SceneError::Time { .. })), "{bad}");
+    }
+}

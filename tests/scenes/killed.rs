@@ -1,0 +1,66 @@
+//! A program that is killed while it runs leaves a complete checkpoint, at whatever moment.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use motile::ib_core::{Checkpoint, Scene};
+use motile::{PeriodicBox, Swimmer};
+
+/// Where the program that is killed finds the path of its checkpoint.
+const PATH: &str = "MOTILE_KILLED_RUN";
+
+fn scene() -> Scene<PeriodicBox> {
+    Swimmer { spacing: 0.1, ..Swimmer::default() }.build_on_grid().expect("a scene").0
+}
+
+/// The program that is killed: goes on from the checkpoint, if there is one, and saves one after each step.
+#[test]
+#[ignore = "runs until it is killed, as part of the test below"]
+fn runs_until_killed() {
+    let path = PathBuf::from(std::env::var_os(PATH).expect("a path"));
+    let mut scene = scene();
+    if path.exists() {
+        scene.resume(&Checkpoint::read(&path).expect("a complete checkpoint")).expect("the same scene");
+    }
+    scene.run(1e6).save(1, &path, "to be killed").go().expect("a long run");
+}
+
+fn wait_for(path: &Path, start: Instant) {
+    while !path.exists() && start.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+#[test]
+fn checkpoints_of_a_killed_program_are_complete() {
+    let directory = std::env::temp_dir().join(format!("motile-killed-{}", std::process::id()));
+    std::fs::create_dir_all(&directory).expect("a directory");
+    let path = directory.join("state");
+    let program = std::env::current_exe().expect("this program");
+    let (mut steps, mut moment) = (0, 12_345_u64);
+    for _ in 0..20 {
+        let mut child = Command::new(&program)
+            .args(["--ignored", "--exact", "killed::runs_until_killed"])
+            .env(PATH, &path)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("the program");
+        wait_for(&path, Instant::now());
+        moment = moment.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        std::thread::sleep(Duration::from_micros(moment >> 46));
+        assert!(child.try_wait().expect("its state").is_none(), "the program ended by itself");
+        child.kill().expect("a program that can be killed");
+        child.wait().expect("its end");
+
+        let checkpoint = Checkpoint::read(&path).expect("a complete checkpoint");
+        assert!(checkpoint.steps() >= steps);
+        steps = checkpoint.steps();
+        let mut scene = scene();
+        scene.resume(&checkpoint).expect("the same scene");
+        scene.step(1e-3).expect("a step");
+    }
+    assert!(steps > 20, "{steps} steps in all");
+    std::fs::remove_dir_all(&directory).expect("a directory that can be removed");
+}

@@ -1,0 +1,122 @@
+//! Runs a scene and measures what changed.
+
+use std::any::Any;
+use std::f64::consts::PI;
+use std::time::Instant;
+
+use motile::active_interface::{ActiveDroplet, polygon_area};
+use motile::ib_core::{Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, StepSize, System, Vec2};
+use motile::{AnyFlow, Method, Swimmer};
+
+use crate::hard_cases::{CaseError, Ending, Look, Outcome, Way};
+
+/// The largest relative changes of the droplets of a scene since their starts.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Drift {
+    /// Of the area.
+    pub area: f64,
+    /// Of the number of particles.
+    pub particles: f64,
+}
+
+fn droplets<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &ActiveDroplet> {
+    system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
+}
+
+/// The area that a droplet keeps (length squared): that of the polygon of its markers on a grid, and without one that of the smooth curve
+/// through them, from which the polygon's differs by `pi/6 L^2/N^2`, more for longer curves.
+fn area(droplet: &ActiveDroplet, on_grid: bool) -> f64 {
+    let markers = droplet.markers();
+    let count = markers.len();
+    if on_grid {
+        return polygon_area(markers).unwrap_or(f64::NAN);
+    }
+    // Half the integral of x cross dx, the derivative that of the interpolating trigonometric polynomial.
+    let unit = PI / count as f64;
+    let weight = |j: usize| {
+        let angle = unit * j as f64;
+        let size = if count.is_multiple_of(2) { angle.tan().recip() } else { angle.sin().recip() };
+        if j.is_multiple_of(2) { size } else { -size }
+    };
+    let weights: Vec<f64> = (1..count).map(weight).collect();
+    let share = |k: usize| {
+        let along: Vec2 = weights.iter().zip(1..).map(|(w, j)| *w * markers[(k + count - j) % count]).sum();
+        markers[k].perp(&along)
+    };
+    0.5 * unit * (0..count).map(share).sum::<f64>()
+}
+
+/// Areas and particle numbers of the droplets of `system`.
+fn contents<H: Hydrodynamics>(system: &System<H>) -> Vec<[f64; 2]> {
+    let on_grid = system.hydrodynamics().medium().spacing.is_some();
+    droplets(system).map(|droplet| [area(droplet, on_grid), droplet.particle_numbers().iter().sum()]).collect()
+}
+
+/// How much area and particles of the droplets of `system` have changed, the droplet that changed most, since they were `start`.
+fn drift<H: Hydrodynamics>(system: &System<H>, start: &[[f64; 2]]) -> Drift {
+    let larger = |a: f64, b: f64| if b.is_nan() || b.abs() > a.abs() { b } else { a };
+    contents(system).iter().zip(start).fold(Drift::default(), |drift, (now, start)| {
+        let particles = if start[1] > 0.0 { now[1] / start[1] - 1.0 } else { 0.0 };
+        Drift { area: larger(drift.area, now[0] / start[0] - 1.0), particles: larger(drift.particles, particles) }
+    })
+}
+
+/// Most steps of a run: a case that needs more has gone wrong.
+const MOST: usize = 2_000_000;
+
+/// Runs a scene to time `until`.
+pub(crate) fn run<I: Integrator>(mut scene: Scene<AnyFlow, I>, until: f64, step: StepSize, look: Look<'_>) -> Outcome {
+    measured(&mut scene, look, |scene| scene.run(until).step_size(step).most_steps(MOST).go())
+}
+
+/// Runs a scene as `body` does, which leaves it in the last state.
+pub(crate) fn measured<I: Integrator>(
+    scene: &mut Scene<AnyFlow, I>,
+    look: Look<'_>,
+    body: impl FnOnce(&mut Scene<AnyFlow, I>) -> Result<(), motile::ib_core::SceneError>,
+) -> Outcome {
+    let start = contents(scene.system());
+    let clock = Instant::now();
+    let outcome = body(scene);
+    let seconds = clock.elapsed().as_secs_f64();
+    look(scene.system_mut());
+    let report = scene.step_report();
+    Outcome {
+        ending: Ending::from(&outcome),
+        explanation: outcome.err().map(|error| error.explanation()),
+        time: scene.time(),
+        steps: scene.steps(),
+        taken_back: report.rejections + report.failures,
+        evaluations: scene.system().hydrodynamics().work().evaluations,
+        drift: drift(scene.system(), &start),
+        seconds,
+    }
+}
+
+/// Half of what is stable.
+pub(crate) const AUTO: StepSize = StepSize::OfLimit(0.5);
+
+/// The steps of the adaptive runs.
+pub(crate) const ADAPTIVE: StepSize = StepSize::Adaptive { tolerance: 1e-5 };
+
+/// The swimmer by one of the ways.
+pub(crate) fn swimmer(way: Way, base: &Swimmer) -> Swimmer {
+    match way {
+        Way::Grid | Way::Chebyshev => Swimmer { method: Method::ImmersedBoundary, ..base.clone() },
+        Way::Integral => {
+            Swimmer { method: Method::BoundaryIntegral, nodes: 64, concentration_cells: 256, ..base.clone() }
+        }
+        Way::Thesis => {
+            let Swimmer { method, contrast, kernel, corrected, motion, flux, area_constraint, .. } = Swimmer::thesis();
+            Swimmer { method, contrast, kernel, corrected, motion, flux, area_constraint, ..base.clone() }
+        }
+    }
+}
+
+/// Runs a scene by one of the ways.
+pub(crate) fn run_way(way: Way, scene: Scene<AnyFlow>, until: f64, look: Look<'_>) -> Result<Outcome, CaseError> {
+    Ok(match way {
+        Way::Chebyshev => run(scene.advanced_by(RungeKuttaChebyshev::new()), until, ADAPTIVE, look),
+        _ => run(scene, until, AUTO, look),
+    })
+}

@@ -1,0 +1,111 @@
+//! Elastic walls: stiff, narrow, badly meshed.
+
+use motile::elastic_solids::{Constriction, Mesher, Moduli, Solid, Springs, StraightChannel, TriangleMesh};
+use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
+use motile::stokes_grid::{ChannelStokes, Drive, Grid};
+use motile::{AnyFlow, ElasticChannel, Swimmer, WallSurface};
+
+use crate::hard_cases::drive::{run_way, swimmer};
+use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
+
+/// Walls that give way around a throat far narrower than the droplet fold at its corners: where a triangle has turned inside out, adaptive
+/// steps shorten before the run ends.
+const SQUEEZED: &[Ending] = &[Ending::Finished, Ending::Inverted, Ending::Stagnated];
+
+/// A swimmer of activity -2 in a channel as wide as it, between walls of the thesis' spring constant k.
+fn stiff(
+    k: f64,
+    viscosity: f64,
+    [quick, long]: [f64; 2],
+    way: Way,
+    extent: Extent,
+    look: Look<'_>,
+) -> Result<Outcome, CaseError> {
+    let base = Swimmer { viscosity, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };
+    let channel = ElasticChannel::new(swimmer(way, &base), Moduli::from_thesis_spring_constant(k)?);
+    run_way(way, channel.build()?.0, extent.pick(quick, long), look)
+}
+
+/// A lower wall made from `mesh`, in shear flow.
+fn sheared(mesh: TriangleMesh, way: Way, until: f64, look: Look<'_>) -> Result<Outcome, CaseError> {
+    let mut solver = ChannelStokes::new(Grid::channel(60, 40, 0.1)?, 100.0)?;
+    solver.set_drive(Drive::Gradient(-10.0))?;
+    let flow: AnyFlow = Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+    let mut scene = Scene::new(flow);
+    let droplet = Swimmer { spacing: 0.1, offset: [0.0, 0.3], ..Swimmer::default() }.droplet()?;
+    scene.add(droplet);
+    let law = Springs::graded(&mesh, |_| 1000.0)?;
+    scene.add(Solid::with_forces(mesh, law)?.named("wall").pinned(|s| s.y < -2.0 + 1e-9)?);
+    run_way(way, scene, until, look)
+}
+
+/// The mesh of a wall of height one below the channel, whose inner points `place` may move; not those of its boundary.
+fn disturbed(place: impl Fn(usize, Vec2) -> Vec2) -> Result<TriangleMesh, CaseError> {
+    let channel = StraightChannel { period: 6.0, width: 2.0 }.channel()?;
+    let mesh = channel.walls(-2.0, 2.0, &Mesher::new(0.1)?)?.lower;
+    let fixed: Vec<usize> = mesh.boundary_loops().iter().flat_map(|outline| outline.points.iter().copied()).collect();
+    let points = mesh.points().iter().enumerate();
+    let points = points.map(|(k, &p)| if fixed.contains(&k) { p } else { place(k, p) }).collect();
+    Ok(TriangleMesh::periodic(points, mesh.triangles().to_vec(), 6.0)?)
+}
+
+/// Numbers between -1 and 1 without a pattern.
+fn noise(k: usize) -> f64 {
+    let bits = (k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
+    bits as f64 / f64::from(1 << 23) - 1.0
+}
+
+pub(crate) fn trials() -> Vec<Trial> {
+    let both: &[Way] = &[Way::Grid, Way::Chebyshev];
+    expand(&[
+        Recipe::new(4, "walls k = 1e6, viscosity 100", both, |way, extent, look| {
+            stiff(1e6, 100.0, [0.3, 10.0], way, extent, look)
+        }),
+        Recipe::new(4, "walls k = 1e6, viscosity 10", both, |way, extent, look| {
+            stiff(1e6, 10.0, [0.03, 1.0], way, extent, look)
+        }),
+        Recipe::new(4, "walls k = 1e7, viscosity 100", both, |way, extent, look| {
+            stiff(1e7, 100.0, [0.03, 1.0], way, extent, look)
+        }),
+        Recipe::new(4, "walls k = 1e7, viscosity 10", both, |way, extent, look| {
+            stiff(1e7, 10.0, [0.003, 0.2], way, extent, look)
+        }),
+        Recipe::new(8, "a throat of R0/4", both, |way, extent, look| {
+            let base = Swimmer {
+                activity: -5.0,
+                spacing: 0.125,
+                lengths: [8.0, 2.0],
+                offset: [-2.2, 0.0],
+                ..Swimmer::default()
+            };
+            let moduli = Moduli::from_thesis_spring_constant(1e4)?;
+            let channel =
+                ElasticChannel { surface: WallSurface::SetBack, ..ElasticChannel::new(swimmer(way, &base), moduli) };
+            let shape =
+                Constriction { period: 8.0, width: 2.0, throat: 0.25, throat_length: 1.0, ramp: 1.0, centre: 0.0 };
+            run_way(way, channel.build_in(&shape.channel()?)?.0, extent.pick(1.0, 40.0), look)
+        })
+        .ending_in(SQUEEZED)
+        .area_within(5e-3),
+        Recipe::new(15, "a highly irregular wall mesh", both, |way, extent, look| {
+            let mesh = disturbed(|k, p| p + 0.025 * Vec2::new(noise(2 * k), noise(2 * k + 1)))?;
+            sheared(mesh, way, extent.pick(1.0, 20.0), look)
+        }),
+        Recipe::new(15, "one sliver triangle", both, |way, extent, look| {
+            // A point is moved almost onto the opposite edge of one of its triangles.
+            let plain = disturbed(|_, p| p)?;
+            let near = |k: &usize| (plain.points()[*k] - Vec2::new(0.0, -1.5)).norm();
+            let chosen = (0..plain.points().len()).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(0);
+            let triangle = plain.triangles().iter().find(|corners| corners.contains(&chosen));
+            let others: Vec<Vec2> = triangle
+                .into_iter()
+                .flatten()
+                .filter(|&&corner| corner != chosen)
+                .map(|&corner| plain.points()[corner])
+                .collect();
+            let middle = others.iter().sum::<Vec2>() / others.len().max(1) as f64;
+            let mesh = disturbed(|k, p| if k == chosen { p.lerp(&middle, 0.97) } else { p })?;
+            sheared(mesh, way, extent.pick(1.0, 20.0), look)
+        }),
+    ])
+}

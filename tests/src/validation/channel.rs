@@ -1,0 +1,205 @@
+//! Channels with no-slip walls, against boundary-integral values.
+
+use motile::Swimmer;
+use motile::ib_core::{FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Vec2};
+use motile::stokes_grid::{ChannelStokes, Drive, Grid, Wall, WallMotion, flux, wall_shear_stress};
+
+use crate::validation::fixed_shapes::{Errors, Shape, couple};
+use crate::validation::swimmers::look;
+use crate::validation::{Case, Reference, ReferenceFile, StudyError};
+
+/// Name of a drive in the reference tables.
+fn convention(drive: Drive) -> &'static str {
+    if drive == Drive::ZeroFlux { "q0" } else { "p0" }
+}
+
+fn solver(l: f64, w: f64, h: f64, drive: Drive) -> Result<ChannelStokes, StudyError> {
+    let grid = Grid::channel((l / h).round() as usize, (w / h).round() as usize, h)?;
+    let mut solver = ChannelStokes::new(grid, 1.0)?;
+    solver.set_drive(drive)?;
+    Ok(solver)
+}
+
+/// Largest error of 4 pi eta times the velocity around point forces (period 4, width 2), over the points of the table that are at
+/// least 0.5 from the force; the velocities there are of order one.
+///
+/// # Errors
+/// What a setup can fail with.
+pub fn point_forces<K: Kernel>(kernel: &K, h: f64, drive: Drive) -> Result<f64, StudyError> {
+    let table = Reference::read(ReferenceFile::ChannelPointForces)?.select("conv", convention(drive));
+    let column = |name: &str| table.column(name);
+    let (x, y, x0, y0) = (column("x")?, column("y")?, column("x0")?, column("y0")?);
+    let expected = [[column("Gxx")?, column("Gyx")?], [column("Gxy")?, column("Gyy")?]];
+    let mut flow = couple(solver(4.0, 2.0, h, drive)?, kernel, false);
+    let mut worst: f64 = 0.0;
+    for i in 0..x.len() {
+        let (from, to) = (Vec2::new(x0[i], y0[i]), Vec2::new(x[i], y[i]));
+        if (to - from).norm() < 0.5 {
+            continue;
+        }
+        for (direction, force) in [Vec2::x(), Vec2::y()].into_iter().enumerate() {
+            // A second marker without force takes the velocity by the kernel's own interpolation.
+            let mut markers = Markers::new();
+            markers.push_group(2, MarkerKind::Points);
+            markers.positions.copy_from_slice(&[from, to]);
+            markers.forces[0] = force;
+            flow.velocities(&mut markers)?;
+            let velocity = 4.0 * std::f64::consts::PI * markers.velocities[1];
+            let [ex, ey] = &expected[direction];
+            worst = worst.max((velocity - Vec2::new(ex[i], ey[i])).norm());
+        }
+    }
+    Ok(worst)
+}
+
+/// Errors of a fixed shape in a channel (period 6, width 3), relative to the largest velocity or value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShapeErrors {
+    /// At the markers.
+    pub markers: Errors,
+    /// Largest at the points off the interface that are further than 3 h from it, and half a width at most from a wall.
+    pub field: f64,
+    /// Of the flux (zero net gradient) or of the mean pressure gradient (zero flux).
+    pub drive: f64,
+    /// Of the sum of the wall shear stress at the top.
+    pub wall_shear: f64,
+}
+
+/// The errors of a shape with its centre at the height `height` (0, or 0.3 for the circle).
+///
+/// # Errors
+/// What a setup can fail with.
+pub fn fixed_shape<K: Kernel>(
+    kernel: &K,
+    corrected: bool,
+    h: f64,
+    drive: Drive,
+    case: Case,
+    height: f64,
+) -> Result<ShapeErrors, StudyError> {
+    let rows = |file| -> Result<Reference, StudyError> {
+        let height = if height == 0.0 { "0.0" } else { "0.3" };
+        Ok(case.select(Reference::read(file)?).select("conv", convention(drive)).select("y0", height))
+    };
+    let mut flow = couple(solver(6.0, 3.0, h, drive)?, kernel, corrected);
+    let mut shape = Shape::new(case, height, h, None)?;
+    let report = flow.velocities(&mut shape.markers)?;
+    let velocities = rows(ReferenceFile::ChannelFixedShapes)?;
+    let markers = shape.compare(&velocities.clone().select("kind", "marker"))?;
+
+    let global = rows(ReferenceFile::ChannelGlobal)?;
+    let drive_error = if drive == Drive::ZeroFlux {
+        let exact = global.value("mean_dpdx")?;
+        (report.mean_pressure_gradient[0] - exact) / exact.abs().max(1e-3)
+    } else {
+        let exact = global.value("flux")?;
+        (flux(flow.velocity_field()) - exact) / exact.abs().max(1e-3)
+    };
+    let grid = *flow.grid();
+    let mut shear = vec![0.0; grid.nx()];
+    let walls = WallMotion::uniform(&grid, 0.0, 0.0)?;
+    wall_shear_stress(flow.velocity_field(), 1.0, &walls, Wall::Top, &mut shear)?;
+    let exact = global.value("wall_shear_top_sum")?;
+    let wall_shear = (shear.iter().sum::<f64>() * h - exact) / exact.abs().max(0.1);
+
+    let field = velocities.select("kind", "field");
+    let (x, y, vx, vy) = (field.column("x")?, field.column("y")?, field.column("vx")?, field.column("vy")?);
+    let points: Vec<Vec2> = x.iter().zip(&y).map(|(x, y)| Vec2::new(*x, *y)).collect();
+    let mut samples = vec![FlowSample::default(); points.len()];
+    flow.sample(&shape.markers, &points, &mut samples)?;
+    let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+    for (i, (point, sample)) in points.iter().zip(&samples).enumerate() {
+        let distance =
+            shape.markers.positions.iter().map(|marker| (marker - point).norm()).fold(f64::INFINITY, f64::min);
+        let exact = Vec2::new(vx[i], vy[i]);
+        largest = largest.max(exact.norm());
+        if distance > 3.0 * h {
+            worst = worst.max((sample.velocity - exact).norm());
+        }
+    }
+    Ok(ShapeErrors { markers, field: worst / largest, drive: drive_error, wall_shear })
+}
+
+/// Relative errors of a steady swimmer on the centre line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SwimmerErrors {
+    /// Speed.
+    pub speed: f64,
+    /// Aspect ratio from the area moments.
+    pub aspect_ratio: f64,
+    /// Stresslet along the motion.
+    pub stresslet: f64,
+    /// Squirmer parameter in the frame of the droplet.
+    pub beta: f64,
+    /// Flux.
+    pub flux: f64,
+    /// Gap to the walls.
+    pub gap: f64,
+    /// Relative change of the area.
+    pub area_change: f64,
+    /// Relative change of the particle number.
+    pub particle_change: f64,
+}
+
+/// Runs a swimmer (period 12, A = 10, viscosity 100, zero mean pressure gradient) from the polarised start to `time` and compares it
+/// with the steady state of `channel_steady_swimmer.csv`.
+///
+/// # Errors
+/// An activity or width that is not in the table, and what a run can fail with.
+pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SwimmerErrors, StudyError> {
+    let [_, width] = swimmer.lengths;
+    let reference = Reference::read(ReferenceFile::ChannelSwimmers)?
+        .select("conv", "p0")
+        .select("w", &format!("{width}"))
+        .select("zeta_dmu", &format!("{:.1}", swimmer.activity));
+    let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient)?;
+    let particles: f64 = scene.body(droplet).particle_numbers().iter().sum();
+    scene.run(time).go()?;
+    let seen = look(&mut scene, droplet)?;
+    let relative = |value: f64, name: &str| -> Result<f64, StudyError> {
+        let exact = reference.value(name)?;
+        Ok((value - exact) / exact.abs())
+    };
+    let body = scene.body(droplet);
+    let extent = body.markers().iter().fold(0.0_f64, |a, marker| a.max(marker.y.abs()));
+    Ok(SwimmerErrors {
+        speed: relative(seen.speed(), "speed")?,
+        aspect_ratio: relative(seen.aspect_ratio_moments, "AR_mom")?,
+        stresslet: relative(seen.moments.stresslet()[0][0], "Sxx")?,
+        beta: relative(seen.squirmer.beta().unwrap_or(f64::NAN), "beta_co")?,
+        flux: relative(flux(scene.system().hydrodynamics().velocity_field()), "flux")?,
+        gap: relative(0.5 * width - extent, "min_gap")?,
+        area_change: seen.area / body.initial_area() - 1.0,
+        particle_change: seen.particle_number / particles - 1.0,
+    })
+}
+
+/// Speed of a swimmer in a channel after `time`.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn speed(swimmer: &Swimmer, drive: Drive, time: f64) -> Result<f64, StudyError> {
+    let (mut scene, droplet) = swimmer.build_on_grid_in_channel(drive)?;
+    scene.run(time).go()?;
+    Ok(look(&mut scene, droplet)?.speed())
+}
+
+/// The drives of the reference tables, with their names.
+#[must_use]
+pub fn drives() -> [(&'static str, Drive); 2] {
+    [("zero gradient", Drive::ZeroGradient), ("zero flux", Drive::ZeroFlux)]
+}
+
+#[cfg(test)]
+mod tests {
+    use motile::stokes_grid::StokesSolver;
+
+    use super::*;
+
+    #[test]
+    fn solver_has_the_drive() {
+        let solver = solver(4.0, 2.0, 0.25, Drive::ZeroFlux).unwrap();
+        assert_eq!(solver.drive(), Drive::ZeroFlux);
+        assert!(solver.grid().has_walls());
+    }
+}

@@ -1,0 +1,348 @@
+//! Interfaces between different viscosities on fixed shapes, against boundary integrals.
+
+use std::f64::consts::TAU;
+
+use motile::active_interface::Curve;
+use motile::boundary_integral::{BoundaryIntegral, Channel, FluidDomain, PeriodicBox, Settings};
+use motile::ib_core::{
+    CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Peskin4, SmearedContrast, Vec2,
+};
+use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
+
+use crate::validation::StudyError;
+
+mod cost;
+mod field;
+mod iterations;
+mod layer;
+mod runs;
+mod tables;
+
+pub use cost::{Cost, CostScene};
+pub use field::{FieldErrors, exact_flow, field_errors};
+pub use iterations::{Iterations, cold_iterations, iterations_in_a_run};
+pub use layer::{LayerErrors, layer_errors};
+pub use runs::{Way, decaying_speeds, growth};
+pub use tables::{RatioTen, ratio_ten};
+
+/// An ellipse with a tension along it and a viscosity inside, in surroundings of viscosity one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Droplet {
+    /// Centre (length).
+    pub centre: [f64; 2],
+    /// Half axes along x and y (length).
+    pub axes: [f64; 2],
+    /// The tension is `1 + 0.5 cos(mode t - phase)`, t the parameter.
+    pub mode: u32,
+    /// The phase (radians).
+    pub phase: f64,
+    /// Viscosity inside, that of the surroundings being one.
+    pub ratio: f64,
+}
+
+impl Droplet {
+    /// The unit circle with the tension `1 + 0.5 cos(mode t)` at the origin.
+    #[must_use]
+    pub fn circle(mode: u32, ratio: f64) -> Self {
+        Self { centre: [0.0; 2], axes: [1.0; 2], mode, phase: 0.0, ratio }
+    }
+
+    /// The ellipse (1.3 cos t, sin t/1.3) with the tension `1 + 0.5 cos t` at the origin.
+    #[must_use]
+    pub fn ellipse(ratio: f64) -> Self {
+        Self { axes: [1.3, 1.0 / 1.3], ..Self::circle(1, ratio) }
+    }
+
+    /// The same moved.
+    #[must_use]
+    pub fn at(self, x: f64, y: f64) -> Self {
+        Self { centre: [x, y], ..self }
+    }
+
+    /// The same with the phase of the tension.
+    #[must_use]
+    pub fn turned(self, phase: f64) -> Self {
+        Self { phase, ..self }
+    }
+
+    /// Scenes with gaps of 0.075, one and a half cells of 0.05: beside the wall of a channel, two droplets, and one beside a
+    /// passive interface. Tensions vary where the gap is.
+    #[must_use]
+    pub fn close_scenes() -> Vec<(&'static str, Region, Vec<Self>)> {
+        let (quarter, x) = (0.25 * TAU, 1.0 + 0.0375);
+        let height = 1.5 - 0.075 - 1.0 / 1.3;
+        let pair = |left: f64, right: f64| {
+            vec![
+                Self::circle(1, left).at(-x, 0.02).turned(quarter),
+                Self::circle(1, right).at(x, -0.01).turned(quarter),
+            ]
+        };
+        vec![
+            ("beside a wall, tension along it", Region::Channel(6.0, 3.0), vec![Self::ellipse(100.0).at(0.1, height)]),
+            (
+                "beside a wall, tension across",
+                Region::Channel(6.0, 3.0),
+                vec![Self::ellipse(100.0).at(0.1, height).turned(quarter)],
+            ),
+            ("off the centre, gap 0.3", Region::Channel(6.0, 3.0), vec![Self::circle(1, 100.0).at(0.1, 0.2)]),
+            (
+                "beside a wall, equal viscosities",
+                Region::Channel(6.0, 3.0),
+                vec![Self::ellipse(1.0).at(0.1, height).turned(quarter)],
+            ),
+            ("two droplets, equal viscosities", Region::Box(6.0), pair(1.0, 1.0)),
+            ("two droplets", Region::Box(6.0), pair(10.0, 100.0)),
+            ("beside a passive interface", Region::Box(6.0), pair(100.0, 1.0)),
+        ]
+    }
+
+    fn kind(&self, even: bool) -> MarkerKind {
+        let viscosity_inside = (self.ratio != 1.0).then_some(self.ratio);
+        if even { MarkerKind::Interface { viscosity_inside } } else { MarkerKind::UnevenInterface { viscosity_inside } }
+    }
+
+    fn point(&self, t: f64) -> Vec2 {
+        Vec2::new(self.centre[0] + self.axes[0] * t.cos(), self.centre[1] + self.axes[1] * t.sin())
+    }
+
+    fn parameter(&self, point: Vec2) -> f64 {
+        ((point.y - self.centre[1]) / self.axes[1]).atan2((point.x - self.centre[0]) / self.axes[0])
+    }
+
+    fn tension(&self, t: f64) -> f64 {
+        1.0 + 0.5 * (f64::from(self.mode) * t - self.phase).cos()
+    }
+
+    /// Derivative of tension times tangent by the parameter.
+    fn force(&self, t: f64) -> Vec2 {
+        let [a, b] = self.axes;
+        let (sin, cos) = t.sin_cos();
+        let tangent = Vec2::new(-a * sin, b * cos);
+        let speed = tangent.norm();
+        let tau = tangent / speed;
+        let mode = f64::from(self.mode);
+        let slope = -0.5 * mode * (mode * t - self.phase).sin();
+        slope * tau + self.tension(t) * a * b / (speed * speed) * Vec2::new(-tau.y, tau.x)
+    }
+
+    /// Adds equally spaced markers, about `spacing` (length) apart, with their forces.
+    ///
+    /// # Errors
+    /// A spacing that leaves too few of them.
+    pub fn push_even(&self, spacing: f64, markers: &mut Markers) -> Result<(), StudyError> {
+        let [a, b] = self.axes;
+        let curve = if a == b { Curve::circle(a)? } else { Curve::ellipse(a, b)? };
+        let curve = curve.translated(Vec2::new(self.centre[0], self.centre[1]));
+        let count = (curve.perimeter() / spacing).round() as usize;
+        let start = markers.len();
+        markers.push_group(count, self.kind(true));
+        markers.positions[start..].copy_from_slice(&curve.markers(count)?);
+        for k in 0..count {
+            let (here, next) = (markers.positions[start + k], markers.positions[start + (k + 1) % count]);
+            let pull = self.tension(self.parameter(0.5 * (here + next))) * (next - here).normalize();
+            markers.forces[start + k] += pull;
+            markers.forces[start + (k + 1) % count] -= pull;
+        }
+        Ok(())
+    }
+
+    /// Markers at equal steps of the parameter with exact forces.
+    fn push_exact(&self, count: usize, markers: &mut Markers) {
+        let start = markers.len();
+        markers.push_group(count, self.kind(false));
+        for k in 0..count {
+            let t = TAU * k as f64 / count as f64;
+            markers.positions[start + k] = self.point(t);
+            markers.forces[start + k] = self.force(t) * (TAU / count as f64);
+        }
+    }
+}
+
+/// Where the droplets are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Region {
+    /// A square box (length).
+    Box(f64),
+    /// A channel of a length and a width, the centre line at y = 0.
+    Channel(f64, f64),
+}
+
+/// Errors of one droplet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Errors {
+    /// Velocity of the centroid: the distance from the exact one, relative to that or to the fastest marker where the droplet does not
+    /// move.
+    pub speed: f64,
+    /// Root mean square over the markers relative to the fastest one.
+    pub rms: f64,
+    /// Largest, relative to the same.
+    pub maximum: f64,
+}
+
+/// Exact velocities of droplets.
+#[derive(Debug)]
+pub struct Exact {
+    droplets: Vec<Droplet>,
+    region: Region,
+    /// Velocities at equal steps of the parameter.
+    velocities: Vec<Vec<Vec2>>,
+    centroids: Vec<Vec2>,
+}
+
+impl Exact {
+    /// By boundary integrals with `nodes` nodes a droplet.
+    ///
+    /// # Errors
+    /// What the solver can fail with.
+    pub fn new(region: Region, droplets: &[Droplet], nodes: usize) -> Result<Self, StudyError> {
+        let mut markers = Markers::new();
+        droplets.iter().for_each(|droplet| droplet.push_exact(nodes, &mut markers));
+        let settings = Settings { nodes, tolerance: 1e-10, ..Settings::default() };
+        match region {
+            Region::Box(side) => solve(PeriodicBox::new(side, side)?, settings, &mut markers)?,
+            Region::Channel(length, width) => solve(Channel::new(length, width)?, settings, &mut markers)?,
+        }
+        let velocities: Vec<Vec<Vec2>> = markers.velocities.chunks(nodes).map(<[Vec2]>::to_vec).collect();
+        let centroids = droplets
+            .iter()
+            .zip(&velocities)
+            .map(|(droplet, velocities)| {
+                let mut sum = Vec2::zeros();
+                for (k, v) in velocities.iter().enumerate() {
+                    let t = TAU * k as f64 / nodes as f64;
+                    let [a, b] = droplet.axes;
+                    let normal = Vec2::new(b * t.cos(), a * t.sin());
+                    sum += v.dot(&normal) * (droplet.point(t) - Vec2::from(droplet.centre)) * (TAU / nodes as f64);
+                }
+                sum / (0.5 * TAU * droplet.axes[0] * droplet.axes[1])
+            })
+            .collect();
+        Ok(Self { droplets: droplets.to_vec(), region, velocities, centroids })
+    }
+
+    /// Velocities of a droplet at equal steps of the parameter.
+    #[must_use]
+    pub fn velocities(&self, droplet: usize) -> &[Vec2] {
+        &self.velocities[droplet]
+    }
+
+    /// Velocity of the centroid of a droplet.
+    #[must_use]
+    pub fn centroid_velocity(&self, droplet: usize) -> Vec2 {
+        self.centroids[droplet]
+    }
+
+    /// Whether a droplet moves, so that the error of its velocity can be relative to that.
+    #[must_use]
+    pub fn moves(&self, droplet: usize) -> bool {
+        let largest = self.velocities[droplet].iter().map(Vec2::norm).fold(0.0, f64::max);
+        self.centroids[droplet].norm() > 0.02 * largest
+    }
+
+    /// The errors of the immersed boundary method with grid spacing `h` and markers h/2 apart, droplet by droplet.
+    ///
+    /// # Errors
+    /// A spacing that does not divide the region; what the solver can fail with.
+    pub fn errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
+        self.compare(coupled(self.region, h)?, h)
+    }
+
+    /// The errors of the thesis' way, a viscosity smeared over Peskin's kernel, without a mobility correction.
+    ///
+    /// # Errors
+    /// As [`Exact::errors`].
+    pub fn smeared_errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
+        self.compare(smeared(self.region, h, 1e-6)?, h)
+    }
+
+    fn compare(&self, mut flow: Box<dyn Hydrodynamics>, h: f64) -> Result<Vec<Errors>, StudyError> {
+        let mut markers = Markers::new();
+        for droplet in &self.droplets {
+            droplet.push_even(0.5 * h, &mut markers)?;
+        }
+        flow.velocities(&mut markers)?;
+        let mut all = Vec::new();
+        for (index, group) in markers.groups().iter().enumerate() {
+            let (droplet, range) = (&self.droplets[index], group.range.clone());
+            let (positions, velocities) = (&markers.positions[range.clone()], &markers.velocities[range]);
+            let exact = &self.velocities[index];
+            let largest = exact.iter().map(Vec2::norm).fold(0.0, f64::max);
+            let (mut sum, mut maximum) = (0.0, 0.0_f64);
+            for (position, velocity) in positions.iter().zip(velocities) {
+                let error = (velocity - interpolate(exact, droplet.parameter(*position))).norm() / largest;
+                sum += error * error;
+                maximum = maximum.max(error);
+            }
+            let difference = centroid_velocity(positions, velocities) - self.centroids[index];
+            let speed = difference.norm() / if self.moves(index) { self.centroids[index].norm() } else { largest };
+            all.push(Errors { speed, rms: (sum / positions.len() as f64).sqrt(), maximum });
+        }
+        Ok(all)
+    }
+}
+
+/// The immersed boundary method in a region, viscosity one.
+fn coupled(region: Region, h: f64) -> Result<Box<dyn Hydrodynamics>, StudyError> {
+    let cells = |length: f64| (length / h).round() as usize;
+    let kernel = CubicQuadratic::default();
+    Ok(match region {
+        Region::Box(side) => {
+            let grid = Grid::periodic(cells(side), cells(side), h)?.with_origin([-0.5 * side; 2])?;
+            Box::new(ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0)?, kernel))
+        }
+        Region::Channel(length, width) => {
+            let grid = Grid::channel(cells(length), cells(width), h)?;
+            let grid = grid.with_origin([-0.5 * length, -0.5 * width])?;
+            Box::new(ImmersedBoundary::new(ChannelStokes::new(grid, 1.0)?, kernel))
+        }
+    })
+}
+
+/// The thesis' way in a region, viscosity one.
+fn smeared(region: Region, h: f64, tolerance: f64) -> Result<Box<dyn Hydrodynamics>, StudyError> {
+    let cells = |length: f64| (length / h).round() as usize;
+    Ok(match region {
+        Region::Box(side) => {
+            let solver = PeriodicStokes::new(Grid::periodic(cells(side), cells(side), h)?, 1.0)?;
+            Box::new(SmearedContrast::with_tolerance(solver, Peskin4, tolerance)?)
+        }
+        Region::Channel(length, width) => {
+            let solver = ChannelStokes::new(Grid::channel(cells(length), cells(width), h)?, 1.0)?;
+            Box::new(SmearedContrast::with_tolerance(solver, Peskin4, tolerance)?)
+        }
+    })
+}
+
+fn solve<D: FluidDomain>(domain: D, settings: Settings, markers: &mut Markers) -> Result<(), StudyError> {
+    BoundaryIntegral::new(domain, 1.0, settings)?.velocities(markers)?;
+    Ok(())
+}
+
+/// Velocity of the centroid of a closed polygon from the flux through its sides.
+fn centroid_velocity(positions: &[Vec2], velocities: &[Vec2]) -> Vec2 {
+    let count = positions.len();
+    let (mut sum, mut area) = (Vec2::zeros(), 0.0);
+    let middle = positions.iter().sum::<Vec2>() / count as f64;
+    for k in 0..count {
+        let d = 0.5 * (positions[(k + 1) % count] - positions[(k + count - 1) % count]);
+        let normal = Vec2::new(d.y, -d.x);
+        let relative = positions[k] - middle;
+        sum += velocities[k].dot(&normal) * relative;
+        area += 0.5 * relative.dot(&normal);
+    }
+    sum / area
+}
+
+/// Trigonometric interpolation of values at equal steps of a parameter.
+fn interpolate(values: &[Vec2], t: f64) -> Vec2 {
+    let count = values.len();
+    let mut sum = Vec2::zeros();
+    for (k, value) in values.iter().enumerate() {
+        let half = 0.5 * (t - TAU * k as f64 / count as f64);
+        // The kernel of Dirichlet for an even number of values.
+        let weight =
+            if half.sin().abs() < 1e-12 { 1.0 } else { (count as f64 * half).sin() / (half.tan() * count as f64) };
+        sum += weight * value;
+    }
+    sum
+}

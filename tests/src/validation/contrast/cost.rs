@@ -1,0 +1,124 @@
+//! What an evaluation costs, in transforms of the grid.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use motile::ib_core::{
+    CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Peskin4, SmearedContrast, Vec2,
+};
+use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, RealFft2, StokesSolver, Symbol};
+
+use super::Droplet;
+use crate::validation::StudyError;
+
+/// The cost of an evaluation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cost {
+    /// Time (seconds), the least of all evaluations.
+    pub seconds: f64,
+    /// The same in units of one forward and one inverse real transform of the grid.
+    pub pairs: f64,
+    /// Solves on the grid an evaluation.
+    pub solves: f64,
+    /// Iterations an evaluation.
+    pub iterations: f64,
+}
+
+/// A scene to time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CostScene {
+    /// Grid spacing (length).
+    pub h: f64,
+    /// Viscosity of the droplet, that of the surroundings being one.
+    pub ratio: f64,
+    /// A viscosity that is smeared instead of a double layer.
+    pub smeared: bool,
+    /// Points that stand for solids along the walls of a channel 12 x 6 long and wide; none in a box 6 x 6.
+    pub solid_points: usize,
+}
+
+impl CostScene {
+    /// Times evaluations of a round droplet that moves by 0.002 from one to the next, about what a time step does.
+    ///
+    /// # Errors
+    /// What an evaluation can fail with.
+    pub fn cost(&self) -> Result<Cost, StudyError> {
+        let cells = |length: f64| (length / self.h).round() as usize;
+        if self.solid_points == 0 {
+            let grid = Grid::periodic(cells(6.0), cells(6.0), self.h)?.with_origin([-3.0; 2])?;
+            self.time(PeriodicStokes::new(grid, 1.0)?)
+        } else {
+            let grid = Grid::channel(cells(12.0), cells(6.0), self.h)?.with_origin([-6.0, -3.0])?;
+            self.time(ChannelStokes::new(grid, 1.0)?)
+        }
+    }
+
+    fn time<S: StokesSolver>(&self, solver: S) -> Result<Cost, StudyError> {
+        let grid = *solver.grid();
+        if self.smeared {
+            let flow = SmearedContrast::with_tolerance(solver, Peskin4, 1e-4)?;
+            self.evaluate(flow, &grid)
+        } else {
+            self.evaluate(ImmersedBoundary::new(solver, CubicQuadratic::default()), &grid)
+        }
+    }
+
+    fn evaluate<H: Hydrodynamics>(&self, mut flow: H, grid: &Grid) -> Result<Cost, StudyError> {
+        let mut markers = Markers::new();
+        Droplet::circle(1, self.ratio).at(0.01, 0.013).push_even(0.5 * self.h, &mut markers)?;
+        let droplet = markers.len();
+        if self.solid_points > 0 {
+            markers.push_group(self.solid_points, MarkerKind::Points);
+            // Two walls, 1.5 thick, on a lattice as wide as it takes.
+            let columns = (f64::from(self.solid_points as u32) * 12.0 / 3.0).sqrt().ceil() as usize;
+            for k in 0..self.solid_points {
+                let (i, j) = (k % columns, k / columns);
+                let step = 12.0 / columns as f64;
+                let y = step * (j as f64 + 0.5);
+                let y = if y < 1.5 { 1.4 + y } else { 0.1 - y };
+                markers.positions[droplet + k] = Vec2::new(step * i as f64 - 6.0, y.clamp(-3.0, 3.0));
+                markers.forces[droplet + k] = 1e-4 * Vec2::new((i as f64).sin(), (j as f64).cos());
+            }
+        }
+        const EVALUATIONS: usize = 20;
+        let mut best = f64::INFINITY;
+        flow.velocities(&mut markers)?;
+        flow.velocities(&mut markers)?;
+        let before = flow.work();
+        for _ in 0..EVALUATIONS {
+            markers.positions[..droplet].iter_mut().for_each(|x| x.x += 0.002);
+            let clock = Instant::now();
+            flow.velocities(&mut markers)?;
+            best = best.min(clock.elapsed().as_secs_f64());
+        }
+        let after = flow.work();
+        let each = |after: usize, before: usize| (after - before) as f64 / EVALUATIONS as f64;
+        Ok(Cost {
+            seconds: best,
+            pairs: best / transform_pair(grid)?,
+            solves: each(after.stokes_solves, before.stokes_solves),
+            iterations: each(after.iterations, before.iterations),
+        })
+    }
+}
+
+/// Time of a forward and an inverse real transform of a grid (seconds).
+fn transform_pair(grid: &Grid) -> Result<f64, StudyError> {
+    let (nx, ny) = (grid.nx(), grid.ny());
+    let mut transform = RealFft2::new(nx, ny)?;
+    let symbol = Symbol::new(nx, ny, |_, _| 1.0);
+    let values: Vec<f64> = (0..nx * ny).map(|k| (k as f64).sin()).collect();
+    let mut out = vec![0.0; nx * ny];
+    let mut best = f64::INFINITY;
+    for _ in 0..40 {
+        let clock = Instant::now();
+        transform.filter(
+            &symbol,
+            |j, row| row.copy_from_slice(&values[j * nx..(j + 1) * nx]),
+            |j, row| out[j * nx..(j + 1) * nx].copy_from_slice(row),
+        );
+        best = best.min(clock.elapsed().as_secs_f64());
+    }
+    black_box(&out);
+    Ok(best)
+}

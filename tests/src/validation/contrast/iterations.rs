@@ -1,0 +1,82 @@
+//! How many iterations a viscosity that varies takes.
+
+use std::f64::consts::TAU;
+
+use motile::Swimmer;
+use motile::active_interface::Curve;
+use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Peskin4, Scene, SmearedContrast, StepSize, Vec2};
+use motile::stokes_grid::{Grid, PeriodicStokes};
+
+use super::{Region, smeared};
+use crate::validation::StudyError;
+
+/// What solves of a viscosity that varies took.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Iterations {
+    /// Mean over the solves.
+    pub mean: f64,
+    /// Most of a solve.
+    pub most: usize,
+    /// Largest true residual, relative to the forces.
+    pub residual: f64,
+}
+
+/// The iterations of one solve from nothing: a circle of radius 1 with the tension 10 + 3 cos + 2 cos 2 + cos 3, `ratio` times as
+/// viscous as its surroundings, its viscosity smeared over Peskin's function.
+///
+/// # Errors
+/// A spacing that does not divide the region; no convergence.
+pub fn cold_iterations(region: Region, h: f64, ratio: f64, tolerance: f64) -> Result<Iterations, StudyError> {
+    let mut markers = Markers::new();
+    let count = (2.0 * TAU / h).round() as usize;
+    markers.push_group(count, MarkerKind::Interface { viscosity_inside: Some(ratio) });
+    markers.positions.copy_from_slice(&Curve::circle(1.0)?.translated(Vec2::new(0.013, 0.017)).markers(count)?);
+    for k in 0..count {
+        let next = (k + 1) % count;
+        let t = TAU * (k as f64 + 0.5) / count as f64;
+        let tension = 10.0 + 3.0 * t.cos() + 2.0 * (2.0 * t).cos() + (3.0 * t).cos();
+        let pull = tension * (markers.positions[next] - markers.positions[k]).normalize();
+        markers.forces[k] += pull;
+        markers.forces[next] -= pull;
+    }
+    let report = smeared(region, h, tolerance)?.velocities(&mut markers)?;
+    Ok(Iterations { mean: report.iterations as f64, most: report.iterations, residual: report.residual })
+}
+
+/// The iterations of each solve of a swimmer, (10 `ratio`, 10), activity -4, A = 10, 6 x 6 box, over `steps` steps of `dt` once it has
+/// swum to t = 1.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn iterations_in_a_run(
+    h: f64,
+    ratio: f64,
+    tolerance: f64,
+    dt: f64,
+    steps: usize,
+) -> Result<Iterations, StudyError> {
+    let swimmer = Swimmer {
+        activity: -4.0,
+        viscosity: 10.0,
+        viscosity_inside: Some(10.0 * ratio),
+        spacing: h,
+        ..Swimmer::thesis()
+    };
+    let droplet = swimmer.droplet()?;
+    let cells = (6.0 / h).round() as usize;
+    let solver = PeriodicStokes::new(Grid::periodic(cells, cells, h)?, swimmer.viscosity)?;
+    let mut scene = Scene::new(SmearedContrast::with_tolerance(solver, Peskin4, tolerance)?);
+    let _ = scene.add(droplet);
+    scene.run(1.0).step_size(StepSize::Fixed(dt)).go()?;
+    let (mut residual, mut most) = (0.0_f64, 0);
+    let before = scene.system().hydrodynamics().work();
+    for _ in 0..steps {
+        scene.step(dt)?;
+        scene.system_mut().evaluate()?;
+        let report = scene.system().report();
+        (residual, most) = (residual.max(report.residual), most.max(report.iterations));
+    }
+    let after = scene.system().hydrodynamics().work();
+    let mean = (after.iterations - before.iterations) as f64 / (after.evaluations - before.evaluations) as f64;
+    Ok(Iterations { mean, most, residual })
+}

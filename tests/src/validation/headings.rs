@@ -1,0 +1,90 @@
+//! Swimmers that head off the grid's axes, against boundary integrals.
+//!
+//! A droplet in a square box turns: its images form a lattice, which has directions, and with the direction its speed changes by some
+//! per cent. A grid has directions too, and must add as little as possible to the turning.
+
+use motile::active_interface::{ActiveDroplet, Observables};
+use motile::ib_core::{Handle, Scene, StepSize};
+use motile::{AnyFlow, Method, Swimmer};
+
+use crate::validation::StudyError;
+use crate::validation::swimmers::{look, reference_swimmer};
+
+/// Where a swimmer goes and how fast, at the times of a study.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Course {
+    /// Directions of motion (radians).
+    pub headings: Vec<f64>,
+    /// Speeds (length per time).
+    pub speeds: Vec<f64>,
+}
+
+/// Largest differences between two courses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deviation {
+    /// Relative, of the speed; with the sign it has.
+    pub speed: f64,
+    /// Of the direction (radians); with the sign it has.
+    pub heading: f64,
+}
+
+impl Course {
+    /// What this course has more than `other`, where it is most.
+    #[must_use]
+    pub fn beyond(&self, other: &Self) -> Deviation {
+        let largest = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold(0.0_f64, |most, value| if value.abs() > most.abs() { value } else { most })
+        };
+        Deviation {
+            speed: largest(&mut self.speeds.iter().zip(&other.speeds).map(|(a, b)| a / b - 1.0)),
+            heading: largest(&mut self.headings.iter().zip(&other.headings).map(|(a, b)| a - b)),
+        }
+    }
+
+    /// How far the direction turned between the first and the last time (radians).
+    #[must_use]
+    pub fn turned(&self) -> f64 {
+        self.headings.last().zip(self.headings.first()).map_or(0.0, |(last, first)| last - first)
+    }
+}
+
+/// The swimmer of the reference tables (box 6, viscosity 100, A = 2 |activity|) on a grid of spacing h with markers `ds` apart, starting
+/// at `angle` (radians) from the x axis at a place between the grid points.
+#[must_use]
+pub fn on_the_grid(base: &Swimmer, activity: f64, h: f64, ds: f64, angle: f64) -> Swimmer {
+    Swimmer {
+        method: Method::ImmersedBoundary,
+        marker_spacing: Some(ds),
+        angle,
+        offset: [0.013, 0.027],
+        ..reference_swimmer(base, activity, h)
+    }
+}
+
+/// The same scene by boundary integrals.
+#[must_use]
+pub fn without_grid(swimmer: &Swimmer, nodes: usize, cells: usize) -> Swimmer {
+    Swimmer {
+        method: Method::BoundaryIntegral,
+        nodes,
+        concentration_cells: cells,
+        step: StepSize::OfLimit(0.5),
+        ..swimmer.clone()
+    }
+}
+
+/// The course of a swimmer, looked at `every` so much time until `end`, the polarised start excluded.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn course(swimmer: &Swimmer, every: f64, end: f64) -> Result<Course, StudyError> {
+    let (mut scene, droplet): (Scene<AnyFlow>, Handle<ActiveDroplet>) = swimmer.build()?;
+    let mut course = Course { headings: Vec::new(), speeds: Vec::new() };
+    for time in (1..).map(|i| every * f64::from(i)).take_while(|&time| time < end + 0.5 * every) {
+        scene.run(time).go()?;
+        let seen: Observables = look(&mut scene, droplet)?;
+        course.headings.push(seen.heading());
+        course.speeds.push(seen.speed());
+    }
+    Ok(course)
+}

@@ -1,0 +1,67 @@
+//! The threshold of swimming, and what the marker spacing has to resolve.
+
+use motile::active_interface::DropletWarning;
+use motile::ib_core::StepSize;
+use motile::{InitialState, Swimmer};
+
+use crate::validation::StudyError;
+use crate::validation::swimmers::look;
+
+/// What became of a uniform droplet with a small perturbation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Perturbed {
+    /// When it was looked at last.
+    pub time: f64,
+    /// Largest speed before half of that time.
+    pub largest_early_speed: f64,
+    /// Speed then.
+    pub speed: f64,
+    /// Whether it swims: faster at the end than at any time in the first half, and not merely by round-off.
+    pub swims: bool,
+}
+
+/// Runs a droplet of viscosity 100 in a 6 x 6 box from a perturbation of 5 per cent to `time`. Linear theory puts the
+/// threshold of activity at -0.4 (thesis (2.20)).
+///
+/// # Errors
+/// What a run can fail with.
+pub fn perturbed(activity: f64, h: f64, time: f64) -> Result<Perturbed, StudyError> {
+    let initial = InitialState::Perturbed { amplitude: 0.05, seed: 1 };
+    let swimmer = Swimmer { activity, spacing: h, initial, ..Swimmer::default() };
+    let (mut scene, droplet) = swimmer.build_on_grid()?;
+    let mut largest_early_speed = 0.0_f64;
+    for part in 0..=20 {
+        if part > 0 {
+            scene.run(time * f64::from(part) / 40.0).go()?;
+        }
+        largest_early_speed = largest_early_speed.max(look(&mut scene, droplet)?.speed());
+    }
+    scene.run(time).go()?;
+    let speed = look(&mut scene, droplet)?.speed();
+    Ok(Perturbed { time, largest_early_speed, speed, swims: speed > largest_early_speed && speed > 1e-3 })
+}
+
+/// Speed of a low-viscosity swimmer with a sharp edge of the concentration, and whether the droplet warns of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MarkerSpacing {
+    /// Speed at t = 3.
+    pub speed: f64,
+    /// Cell Peclet number then.
+    pub peclet: f64,
+    /// Whether the droplet warned of it.
+    pub warned: bool,
+}
+
+/// Viscosity 10, activity -2, A = 10, h = 0.1, markers `ds` apart, to t = 3.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn marker_spacing(ds: f64) -> Result<MarkerSpacing, StudyError> {
+    let swimmer = Swimmer { viscosity: 10.0, spacing: 0.1, marker_spacing: Some(ds), ..Swimmer::default() };
+    let (mut scene, droplet) = swimmer.build_on_grid()?;
+    scene.run(3.0).step_size(StepSize::OfLimit(0.25)).go()?;
+    let speed = look(&mut scene, droplet)?.speed();
+    let body = scene.body(droplet);
+    let warned = body.warnings().iter().any(|warning| matches!(warning, DropletWarning::CellPeclet { .. }));
+    Ok(MarkerSpacing { speed, peclet: body.cell_peclet()?, warned })
+}
