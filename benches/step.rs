@@ -1,4 +1,5 @@
-//! One step of each kind of scene, in units of the bare transforms of its grid measured by turns in the same run: `cargo bench --bench step`.
+//! One step of each kind of scene, in units of the bare transforms of its grid measured by turns in the same run:
+//! `cargo bench --bench step`.
 //!
 //! Without a grid the unit is the transform of the grid of spacing 0.05 that would do the same.
 

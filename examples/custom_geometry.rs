@@ -1,8 +1,9 @@
 //! Elastic walls of a shape of your own.
 //!
 //! `cargo run --release --example custom_geometry` lets a droplet swim through the channel that the function `closure`
-//! below describes, which is meant to be copied; `--case ratchet` and `--case branch` through two of the ready ones. Prints
-//! what was measured and writes to `out/custom_geometry/` what the example `elastic_channel` writes. `--help` lists the flags.
+//! below describes, which is meant to be copied; `--case ratchet` and `--case branch` through two of the ready ones.
+//! Prints what was measured and writes to `out/custom_geometry/` what the example `elastic_channel` writes. `--help`
+//! lists the flags.
 
 use std::process::ExitCode;
 

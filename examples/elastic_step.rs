@@ -1,8 +1,8 @@
 //! Where the time of a step goes between elastic walls.
 //!
 //! `cargo run --release --example elastic_step` times, for walls of 17,000 points on a grid of 240 x 100 cells (or
-//! `--spacing`), the elastic forces, the transfer between points and grid, and the Stokes solve, one after another on the
-//! state of a running scene, and prints the median of many.
+//! `--spacing`), the elastic forces, the transfer between points and grid, and the Stokes solve, one after another on
+//! the state of a running scene, and prints the median of many.
 
 use std::process::ExitCode;
 use std::time::Instant;

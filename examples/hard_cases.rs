@@ -1,8 +1,8 @@
 //! Scenes that are hard to compute, and what becomes of them.
 //!
-//! `cargo run --release --example hard_cases` runs the long version of the suite in `tests/hard_cases`, prints a table (case,
-//! method, outcome, steps, changes of area and particles, seconds), and writes to `out/hard_cases/` a picture of the last state of
-//! each run, `table.md` and `summary.json`. `--case N` runs one case, `--quick` the short version.
+//! `cargo run --release --example hard_cases` runs the long version of the suite in `tests/hard_cases`, prints a table
+//! (case, method, outcome, steps, changes of area and particles, seconds), and writes to `out/hard_cases/` a picture of
+//! the last state of each run, `table.md` and `summary.json`. `--case N` runs one case, `--quick` the short version.
 //! `--help` lists the flags.
 
 use std::fmt::Write as _;

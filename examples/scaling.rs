@@ -1,8 +1,9 @@
 //! Cost and memory against size.
 //!
-//! `cargo run --release --example scaling` times the solver of a periodic box from 64 to 2048 cells squared, and bodies of 100 to 100,000
-//! markers, prints time and memory per cell and per marker, and writes `scaling.json` to `out/scaling/`. A minute; where the
-//! tables bend, the data no longer fit into a cache. Times are those of the turn least disturbed.
+//! `cargo run --release --example scaling` times the solver of a periodic box from 64 to 2048 cells squared, and bodies
+//! of 100 to 100,000 markers, prints time and memory per cell and per marker, and writes `scaling.json` to
+//! `out/scaling/`. A minute; where the tables bend, the data no longer fit into a cache. Times are those of the turn
+//! least disturbed.
 
 use std::hint::black_box;
 use std::path::PathBuf;

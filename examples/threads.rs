@@ -1,7 +1,7 @@
 //! What several threads bring, and that they change no bit.
 //!
-//! `cargo run --release --features rayon --example threads` times steps of a droplet in a box of 1024 x 1024 cells and between elastic
-//! walls of 50,000 points, on one thread and on more by turns, and compares the states bit by bit.
+//! `cargo run --release --features rayon --example threads` times steps of a droplet in a box of 1024 x 1024 cells and
+//! between elastic walls of 50,000 points, on one thread and on more by turns, and compares the states bit by bit.
 
 use std::process::ExitCode;
 use std::time::Instant;

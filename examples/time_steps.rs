@@ -1,5 +1,6 @@
 //! What time steps cost: Runge-Kutta-Chebyshev against the midpoint rule between stiff walls, the largest stable steps
-//! against the predicted ones between walls and of swimmers, and adaptive against fixed steps for a swimmer that starts.
+//! against the predicted ones between walls and of swimmers, and adaptive against fixed steps for a swimmer that
+//! starts.
 //!
 //! `cargo run --release --example time_steps` prints four tables and writes them to `out/time_steps/tables.md`.
 //! `--study` chooses one of them; `--help` lists the flags.
@@ -85,8 +86,8 @@ type Channel<I> = Scene<AnyFlow, I>;
 fn channel<I: Integrator>(integrator: I, activity: f64) -> Result<(Channel<I>, Handle<ActiveDroplet>)> {
     let swimmer = Swimmer { activity, viscosity: 10.0, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };
     let moduli = Moduli::from_thesis_spring_constant(1e6)?;
-    // The grid does not resolve the edge of the active region here. Between corrected surfaces there are then two states, and which one a run
-    // finds says nothing about the error of its steps.
+    // The grid does not resolve the edge of the active region here. Between corrected surfaces there are then two
+    // states, and which one a run finds says nothing about the error of its steps.
     let surface = WallSurface::SetBack;
     let (scene, droplet, _) = ElasticChannel { surface, ..ElasticChannel::new(swimmer, moduli) }.build()?;
     Ok((scene.advanced_by(integrator), droplet))

@@ -1,8 +1,8 @@
 //! Times in units of plain transforms.
 //!
-//! Times on a machine that does other things too mean little; ratios of times measured by turns mean much. [`Turns`] runs
-//! works by turns and takes medians of the ratios within a turn; [`PlainPair`] is the unit, real transforms as anyone would
-//! write them.
+//! Times on a machine that does other things too mean little; ratios of times measured by turns mean much. [`Turns`]
+//! runs works by turns and takes medians of the ratios within a turn; [`PlainPair`] is the unit, real transforms as
+//! anyone would write them.
 
 mod plain_pair;
 mod turns;

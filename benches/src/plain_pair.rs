@@ -7,7 +7,8 @@ use num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
-/// A real transform there and back as anyone would write it: realfft for the rows, a transposition, rustfft for the columns.
+/// A real transform there and back as anyone would write it: realfft for the rows, a transposition, rustfft for the
+/// columns.
 pub struct PlainPair {
     nx: usize,
     ny: usize,

@@ -28,7 +28,8 @@ impl Turns {
         median(&mut self.samples[work].clone())
     }
 
-    /// Least time of a work (seconds): that of the turn least disturbed, for works so long that a busy machine interrupts most of them.
+    /// Least time of a work (seconds): that of the turn least disturbed, for works so long that a busy machine
+    /// interrupts most of them.
     #[must_use]
     pub fn least(&self, work: usize) -> f64 {
         self.samples[work].iter().fold(f64::INFINITY, |least, &time| least.min(time))

@@ -35,8 +35,9 @@ impl Cost {
         summary.put("steps_per_time", self.steps, "");
     }
 
-    /// Of something that took these times, by turns with pairs; `often` times per unit of simulated time. `most` is the mean
-    /// processor time, which is the better measure of what takes longer than the machine goes without doing something else.
+    /// Of something that took these times, by turns with pairs; `often` times per unit of simulated time. `most` is the
+    /// mean processor time, which is the better measure of what takes longer than the machine goes without doing
+    /// something else.
     fn new(times: &mut [f64], pairs: &mut [f64], most: Option<f64>, often: f64) -> Self {
         let (time, pair) = (median(times), median(pairs));
         let time = most.map_or(time, |most| time.min(most));

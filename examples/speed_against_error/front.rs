@@ -39,8 +39,8 @@ pub(crate) fn front(points: &[Point]) -> Vec<&Point> {
     sorted
 }
 
-/// The cheapest point whose error is at most `target`, as is that of all refinements of it that were tried: an error may also be
-/// small by chance.
+/// The cheapest point whose error is at most `target`, as is that of all refinements of it that were tried: an error
+/// may also be small by chance.
 pub(crate) fn cheapest<'a>(points: &[&'a Point], target: f64) -> Option<&'a Point> {
     let holds = |point: &&&Point| {
         let own = series(&point.settings);
@@ -64,8 +64,9 @@ pub(crate) struct Expense {
 /// How many times finer a grid than the finest is still extrapolated to.
 const FURTHEST: f64 = 16.0;
 
-/// The least cost for an error of `target`, by [`cheapest`], or, where no grid was fine enough, extrapolated from the finest grid of a
-/// series in which the error falls and the next one about twice as coarse: powers of the spacing for both error and cost.
+/// The least cost for an error of `target`, by [`cheapest`], or, where no grid was fine enough, extrapolated from the
+/// finest grid of a series in which the error falls and the next one about twice as coarse: powers of the spacing for
+/// both error and cost.
 pub(crate) fn expense(points: &[&Point], target: f64) -> Option<Expense> {
     if let Some(point) = cheapest(points, target) {
         return Some(Expense { pairs: point.pairs(), extrapolated: None });

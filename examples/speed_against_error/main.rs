@@ -1,11 +1,14 @@
-//! Error against cost: every kind of scene by every method, over spacings, nodes, time steps, kernels, corrections and integrators.
+//! Error against cost: every kind of scene by every method, over spacings, nodes, time steps, kernels, corrections and
+//! integrators.
 //!
-//! `cargo run --release --example speed_against_error` takes some minutes on one core, `--full` much longer; `--only SCENE` makes
-//! one scene. Each finished run leaves a file in `out/speed_against_error/runs/COMMIT/`, COMMIT being the last change to the library or to
-//! this example, and is not made again, so that the page may be made in several goes, by one state of the code all the same. From all runs come `points.csv`, a figure a scene (SVG and PNG), and the page `speed-against-error.md`; with `--docs DIRECTORY`
-//! the page and its figures go there as well.
+//! `cargo run --release --example speed_against_error` takes some minutes on one core, `--full` much longer; `--only
+//! SCENE` makes one scene. Each finished run leaves a file in `out/speed_against_error/runs/COMMIT/`, COMMIT being the
+//! last change to the library or to this example, and is not made again, so that the page may be made in several goes,
+//! by one state of the code all the same. From all runs come `points.csv`, a figure a scene (SVG and PNG), and the page
+//! `speed-against-error.md`; with `--docs DIRECTORY` the page and its figures go there as well.
 //!
-//! Costs are measured by turns with a plain real transform, so that what else the machine does cancels; runs are made one at a time.
+//! Costs are measured by turns with a plain real transform, so that what else the machine does cancels; runs are made
+//! one at a time.
 
 mod cost;
 mod figures;

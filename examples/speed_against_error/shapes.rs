@@ -99,7 +99,8 @@ pub(crate) fn relaxation(settings: &Settings) -> Result<(f64, Cost)> {
     Ok(((ratio - 1.0) / (expected - 1.0) - 1.0, cost))
 }
 
-/// Thickness of the layer with which the lattice is equilateral, height of the channel, period, viscosity, shear modulus and shear.
+/// Thickness of the layer with which the lattice is equilateral, height of the channel, period, viscosity, shear
+/// modulus and shear.
 const THICKNESS: f64 = 0.866_025_403_784_438_6;
 const HEIGHT: f64 = 2.0;
 const LENGTH: f64 = 1.6;
@@ -107,8 +108,8 @@ const VISCOSITY: f64 = 10.0;
 const SHEAR: f64 = 5.0;
 const AMPLITUDE: f64 = 0.3;
 
-/// Rate at which a sheared layer relaxes: the stress is `eta dgamma/dt + mu gamma` in it, `eta du/dy` above, and the same everywhere, so
-/// that with both walls at rest gamma decays at the rate `mu/eta (1 - a/H)`.
+/// Rate at which a sheared layer relaxes: the stress is `eta dgamma/dt + mu gamma` in it, `eta du/dy` above, and the
+/// same everywhere, so that with both walls at rest gamma decays at the rate `mu/eta (1 - a/H)`.
 pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
     let Flow::Grid { h, ratio, .. } = settings.flow else { bail!("solids need a grid") };
     let grid = Grid::channel((LENGTH / h).round() as usize, (HEIGHT / h).round() as usize, h)?;

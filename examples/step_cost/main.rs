@@ -1,14 +1,14 @@
 //! Where the time of a step goes.
 //!
-//! `cargo run --release --example step_cost` steps every kind of scene at several sizes, by turns with the bare real transforms of
-//! its grid, prints what each phase of a step takes, and writes `step_cost.json` to `out/step_cost/`. A few minutes; `--only NAME` measures
-//! only scenes whose names contain NAME.
+//! `cargo run --release --example step_cost` steps every kind of scene at several sizes, by turns with the bare real
+//! transforms of its grid, prints what each phase of a step takes, and writes `step_cost.json` to `out/step_cost/`. A
+//! few minutes; `--only NAME` measures only scenes whose names contain NAME.
 //!
-//! Phases of the bodies, the solves and the flow are timed within the steps; spreading, interpolation and transforms by themselves on
-//! the state of the step, as often as the step has them. `coupling` is what is left of the flow: the mobility correction, checks,
-//! the double layer of a contrast or the iterations of a varying viscosity beyond their solves, and without a grid all of it.
-//! The unit of the column "pairs" is one real transform there and back of the grid, done plainly with realfft; without a grid that of
-//! the grid of spacing 0.05.
+//! Phases of the bodies, the solves and the flow are timed within the steps; spreading, interpolation and transforms by
+//! themselves on the state of the step, as often as the step has them. `coupling` is what is left of the flow: the
+//! mobility correction, checks, the double layer of a contrast or the iterations of a varying viscosity beyond their
+//! solves, and without a grid all of it. The unit of the column "pairs" is one real transform there and back of the
+//! grid, done plainly with realfft; without a grid that of the grid of spacing 0.05.
 
 mod phases;
 mod scenes;

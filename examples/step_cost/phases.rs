@@ -34,7 +34,8 @@ pub(crate) const PHASES: [&str; 9] =
 const WARM_UP: usize = 5;
 
 impl<H: Hydrodynamics> Case<H> {
-    /// Steps the scene for about `budget` by turns with the bare transforms of its grid; medians over the third of the steps that went fastest.
+    /// Steps the scene for about `budget` by turns with the bare transforms of its grid; medians over the third of the
+    /// steps that went fastest.
     pub(crate) fn measure(mut self, budget: Duration) -> Result<Summary> {
         for _ in 0..WARM_UP {
             self.scene.step(self.dt)?;
@@ -52,7 +53,8 @@ impl<H: Hydrodynamics> Case<H> {
             let own = if self.without_grid { [0.0; 3] } else { pieces.measure(&markers.positions, &markers.forces) };
             // What the markers' forces are known from is not part of the step that follows.
             let _ = self.take();
-            // A step changes the state, so that the first evaluation of the next is made anew, as in a run nobody looks at.
+            // A step changes the state, so that the first evaluation of the next is made anew, as in a run nobody looks
+            // at.
             self.scene.step(self.dt)?;
             let _ = self.take();
             let work = self.scene.system().hydrodynamics().work();

@@ -9,8 +9,8 @@ use crate::run::{Job, Purpose};
 const LARGE: f64 = 12.0;
 const ACTIVITIES: [f64; 5] = [-1.0, -2.0, -3.0, -4.0, -5.0];
 
-/// All runs at grid spacing `h`, or those with one purpose, the longest first, so that no thread is left with one of them
-/// in the end.
+/// All runs at grid spacing `h`, or those with one purpose, the longest first, so that no thread is left with one of
+/// them in the end.
 pub(crate) fn list(only: Option<Purpose>, full: bool, thesis: bool, h: f64) -> Vec<Job> {
     let mut jobs = Vec::new();
     for purpose in Purpose::value_variants().iter().filter(|purpose| only.is_none_or(|only| only == **purpose)) {

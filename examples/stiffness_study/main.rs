@@ -3,7 +3,8 @@
 //! `cargo run --release --example stiffness_study` makes the runs on a coarse grid, some ten minutes on two cores;
 //! `--full` makes all of the thesis' on a fine grid, which takes hours; `--only` makes part of them. Each finished run
 //! leaves a file in `out/stiffness_study/runs/` and is not made again; delete the directory to start afresh. Prints the
-//! speeds with the fits (4.3), the maps 4.17 and 4.19 and the comparison of materials, and writes `points.csv` and figures.
+//! speeds with the fits (4.3), the maps 4.17 and 4.19 and the comparison of materials, and writes `points.csv` and
+//! figures.
 
 mod figures;
 mod history;

@@ -217,8 +217,8 @@ pub(crate) fn several(quick: bool) -> Tables {
     Ok(vec![table])
 }
 
-/// Distances of the lines on which two swimmers come towards each other, less two radii, for which they pass at a gap of about
-/// 0.05.
+/// Distances of the lines on which two swimmers come towards each other, less two radii, for which they pass at a gap
+/// of about 0.05.
 const EQUAL_OFFSET: f64 = 0.0;
 const THICK_OFFSET: f64 = 0.14;
 

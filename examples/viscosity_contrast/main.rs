@@ -1,9 +1,10 @@
-//! Droplets of another viscosity than their surroundings: section 2.3 of the thesis, figures 2.8 to 2.26, without a grid.
+//! Droplets of another viscosity than their surroundings: section 2.3 of the thesis, figures 2.8 to 2.26, without a
+//! grid.
 //!
-//! `cargo run --release --example viscosity_contrast` makes the runs, some minutes on two cores; `--full` makes more of them,
-//! longer and finer, an hour or so. Each finished run leaves a file in `out/viscosity_contrast/runs/` and is not made again.
-//! From all runs come `points.csv`, the figures (SVG and PNG) and `statements.md`, the thesis' statements beside what
-//! the runs say.
+//! `cargo run --release --example viscosity_contrast` makes the runs, some minutes on two cores; `--full` makes more of
+//! them, longer and finer, an hour or so. Each finished run leaves a file in `out/viscosity_contrast/runs/` and is not
+//! made again. From all runs come `points.csv`, the figures (SVG and PNG) and `statements.md`, the thesis' statements
+//! beside what the runs say.
 
 mod figures;
 mod run;

@@ -46,7 +46,8 @@ impl Job {
         self.inside + self.outside
     }
 
-    /// The speed (2.59) of a round droplet whose first mode of the concentration is c0 = 100, abscissa of figures 2.8 to 2.10.
+    /// The speed (2.59) of a round droplet whose first mode of the concentration is c0 = 100, abscissa of figures 2.8
+    /// to 2.10.
     pub(crate) fn estimate(&self) -> f64 {
         -self.activity * 100.0 / (4.0 * self.sum())
     }

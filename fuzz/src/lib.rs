@@ -1,5 +1,5 @@
-//! What is fuzzed: the readers of checkpoints, of Gmsh files and of command lines. Each function takes any bytes and must neither
-//! panic nor run out of memory or time.
+//! What is fuzzed: the readers of checkpoints, of Gmsh files and of command lines. Each function takes any bytes and
+//! must neither panic nor run out of memory or time.
 
 use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
 use clap::Parser;
@@ -28,7 +28,8 @@ pub fn scene() -> Small {
     make().expect("a scene of good numbers")
 }
 
-/// Reads a checkpoint, as a whole file and as contents whose checksum is right, and goes on from it where a scene takes it.
+/// Reads a checkpoint, as a whole file and as contents whose checksum is right, and goes on from it where a scene takes
+/// it.
 pub fn checkpoint(bytes: &[u8]) {
     let file = Checkpoint::from_bytes(bytes);
     let contents = Checkpoint::from_contents(bytes);
@@ -79,8 +80,8 @@ enum Region {
     Elastic(ElasticFlags),
 }
 
-/// Parses a command line, one flag or value a line or between spaces, checks it as the examples do, and makes the droplet where that is
-/// cheap.
+/// Parses a command line, one flag or value a line or between spaces, checks it as the examples do, and makes the
+/// droplet where that is cheap.
 pub fn flags(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let words = std::iter::once("scene").chain(text.split_whitespace());

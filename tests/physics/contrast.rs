@@ -158,7 +158,8 @@ fn the_flow_beside_the_markers() {
     }
 }
 
-/// Points of a solid, say, move with the flow of a droplet of another viscosity, however close they are to it and however many.
+/// Points of a solid, say, move with the flow of a droplet of another viscosity, however close they are to it and
+/// however many.
 #[test]
 fn other_markers_move_with_the_flow() {
     for (ratio, h, bound) in [(0.01, 0.05, 4.5e-3), (1000.0, 0.05, 3e-3), (0.01, 0.025, 2e-3)] {

@@ -39,7 +39,8 @@ fn error(activity: f64, width: f64, spacing: f64, surface: WallSurface) -> f64 {
     centre(scene.body(droplet)) / rigid(activity, width) - 1.0
 }
 
-/// Springs of 1e6 are not rigid: what is left at h = 0.05 is theirs, 0.1 and 0.3 %. The grid's part is what changes with h.
+/// Springs of 1e6 are not rigid: what is left at h = 0.05 is theirs, 0.1 and 0.3 %. The grid's part is what changes
+/// with h.
 #[test]
 fn stiff_walls_are_where_they_are_said_to_be() {
     for activity in [-2.0, -4.0] {

@@ -13,8 +13,9 @@ fn growth_rates() {
     }
 }
 
-/// In a 6 x 6 box the images slow mode 2 down from 0.5 to 0.4179 gamma/(eta R0): boundary-integral value for the mode that
-/// decays by itself. A pure cos(2 theta) starts a little faster, 0.4187 at all resolutions, because the box couples it to others.
+/// In a 6 x 6 box the images slow mode 2 down from 0.5 to 0.4179 gamma/(eta R0): boundary-integral value for the mode
+/// that decays by itself. A pure cos(2 theta) starts a little faster, 0.4187 at all resolutions, because the box
+/// couples it to others.
 #[test]
 fn box_effect() {
     let passive = Swimmer { activity: 0.0, bare_tension: 1.0, viscosity: 1.0, ..Swimmer::default() };

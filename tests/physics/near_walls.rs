@@ -12,8 +12,8 @@ fn area_change(droplet: &ActiveDroplet) -> f64 {
     polygon_area(droplet.markers()).expect("a droplet of a scene") / droplet.initial_area() - 1.0
 }
 
-/// A passive droplet off the centre line of a Poiseuille flow drifts along, is deformed, and in Stokes flow without a viscosity
-/// contrast moves away from the wall.
+/// A passive droplet off the centre line of a Poiseuille flow drifts along, is deformed, and in Stokes flow without a
+/// viscosity contrast moves away from the wall.
 #[test]
 fn passive_droplet_in_poiseuille_flow() {
     let (l, w, h) = (6.0, 3.0, 0.1);

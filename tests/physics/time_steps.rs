@@ -66,8 +66,8 @@ fn relaxed<I: Integrator>(integrator: I, dt: f64) -> Vec<f64> {
     state(&scene, block)
 }
 
-/// The midpoint rule is stable up to 2 eta/mu = 0.02; the slow modes that are left at t = 0.1 are followed with second order by steps well
-/// beyond that.
+/// The midpoint rule is stable up to 2 eta/mu = 0.02; the slow modes that are left at t = 0.1 are followed with second
+/// order by steps well beyond that.
 #[test]
 fn chebyshev_takes_long_steps_with_stiff_solids() {
     let exact = relaxed(Midpoint::default(), 0.0005);
@@ -107,8 +107,8 @@ fn the_stages_follow_the_step() {
     assert_eq!(scene.integrator_work().estimates, 0);
 }
 
-/// Between walls whose rates lie densely up to the fastest, and beside a droplet whose rates are far slower, which is what the power method
-/// sees first.
+/// Between walls whose rates lie densely up to the fastest, and beside a droplet whose rates are far slower, which is
+/// what the power method sees first.
 #[test]
 fn the_predicted_step_between_stiff_walls_is_stable() {
     let swimmer = Swimmer { activity: 0.0, viscosity: 10.0, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };

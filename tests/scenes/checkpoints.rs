@@ -1,4 +1,5 @@
-//! Scenes on disk: resumed runs are bit for bit those that were never stopped, and files that are not whole are refused.
+//! Scenes on disk: resumed runs are bit for bit those that were never stopped, and files that are not whole are
+//! refused.
 
 use std::path::PathBuf;
 
@@ -17,8 +18,9 @@ fn bits<H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>) -> Vec<u8> {
     scene.checkpoint("").to_bytes().expect("bytes")
 }
 
-/// A run to `until` that is interrupted after each of the given numbers of steps, saved and resumed in a scene made anew, against one
-/// that is not; on the thread of the test, and with the feature `rayon` also in pools of one and two threads.
+/// A run to `until` that is interrupted after each of the given numbers of steps, saved and resumed in a scene made
+/// anew, against one that is not; on the thread of the test, and with the feature `rayon` also in pools of one and two
+/// threads.
 fn compare<H: Hydrodynamics, I: Integrator>(
     make: impl Fn() -> Scene<H, I> + Sync,
     until: f64,
@@ -303,7 +305,8 @@ proptest! {
         prop_assert!(Checkpoint::from_bytes(&bytes).is_err());
     }
 
-    /// Contents whose checksum is right but that were never written: an error, or a checkpoint that a scene refuses or takes, never a panic.
+    /// Contents whose checksum is right but that were never written: an error, or a checkpoint that a scene refuses or
+    /// takes, never a panic.
     #[test]
     fn contents_of_any_kind_do_no_harm(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
         thread_local!(static SAVED: Vec<u8> = saved());

@@ -1,5 +1,5 @@
-//! Not a number, infinity, negative numbers and zero in every parameter of the constructors: an error or something that works, never a
-//! panic, and never something that is made of a value that is not finite.
+//! Not a number, infinity, negative numbers and zero in every parameter of the constructors: an error or something that
+//! works, never a panic, and never something that is made of a value that is not finite.
 
 use motile::active_interface::{
     ActiveDroplet, ConstantTension, ContractileTension, Curve, Frame, InitialConcentration, LinearTheory,

@@ -6,11 +6,11 @@ use crate::error::{finite, positive};
 use crate::polygon::edges;
 use crate::{ActiveDroplet, InterfaceError, centroid_velocity, polygon_moments};
 
-/// The pressure drop along a channel of the length `length` (length): how much lower the pressure is at its right end (force per length in
-/// 2D), `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.
+/// The pressure drop along a channel of the length `length` (length): how much lower the pressure is at its right end
+/// (force per length in 2D), `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.
 ///
-/// Positive where pressure drives the fluid to the right. Zero where the pressure is periodic, as in the thesis' channel; in a closed channel
-/// (no net flux) it is what a swimmer has to push against.
+/// Positive where pressure drives the fluid to the right. Zero where the pressure is periodic, as in the thesis'
+/// channel; in a closed channel (no net flux) it is what a swimmer has to push against.
 ///
 /// # Errors
 /// A length that is not positive and finite, a report whose gradient is not finite.
@@ -19,11 +19,11 @@ pub fn pressure_drop(report: &FlowReport, length: f64) -> Result<f64, InterfaceE
     Ok(-gradient * positive("the length of the channel", length)?)
 }
 
-/// The net flux through a channel (area per time): the integral of u from wall to wall at `x`, which is the same at every x and time
-/// but for the error of the quadrature.
+/// The net flux through a channel (area per time): the integral of u from wall to wall at `x`, which is the same at
+/// every x and time but for the error of the quadrature.
 ///
-/// u is integrated exactly as it is sampled where there is a grid (linearly between the rows of the grid; the error is of second order
-/// in h), by 64 Gauss points where there is none.
+/// u is integrated exactly as it is sampled where there is a grid (linearly between the rows of the grid; the error is
+/// of second order in h), by 64 Gauss points where there is none.
 ///
 /// # Errors
 /// A fluid without walls, those of an evaluation and of sampling.
@@ -37,8 +37,8 @@ pub fn net_flux<H: Hydrodynamics>(system: &mut System<H>, x: f64) -> Result<f64,
 
 /// The fluxes along a channel through the cross-section at the centroid of a droplet, by [`gap_flow`].
 ///
-/// "Inside" is between the lowest and the highest point of the interface on the cross-section, "gaps" are what is left below and above
-/// it.
+/// "Inside" is between the lowest and the highest point of the interface on the cross-section, "gaps" are what is left
+/// below and above it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GapFlow {
     /// The droplet's velocity along the channel (length per time).
@@ -60,29 +60,31 @@ impl GapFlow {
         self.gaps[0] + self.inside + self.gaps[1]
     }
 
-    /// Fluxes through the gaps in the frame of the droplet (area per time): `q - V d` with the flux q in the frame of the walls,
-    /// the velocity V of the droplet and the height d of the gap.
+    /// Fluxes through the gaps in the frame of the droplet (area per time): `q - V d` with the flux q in the frame of
+    /// the walls, the velocity V of the droplet and the height d of the gap.
     #[must_use]
     pub fn relative_gaps(&self) -> [f64; 2] {
         [0, 1].map(|i| self.gaps[i] - self.velocity * self.gap_heights[i])
     }
 
-    /// The retrograde flow: how much fluid passes the droplet backwards through both gaps, seen from the droplet (area per time;
-    /// to the left of a droplet that moves to the right; negative for a droplet that is overtaken by the fluid).
+    /// The retrograde flow: how much fluid passes the droplet backwards through both gaps, seen from the droplet (area
+    /// per time; to the left of a droplet that moves to the right; negative for a droplet that is overtaken by the
+    /// fluid).
     ///
-    /// In a steady state it is the same at every cross-section, `|V| w - Q` with the width w of the channel and the net flux Q
-    /// in the droplet's direction.
+    /// In a steady state it is the same at every cross-section, `|V| w - Q` with the width w of the channel and the net
+    /// flux Q in the droplet's direction.
     #[must_use]
     pub fn retrograde(&self) -> f64 {
         -self.velocity.signum() * self.relative_gaps().iter().sum::<f64>()
     }
 }
 
-/// The fluxes along a channel through the vertical line at the centroid of a droplet: u integrated below, inside and above it.
+/// The fluxes along a channel through the vertical line at the centroid of a droplet: u integrated below, inside and
+/// above it.
 ///
-/// The line is close to the widest cross-section of a swimmer on the centre line. A gap that is closed has the height zero. Other
-/// bodies on the line count as fluid. u is integrated as by [`net_flux`]; the error is of second order in h as long as the gaps are some
-/// cells wide.
+/// The line is close to the widest cross-section of a swimmer on the centre line. A gap that is closed has the height
+/// zero. Other bodies on the line count as fluid. u is integrated as by [`net_flux`]; the error is of second order in h
+/// as long as the gaps are some cells wide.
 ///
 /// # Errors
 /// A fluid without walls, a body that is no active droplet, those of an evaluation and of sampling.
@@ -156,7 +158,8 @@ struct Line {
 }
 
 impl Line {
-    /// Two Gauss points in each panel of the sections between the heights `ends`; panels end where the sampled velocity has kinks.
+    /// Two Gauss points in each panel of the sections between the heights `ends`; panels end where the sampled velocity
+    /// has kinks.
     fn new(medium: &Medium, ends: &[f64]) -> Self {
         let mut points = Vec::new();
         let root = 1.0 / 3.0_f64.sqrt();

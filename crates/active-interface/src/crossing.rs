@@ -13,8 +13,8 @@ use crate::polygon::cross;
 /// tested only against those in the nine cells around: two segments that meet are never further apart. The scratch
 /// grows with the number of points and is kept, so that a call in steady state allocates nothing.
 ///
-/// Polygons that are star-shaped about the mean of their points, such as those of most droplets, need no table: one pass
-/// over the points is enough.
+/// Polygons that are star-shaped about the mean of their points, such as those of most droplets, need no table: one
+/// pass over the points is enough.
 #[derive(Debug, Clone, Default)]
 pub struct CrossingFinder {
     cells: Vec<(i64, i64)>,
@@ -155,84 +155,4 @@ fn segments_meet(p: Vec2, q: Vec2, r: Vec2, s: Vec2) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-    use std::f64::consts::TAU;
-
-    fn points(list: &[[f64; 2]]) -> Vec<Vec2> {
-        list.iter().map(|&[x, y]| Vec2::new(x, y)).collect()
-    }
-
-    /// All pairs.
-    fn slow(points: &[Vec2]) -> Option<(usize, usize)> {
-        let m = points.len();
-        for i in 0..m {
-            for j in i + 1..m {
-                let (p, q, r, s) = (points[i], points[(i + 1) % m], points[j], points[(j + 1) % m]);
-                let meet = if j == i + 1 {
-                    folds_back(q - p, s - q)
-                } else if i == 0 && j == m - 1 {
-                    folds_back(p - r, q - p)
-                } else {
-                    segments_meet(p, q, r, s)
-                };
-                if meet {
-                    return Some((i, j));
-                }
-            }
-        }
-        None
-    }
-
-    #[test]
-    fn a_square_is_simple_and_a_bow_tie_is_not() {
-        assert_eq!(first_crossing(&points(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])).unwrap(), None);
-        let tie = points(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
-        assert_eq!(first_crossing(&tie).unwrap(), Some((1, 3)));
-    }
-
-    #[test]
-    fn touching_and_folding_back_count() {
-        let touching = points(&[[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 0.0], [0.0, 1.0]]);
-        assert_eq!(first_crossing(&touching).unwrap(), Some((0, 2)));
-        let spike = points(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [1.0, 3.0], [1.0, 1.5], [0.0, 1.0]]);
-        assert_eq!(first_crossing(&spike).unwrap(), Some((2, 3)));
-        assert!(first_crossing(&points(&[[0.0, 0.0], [1.0, 0.0]])).is_err());
-        assert!(first_crossing(&points(&[[0.0, 0.0], [1.0, 0.0], [f64::NAN, 1.0]])).is_err());
-        assert!(first_crossing(&points(&[[1.0, 1.0]; 5])).unwrap().is_some());
-    }
-
-    #[test]
-    fn a_necking_shape_crosses_when_its_neck_closes() {
-        // (cos t, sin t (neck + (1 - neck) cos^2 t)) pinches at t = pi/2 and crosses for a negative neck.
-        let shape = |neck: f64| -> Vec<Vec2> {
-            (0..400)
-                .map(|k| {
-                    let (s, c) = (TAU * (f64::from(k) + 0.5) / 400.0).sin_cos();
-                    Vec2::new(c, s * (neck + (1.0 - neck) * c * c))
-                })
-                .collect()
-        };
-        assert_eq!(first_crossing(&shape(0.01)).unwrap(), None);
-        assert!(first_crossing(&shape(-0.01)).unwrap().is_some());
-    }
-
-    proptest! {
-        #[test]
-        fn agrees_with_all_pairs(list in proptest::collection::vec((0.0..1.0f64, 0.0..1.0f64), 3..40)) {
-            let points: Vec<Vec2> = list.iter().map(|&(x, y)| Vec2::new(x, y)).collect();
-            prop_assert_eq!(first_crossing(&points).unwrap(), slow(&points));
-        }
-
-        #[test]
-        fn agrees_with_all_pairs_on_wiggly_curves(seed in proptest::collection::vec(-1.0..1.0f64, 12), amplitude in 0.0..1.2f64, m in 8usize..150) {
-            let points: Vec<Vec2> = (0..m).map(|k| {
-                let t = TAU * k as f64 / m as f64;
-                let wave = |shift: usize| (0..6).map(|j| seed[(j + shift) % 12] * ((j + 2) as f64 * t + 9.0 * seed[j]).cos()).sum::<f64>();
-                Vec2::new(t.cos() + 0.3 * amplitude * wave(0), t.sin() + 0.3 * amplitude * wave(6))
-            }).collect();
-            prop_assert_eq!(first_crossing(&points).unwrap(), slow(&points));
-        }
-    }
-}
+mod tests;

@@ -266,8 +266,8 @@ impl Curve {
     /// (spacing)^2 times its curvature / 12.
     ///
     /// # Errors
-    /// Fewer than eight or more than ten million markers; so few that the polygon crosses itself; a curve whose chords could not be made equal;
-    /// rotations or translations that are not finite.
+    /// Fewer than eight or more than ten million markers; so few that the polygon crosses itself; a curve whose chords
+    /// could not be made equal; rotations or translations that are not finite.
     pub fn markers(&self, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
         enough("markers", count, MINIMUM_MARKERS)?;
         if count > MAXIMUM_MARKERS {
@@ -300,8 +300,8 @@ impl Curve {
         }
     }
 
-    /// Markers about `spacing` apart (length): as [`Curve::markers`], with the perimeter divided by the spacing, rounded,
-    /// as their number.
+    /// Markers about `spacing` apart (length): as [`Curve::markers`], with the perimeter divided by the spacing,
+    /// rounded, as their number.
     ///
     /// # Errors
     /// A spacing that is not positive or gives fewer than eight markers, and those of [`Curve::markers`].
@@ -315,8 +315,8 @@ impl Curve {
 /// first stays the first).
 ///
 /// # Errors
-/// Fewer than eight points, points that are not finite or coincide, distances between neighbours that differ by more than
-/// a factor of four, a crossing, no area.
+/// Fewer than eight points, points that are not finite or coincide, distances between neighbours that differ by more
+/// than a factor of four, a crossing, no area.
 pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError> {
     check_list(points, MINIMUM_MARKERS)?;
     let (area, length) = (raw_area(points), raw_perimeter(points));

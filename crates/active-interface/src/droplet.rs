@@ -18,11 +18,12 @@ pub use warning::DropletWarning;
 /// Least number of markers of a droplet.
 pub const MINIMUM_MARKERS: usize = 8;
 
-/// Above this cell Peclet number `ds max|V_t - W| / D` (no dimension) the edge of the concentration is not resolved, however fine
-/// the grid.
+/// Above this cell Peclet number `ds max|V_t - W| / D` (no dimension) the edge of the concentration is not resolved,
+/// however fine the grid.
 pub const PECLET_LIMIT: f64 = 0.5;
 
-/// Relative change of the area, and of the number of particles, at which a run ends unless the droplet is told otherwise.
+/// Relative change of the area, and of the number of particles, at which a run ends unless the droplet is told
+/// otherwise.
 const AREA_BOUND: f64 = 0.05;
 const NUMBER_BOUND: f64 = 1e-8;
 
@@ -34,12 +35,12 @@ pub enum Motion {
     Equidistributed {
         /// Rate at which unequal spacing relaxes (1/time).
         relaxation: f64,
-        /// Whether wiggles shorter than the kernel are filtered after each step; without it they grow in long runs. Only on a
-        /// grid.
+        /// Whether wiggles shorter than the kernel are filtered after each step; without it they grow in long runs.
+        /// Only on a grid.
         filter: bool,
     },
-    /// With the fluid's full velocity (thesis (2.8)), markers being inserted where they thin out (1.5 times the spacing at the start)
-    /// and removed where they crowd (half of it), without a loss of particles.
+    /// With the fluid's full velocity (thesis (2.8)), markers being inserted where they thin out (1.5 times the spacing
+    /// at the start) and removed where they crowd (half of it), without a loss of particles.
     WithFluid,
 }
 
@@ -98,14 +99,14 @@ pub struct ActiveDroplet {
 }
 
 impl ActiveDroplet {
-    /// A droplet from its markers (equally spaced, see [`crate::Curve`]; turned around if clockwise), the particle numbers
-    /// of the segments that follow them, the tension law and the particles' diffusion constant along the interface
-    /// (length squared per time).
+    /// A droplet from its markers (equally spaced, see [`crate::Curve`]; turned around if clockwise), the particle
+    /// numbers of the segments that follow them, the tension law and the particles' diffusion constant along the
+    /// interface (length squared per time).
     ///
     /// # Errors
     /// Fewer than [`MINIMUM_MARKERS`] markers, lists of different length, positions that are not finite, coincide, are
-    /// spaced by more than a factor of four unevenly, or whose curve crosses itself or has no area; negative or non-finite
-    /// numbers, a negative diffusion constant.
+    /// spaced by more than a factor of four unevenly, or whose curve crosses itself or has no area; negative or
+    /// non-finite numbers, a negative diffusion constant.
     pub fn new(
         markers: &[Vec2],
         numbers: Vec<f64>,
@@ -203,16 +204,16 @@ impl ActiveDroplet {
         Ok(self)
     }
 
-    /// The same droplet with its area put back to the initial one after each step, by an equal normal displacement of all markers (off by
-    /// default: the motion keeps the area but for the error of the time step).
+    /// The same droplet with its area put back to the initial one after each step, by an equal normal displacement of
+    /// all markers (off by default: the motion keeps the area but for the error of the time step).
     #[must_use]
     pub fn with_area_constraint(mut self, on: bool) -> Self {
         self.keeps_area = on;
         self
     }
 
-    /// The same droplet with other bounds on the relative changes of its area and of its number of particles since the start, beyond which
-    /// a step is an error (5e-2 and 1e-8 by default; infinity for none).
+    /// The same droplet with other bounds on the relative changes of its area and of its number of particles since the
+    /// start, beyond which a step is an error (5e-2 and 1e-8 by default; infinity for none).
     ///
     /// # Errors
     /// A bound that is negative or not a number.
@@ -226,8 +227,9 @@ impl ActiveDroplet {
         Ok(self)
     }
 
-    /// The same droplet with or without the stabiliser (on by default), which makes the fast relaxation of crowded particles implicit:
-    /// a diffusivity `h c max(-d gamma/dc, 0) / (4 eta)` is added implicitly and taken off explicitly.
+    /// The same droplet with or without the stabiliser (on by default), which makes the fast relaxation of crowded
+    /// particles implicit: a diffusivity `h c max(-d gamma/dc, 0) / (4 eta)` is added implicitly and taken off
+    /// explicitly.
     #[must_use]
     pub fn with_stabiliser(mut self, on: bool) -> Self {
         self.stabilised = on;
@@ -297,8 +299,8 @@ impl ActiveDroplet {
         self.viscosity_inside
     }
 
-    /// What [`crate::observe`] needs, from the last evaluation of the system that the droplet is body number `index` of. Call
-    /// [`System::evaluate`] first: forces and velocities are those of the present state only then.
+    /// What [`crate::observe`] needs, from the last evaluation of the system that the droplet is body number `index`
+    /// of. Call [`System::evaluate`] first: forces and velocities are those of the present state only then.
     ///
     /// # Panics
     /// An index beyond the bodies of the system.

@@ -269,7 +269,8 @@ impl Body for ActiveDroplet {
 }
 
 impl ActiveDroplet {
-    /// Area and particles are what they were, and no tension law without a plateau has gathered the particles in a point.
+    /// Area and particles are what they were, and no tension law without a plateau has gathered the particles in a
+    /// point.
     fn check_bounds(&self) -> Result<(), BodyError> {
         let total: f64 = self.numbers.iter().sum();
         let changes = [
@@ -322,8 +323,8 @@ impl ActiveDroplet {
         }
     }
 
-    /// Moves all markers along their normals by the same distance so that the area is the initial one (twice, the second time for the
-    /// quadratic part).
+    /// Moves all markers along their normals by the same distance so that the area is the initial one (twice, the
+    /// second time for the quadratic part).
     fn restore_area(&mut self) -> Result<(), InterfaceError> {
         for _ in 0..2 {
             let missing = self.initial_area - signed_area(&self.markers);

@@ -16,9 +16,9 @@ pub trait ExcludedVolume: Debug + Send + Sync {
     /// B(c) = dPi/dc (tension times length) at the concentration `c` (particles per length).
     fn slope(&self, c: f64) -> f64;
 
-    /// The concentration (particles per length) at which B(c) = `pull` (tension times length), or `None` where B stays below it. At the
-    /// activity `-pull` the tension has its maximum there: particles gather to about that concentration, somewhat beyond it
-    /// where the flow presses them.
+    /// The concentration (particles per length) at which B(c) = `pull` (tension times length), or `None` where B stays
+    /// below it. At the activity `-pull` the tension has its maximum there: particles gather to about that
+    /// concentration, somewhat beyond it where the flow presses them.
     fn plateau(&self, pull: f64) -> Option<f64>;
 }
 
@@ -180,81 +180,4 @@ impl ExcludedVolume for QuadraticExcludedVolume {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use approx::assert_relative_eq;
-    use proptest::prelude::*;
-
-    fn thesis() -> StepExcludedVolume {
-        StepExcludedVolume::thesis(10.0, 100.0).unwrap()
-    }
-
-    #[test]
-    fn step_slope_is_equation_2_41() {
-        let law = thesis();
-        for c in [0.0, 1.0, 50.0, 100.0, 180.0, 199.0, 200.0, 230.0, 400.0, 1500.0] {
-            let printed = 10.0 - 10.0 * 20f64.sinh() / (20f64.cosh() + (20.0 * c / 200.0_f64).cosh());
-            assert!((law.slope(c) - printed).abs() < 1e-14 * 10.0, "c = {c}");
-        }
-        assert_relative_eq!(law.slope(200.0), 5.0, epsilon = 1e-7);
-    }
-
-    #[test]
-    fn step_pressure_is_the_integral_of_the_slope() {
-        // Composite Simpson, 2000 intervals: an independent value of (2.40).
-        let law = thesis();
-        for c in [80.0, 200.0, 260.0, 700.0] {
-            let n = 2000;
-            let h = c / f64::from(n);
-            let sum: f64 = (0..=n)
-                .map(|i| {
-                    let weight = if i == 0 || i == n { 1.0 } else { 2.0 + 2.0 * f64::from(i % 2) };
-                    weight * law.slope(f64::from(i) * h)
-                })
-                .sum();
-            assert_relative_eq!(law.pressure(c), sum * h / 3.0, max_relative = 1e-9);
-        }
-    }
-
-    #[test]
-    fn nothing_overflows_far_above_the_threshold() {
-        let law = StepExcludedVolume::new(10.0, 200.0, 300.0).unwrap();
-        assert_relative_eq!(law.pressure(1e9), 10.0 * (1e9 - 200.0), max_relative = 1e-14);
-        assert_relative_eq!(law.slope(1e9), 10.0);
-        assert_eq!(law.pressure(0.0), 0.0);
-    }
-
-    #[test]
-    fn plateau_is_where_the_slope_equals_the_pull() {
-        for law in [thesis(), StepExcludedVolume::new(8.0, 90.0, 300.0).unwrap()] {
-            for pull in [0.5, 2.0, 4.0, 7.9] {
-                let c = law.plateau(pull).unwrap();
-                assert_relative_eq!(law.slope(c), pull, max_relative = 1e-11);
-            }
-            assert_eq!(law.plateau(10.0), None);
-        }
-        assert_eq!(QuadraticExcludedVolume::new(0.02).unwrap().plateau(3.0), Some(150.0));
-        assert_eq!(NoExcludedVolume.plateau(1.0), None);
-    }
-
-    #[test]
-    fn bad_values_are_refused() {
-        assert!(StepExcludedVolume::new(-1.0, 200.0, 20.0).is_err());
-        assert!(StepExcludedVolume::new(1.0, 0.0, 20.0).is_err());
-        assert!(StepExcludedVolume::new(1.0, 200.0, f64::NAN).is_err());
-        assert!(StepExcludedVolume::new(1.0, 200.0, 301.0).is_err());
-        assert!(StepExcludedVolume::thesis(1.0, -100.0).is_err());
-        assert!(QuadraticExcludedVolume::new(f64::INFINITY).is_err());
-    }
-
-    proptest! {
-        #[test]
-        fn pressure_and_slope_agree(c in 0.0..3000.0f64, a in 1.0..60.0f64, strength in 0.0..50.0f64) {
-            let law = StepExcludedVolume::new(strength, 200.0, a).unwrap();
-            let step = 1e-3;
-            let difference = (law.pressure(c + step) - law.pressure(c - step)) / (2.0 * step);
-            prop_assert!((difference - law.slope(c)).abs() < 1e-6 * (1.0 + strength));
-            prop_assert!(law.slope(c) >= 0.0 && law.slope(c) <= strength);
-        }
-    }
-}
+mod tests;

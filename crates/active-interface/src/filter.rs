@@ -10,12 +10,12 @@ const STRONGEST: f64 = 0.5;
 /// Most passes a step; steps that would need more do not see what the filter is for.
 const MOST_PASSES: f64 = 20.0;
 
-/// Relaxes wiggles of markers shorter than the kernel (docs/method.md, section 4). The kernel's transform vanishes at the
-/// wave number 2 pi / h, so that tension does not see them while the converging surface flow amplifies them.
+/// Relaxes wiggles of markers shorter than the kernel (docs/method.md, section 4). The kernel's transform vanishes at
+/// the wave number 2 pi / h, so that tension does not see them while the converging surface flow amplifies them.
 ///
-/// `e = (1 - S)^2 X`, `S = (1 - l^2 d_ss)^-1`, l = h/2; each marker moves by `-a (e . n) n`, `a = dt gamma / (2 eta h)`, in as many
-/// passes as make a at most a half in each, so that what the filter does in a time does not depend on the length of
-/// steps; the area that this would change is put back evenly.
+/// `e = (1 - S)^2 X`, `S = (1 - l^2 d_ss)^-1`, l = h/2; each marker moves by `-a (e . n) n`, `a = dt gamma / (2 eta
+/// h)`, in as many passes as make a at most a half in each, so that what the filter does in a time does not depend on
+/// the length of steps; the area that this would change is put back evenly.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct WiggleFilter {
     once: Vec<Vec2>,

@@ -1,5 +1,5 @@
-//! Active droplets: closed fluid interfaces that carry particles, which raise the interface's tension, are carried along
-//! by the flow that the tension drives, and so make the droplet swim.
+//! Active droplets: closed fluid interfaces that carry particles, which raise the interface's tension, are carried
+//! along by the flow that the tension drives, and so make the droplet swim.
 //!
 //! The model is that of the thesis (chapter 2): on the interface of a droplet in Stokes flow lives a concentration c of
 //! particles,
@@ -8,24 +8,24 @@
 //! gamma = gamma0 - zeta_dmu c - Pi(c)             (2.39)
 //! F     = d(gamma tau)/ds                         (2.5), the force on the fluid
 //! ```
-//! [`ActiveDroplet`] is that droplet as a body of a scene ([`ib_core::Body`]). The parts it is made of, each usable by itself,
-//! work on plain slices of markers ([`Vec2`](ib_core::Vec2)) and numbers:
+//! [`ActiveDroplet`] is that droplet as a body of a scene ([`ib_core::Body`]). The parts it is made of, each usable by
+//! itself, work on plain slices of markers ([`Vec2`](ib_core::Vec2)) and numbers:
 //!
 //! * **Shapes**: [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
 //!   [`CrossingFinder`] tells whether an interface crosses itself; [`polygon_moments`] and its relatives are exact.
-//! * **Particles**: [`InitialConcentration`] to start from, [`Transport`] to carry them along the interface without losing any,
-//!   [`repair_positivity`], [`cell_peclet`].
+//! * **Particles**: [`InitialConcentration`] to start from, [`Transport`] to carry them along the interface without
+//!   losing any, [`repair_positivity`], [`cell_peclet`].
 //! * **Tension**: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
 //! * **Measurements**: [`observe`] for all [`Observables`] at once, and a function for each.
-//! * **Channels**: [`TrajectoryRecorder`] for a run, [`Trajectory::regime`] for what the droplet does across the channel,
-//!   [`gap_flow`], [`net_flux`] and [`pressure_drop`] for the flow along it.
+//! * **Channels**: [`TrajectoryRecorder`] for a run, [`Trajectory::regime`] for what the droplet does across the
+//!   channel, [`gap_flow`], [`net_flux`] and [`pressure_drop`] for the flow along it.
 //! * **Theory**: [`LinearTheory`] and [`SquirmerFlow`]; [`Units`] to convert to SI.
 //!
 //! # Conventions
 //!
-//! Markers run counter-clockwise, normals point outwards. Segment k reaches from marker k to marker k + 1 and holds the particle
-//! number n_k; its concentration is n_k over its length. Forces are those of the interface on the fluid. Quantities have
-//! the units that you choose; every item names its dimension. Bad input ends in an [`InterfaceError`].
+//! Markers run counter-clockwise, normals point outwards. Segment k reaches from marker k to marker k + 1 and holds the
+//! particle number n_k; its concentration is n_k over its length. Forces are those of the interface on the fluid.
+//! Quantities have the units that you choose; every item names its dimension. Bad input ends in an [`InterfaceError`].
 //!
 //! # Example
 //!

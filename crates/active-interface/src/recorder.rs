@@ -25,8 +25,8 @@ pub struct Record {
 }
 
 impl Record {
-    /// Names and values, in the order of the columns of a table: `time`, the [`Observables::entries`], `gap`, `pressure_gradient`,
-    /// `net_flux`, `retrograde_flow`. What does not exist is `None`.
+    /// Names and values, in the order of the columns of a table: `time`, the [`Observables::entries`], `gap`,
+    /// `pressure_gradient`, `net_flux`, `retrograde_flow`. What does not exist is `None`.
     #[must_use]
     pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
         let mut entries = vec![("time", Some(self.time))];
@@ -88,8 +88,8 @@ impl TrajectoryRecorder {
         self
     }
 
-    /// The same recorder, recording also the fluxes past the droplet (see [`crate::gap_flow`]). This costs a sampling of the flow a
-    /// record, a little more than half a time step, and works in channels only.
+    /// The same recorder, recording also the fluxes past the droplet (see [`crate::gap_flow`]). This costs a sampling
+    /// of the flow a record, a little more than half a time step, and works in channels only.
     #[must_use]
     pub fn with_gap_flow(mut self) -> Self {
         self.with_gap_flow = true;
@@ -114,7 +114,8 @@ impl TrajectoryRecorder {
         self.records.is_empty()
     }
 
-    /// The values of the entry `name` (see [`Record::entries`]), record by record; `None` for an unknown name or without records.
+    /// The values of the entry `name` (see [`Record::entries`]), record by record; `None` for an unknown name or
+    /// without records.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<Vec<Option<f64>>> {
         let place = self.records.first()?.entries().iter().position(|entry| entry.0 == name)?;
@@ -128,8 +129,8 @@ impl TrajectoryRecorder {
         self.minimum_gap
     }
 
-    /// The trajectory across the channel, heights being measured from the centre line; without walls from the height of the first
-    /// record.
+    /// The trajectory across the channel, heights being measured from the centre line; without walls from the height of
+    /// the first record.
     ///
     /// # Errors
     /// None for records of a run.
@@ -152,7 +153,8 @@ impl TrajectoryRecorder {
 }
 
 impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
-    /// Evaluates the present state and records it. A record at the time of the last one takes its place, so that a run can be continued.
+    /// Evaluates the present state and records it. A record at the time of the last one takes its place, so that a run
+    /// can be continued.
     ///
     /// # Errors
     /// A body that is no active droplet, a time before that of the last record, those of an evaluation.

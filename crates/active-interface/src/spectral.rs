@@ -82,7 +82,8 @@ impl SpectralCurve {
         self.inverse.process_with_scratch(&mut self.work, &mut self.scratch);
     }
 
-    /// Replaces lengths, directions (at the middle of the segments), tangents and weights of `geometry` by those of the smooth curve.
+    /// Replaces lengths, directions (at the middle of the segments), tangents and weights of `geometry` by those of the
+    /// smooth curve.
     pub(crate) fn refine(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
         let (count, half) = (self.len(), PI / self.len() as f64);
         // Relative to one marker, so that droplets that have travelled far lose no digits.
@@ -122,8 +123,8 @@ impl SpectralCurve {
         }
     }
 
-    /// Turns forces that are integrals of a density from the middle of one segment to that of the next into the density at the
-    /// marker times the spacing; their sum stays zero.
+    /// Turns forces that are integrals of a density from the middle of one segment to that of the next into the density
+    /// at the marker times the spacing; their sum stays zero.
     pub(crate) fn sharpen(&mut self, forces: &mut [Vec2]) {
         for (entry, force) in self.spectrum.iter_mut().zip(forces.iter()) {
             *entry = complex(*force);
@@ -183,65 +184,4 @@ impl SpectralCurve {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Curve;
-
-    /// An ellipse at equal arc lengths: lengths, tangents and the force of a constant tension, to round-off with 128 markers.
-    #[test]
-    fn an_ellipse_to_round_off() {
-        let curve = Curve::ellipse(1.3, 0.8).unwrap();
-        // Markers of the polygon lie off the ellipse by a common factor, which does not matter for what is compared.
-        let markers = curve.markers(256).unwrap();
-        let mut geometry = Geometry::default();
-        geometry.update(&markers);
-        let mut spectral = SpectralCurve::new(256);
-        spectral.refine(&markers, &mut geometry);
-        let scale = markers[0].x / 1.3;
-        for (marker, tau) in markers.iter().zip(&geometry.tangents) {
-            let exact = Vec2::new(-marker.y / 0.64, marker.x / 1.69).normalize();
-            assert!((tau - exact).norm() < 2e-7, "{}", (tau - exact).norm());
-        }
-        assert!((geometry.perimeter / scale - curve.perimeter()).abs() < 1e-7);
-        let mut before = geometry.directions[255];
-        let mut forces: Vec<Vec2> = geometry
-            .directions
-            .iter()
-            .map(|&here| {
-                let force = here - before;
-                before = here;
-                force
-            })
-            .collect();
-        spectral.sharpen(&mut forces);
-        for (k, force) in forces.iter().enumerate() {
-            let (x, y) = (markers[k].x / scale, markers[k].y / scale);
-            let curvature = (1.3_f64 * 0.8).powi(-2) / (x * x / 1.3_f64.powi(4) + y * y / 0.8_f64.powi(4)).powf(1.5);
-            let exact = -curvature / scale * outward(geometry.tangents[k]) * geometry.weights[k];
-            assert!((force - exact).norm() < 1e-5 * exact.norm(), "{k}: {force} {exact}");
-        }
-    }
-
-    /// Equidistribution: the rate of change of every segment's length is the same, and the area does not change.
-    #[test]
-    fn motion_keeps_spacing_and_area() {
-        let markers = Curve::fourier(1.0, &[0.0, 0.1, 0.05], &[]).unwrap().markers(128).unwrap();
-        let mut geometry = Geometry::default();
-        geometry.update(&markers);
-        let mut spectral = SpectralCurve::new(128);
-        spectral.refine(&markers, &mut geometry);
-        let velocities: Vec<Vec2> = markers.iter().map(|x| Vec2::new(x.y + 0.2 * x.x * x.x, 0.3 * x.x - x.y)).collect();
-        let (mut motion, mut slip) = (vec![Vec2::zeros(); 128], vec![0.0; 128]);
-        spectral.equidistribute(&geometry, &velocities, 0.0, &mut motion, &mut slip);
-        let area: f64 = (0..128).map(|k| motion[k].dot(&outward(geometry.tangents[k])) * geometry.weights[k]).sum();
-        assert!(area.abs() < 1e-13);
-        let step = 1e-5;
-        let moved: Vec<Vec2> = markers.iter().zip(&motion).map(|(x, v)| x + step * v).collect();
-        let mut after = Geometry::default();
-        after.update(&moved);
-        spectral.refine(&moved, &mut after);
-        let rates: Vec<f64> = after.lengths.iter().zip(&geometry.lengths).map(|(a, b)| (a - b) / step).collect();
-        let mean = rates.iter().sum::<f64>() / 128.0;
-        assert!(rates.iter().all(|rate| (rate - mean).abs() < 1e-6), "{mean}");
-    }
-}
+mod tests;

@@ -72,14 +72,15 @@ impl LinearTheory {
 
     /// Growth rate (1/time) of mode k >= 1 of the radius, eq. (2.18): -k gamma / (2 R0 (eta_in + eta_out)).
     ///
-    /// In a periodic box it is smaller: for k = 2 and equal viscosities 0.4179 gamma/(eta R0) instead of 0.5 in a box of 6 R0.
+    /// In a periodic box it is smaller: for k = 2 and equal viscosities 0.4179 gamma/(eta R0) instead of 0.5 in a box
+    /// of 6 R0.
     #[must_use]
     pub fn shape_growth_rate(&self, k: u32) -> f64 {
         -f64::from(k) * self.0.tension / (2.0 * self.0.radius * self.viscosity_sum())
     }
 
-    /// Growth rate (1/time) of mode k >= 1 of the concentration, eq. (2.19): -k (zeta_dmu c0 / (2 R0 (eta_in + eta_out)) +
-    /// D k / R0^2).
+    /// Growth rate (1/time) of mode k >= 1 of the concentration, eq. (2.19): -k (zeta_dmu c0 / (2 R0 (eta_in +
+    /// eta_out)) + D k / R0^2).
     #[must_use]
     pub fn concentration_growth_rate(&self, k: u32) -> f64 {
         let droplet = &self.0;
@@ -106,8 +107,8 @@ impl LinearTheory {
         Ok(-self.0.activity * amplitude / (4.0 * self.viscosity_sum()))
     }
 
-    /// The flow due to c = c0 + concentration_amplitude cos(k theta) and r = R0 + radius_amplitude cos(k theta), to first
-    /// order in both, eqs. (2.9) to (2.15).
+    /// The flow due to c = c0 + concentration_amplitude cos(k theta) and r = R0 + radius_amplitude cos(k theta), to
+    /// first order in both, eqs. (2.9) to (2.15).
     ///
     /// # Errors
     /// k = 0, amplitudes that are not finite.
@@ -147,8 +148,8 @@ impl LinearTheory {
 /// p       = 4 eta (k+1) alpha r^k cos(k theta) / k,                       inside     (2.11)
 ///           4 eta (k-1) alpha r^-k cos(k theta) / k,                      outside
 /// ```
-/// In the thesis the outer v_theta has the opposite sign, with which the flow has sources. For k = 1 this is the frame of the
-/// droplet: far away the fluid moves with `alpha_outside` along theta = 0.
+/// In the thesis the outer v_theta has the opposite sign, with which the flow has sources. For k = 1 this is the frame
+/// of the droplet: far away the fluid moves with `alpha_outside` along theta = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeFlow {
     k: u32,
@@ -222,8 +223,8 @@ pub struct SquirmerFlow {
 }
 
 impl SquirmerFlow {
-    /// The squirmer with this radius (length) and the coefficients B1 and B2 (length per time), centred at the origin and
-    /// swimming along x for B1 > 0.
+    /// The squirmer with this radius (length) and the coefficients B1 and B2 (length per time), centred at the origin
+    /// and swimming along x for B1 > 0.
     ///
     /// # Errors
     /// A radius that is not positive, coefficients that are not finite.

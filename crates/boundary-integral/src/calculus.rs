@@ -91,8 +91,8 @@ impl PeriodicCalculus {
     }
 
     /// Forces on the fluid (force) at the markers of a closed interface with the given surface tension (force):
-    /// `F_k = (2 pi / len) d(gamma tau)/dalpha` at marker k, the thesis' F = d(gamma tau)/ds times the length that belongs
-    /// to the marker. Their sum is zero to round-off.
+    /// `F_k = (2 pi / len) d(gamma tau)/dalpha` at marker k, the thesis' F = d(gamma tau)/ds times the length that
+    /// belongs to the marker. Their sum is zero to round-off.
     ///
     /// This is the spectrally accurate counterpart of the difference `gamma_k t_k - gamma_(k-1) t_(k-1)` of segment
     /// tensions, whose error is of second order in the spacing.

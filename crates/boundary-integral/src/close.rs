@@ -3,8 +3,8 @@
 //! Where a point t comes close to the curve z(alpha), the kernels ln|z - t| and 1/(z - t)^k peak between the nodes. The
 //! complex parameter alpha_0 with z(alpha_0) = t locates the peak: with u = exp(i alpha) and u_0 = exp(i alpha_0),
 //! `f/(z - t)^k = h/(u - u_0)^k` with a smooth h, whose Fourier series is integrated term by term (singularity swap,
-//! af Klinteberg and Barnett, BIT 61, 2021). For equally spaced nodes the result is the trapezoidal rule with a factor at
-//! each node, in closed form.
+//! af Klinteberg and Barnett, BIT 61, 2021). For equally spaced nodes the result is the trapezoidal rule with a factor
+//! at each node, in closed form.
 
 use std::f64::consts::TAU;
 
@@ -140,8 +140,8 @@ impl CloseWeights {
             };
             let gap = 1.0 - p;
             if gap.norm() * n < 0.3 {
-                // The closest node: distance and gap from the same difference of parameters, so that their quotient keeps
-                // its digits however small they are.
+                // The closest node: distance and gap from the same difference of parameters, so that their quotient
+                // keeps its digits however small they are.
                 let turn = Complex64::new(0.0, if preimage.inside { 1.0 } else { -1.0 });
                 let parameter = p.ln() / turn;
                 let gap = -growth(turn * parameter);
@@ -169,8 +169,8 @@ impl CloseWeights {
     }
 }
 
-/// `sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p = 1 the closed form loses
-/// its digits.
+/// `sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p = 1 the closed form
+/// loses its digits.
 fn direct_factors(p: Complex64, terms: usize) -> [Complex64; 3] {
     let mut sums = [Complex64::default(); 3];
     for n in (0..=terms).rev() {

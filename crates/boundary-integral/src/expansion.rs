@@ -1,8 +1,8 @@
 //! Sums of Green's functions that have a [`Series`], by moments.
 //!
 //! With distances as `D + z - z'`, target and source each taken from the centre of its interface, the powers of z - z'
-//! separate by the binomial theorem: the sources enter by a few moments, and the flow is a polynomial. The cost grows with
-//! the number of nodes, not with its square.
+//! separate by the binomial theorem: the sources enter by a few moments, and the flow is a polynomial. The cost grows
+//! with the number of nodes, not with its square.
 
 use std::f64::consts::PI;
 
@@ -69,8 +69,8 @@ impl Expansion {
         }
     }
 
-    /// Moments of the double layer: `products` holds v n and `fluxes` v.n, both times their weight. Force F along v with
-    /// a derivative along n, and the reverse.
+    /// Moments of the double layer: `products` holds v n and `fluxes` v.n, both times their weight. Force F along v
+    /// with a derivative along n, and the reverse.
     pub(crate) fn dipoles(
         &mut self,
         unit: f64,

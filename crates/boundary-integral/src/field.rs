@@ -1,8 +1,8 @@
 //! Kernels of velocity, gradient and pressure away from the interfaces, in complex form.
 //!
-//! With d = source minus target, the single layer of a force F is `w = -l F + 1/2 conj(F e_1)`, that of the double layer
-//! with velocity v on an element z' is `i v z' c_1 + i conj((v conj z' - conj v z') c_1 - v z' e_2)`; in free space
-//! `l = ln|d| - 1/2`, `c_k = 1/d^k`, `e_k = conj(d)/d^k`.
+//! With d = source minus target, the single layer of a force F is `w = -l F + 1/2 conj(F e_1)`, that of the double
+//! layer with velocity v on an element z' is `i v z' c_1 + i conj((v conj z' - conj v z') c_1 - v z' e_2)`; in free
+//! space `l = ln|d| - 1/2`, `c_k = 1/d^k`, `e_k = conj(d)/d^k`.
 
 use std::f64::consts::PI;
 

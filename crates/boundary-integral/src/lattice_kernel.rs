@@ -6,9 +6,9 @@ use crate::{
     planes::Window,
 };
 
-/// A doubly periodic box with zero mean velocity: the row of images through the source in closed form, which carries the
-/// singularity, and `rows` rows on each side, which fall off like exp(-k |y|). Points are at most half a period away
-/// across the rows.
+/// A doubly periodic box with zero mean velocity: the row of images through the source in closed form, which carries
+/// the singularity, and `rows` rows on each side, which fall off like exp(-k |y|). Points are at most half a period
+/// away across the rows.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LatticePair {
     row: Row,

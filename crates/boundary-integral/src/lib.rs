@@ -1,14 +1,15 @@
 //! Stokes flow of fluid interfaces by boundary integrals, without a grid.
 //!
-//! In two-dimensional Stokes flow a scene of droplets has all its forces on curves, so the flow needs to be known on these
-//! curves alone. [`BoundaryIntegral`] computes it to spectral accuracy in [`FreeSpace`], a [`PeriodicBox`] or a [`Channel`],
-//! for any viscosity inside and outside, and implements [`ib_core::Hydrodynamics`], so that a body does not notice which
-//! method moves it. Flow, gradient and pressure are available at any point, at any distance from an interface.
+//! In two-dimensional Stokes flow a scene of droplets has all its forces on curves, so the flow needs to be known on
+//! these curves alone. [`BoundaryIntegral`] computes it to spectral accuracy in [`FreeSpace`], a [`PeriodicBox`] or a
+//! [`Channel`], for any viscosity inside and outside, and implements [`ib_core::Hydrodynamics`], so that a body does
+//! not notice which method moves it. Flow, gradient and pressure are available at any point, at any distance from an
+//! interface.
 //!
 //! # Example
 //!
-//! An ellipse of fluid ten times as viscous as its surroundings, with a surface tension of 1, relaxes to a circle: its tip
-//! moves inward.
+//! An ellipse of fluid ten times as viscous as its surroundings, with a surface tension of 1, relaxes to a circle: its
+//! tip moves inward.
 //!
 //! ```
 //! use boundary_integral::{BoundaryIntegral, FreeSpace, PeriodicCalculus, Settings, TensionPlacement};
@@ -36,18 +37,19 @@
 //!
 //! # Method
 //!
-//! * Curves are truncated Fourier series on equally spaced values of their parameter ([`PeriodicCalculus`], [`BandLimit`]).
+//! * Curves are truncated Fourier series on equally spaced values of their parameter ([`PeriodicCalculus`],
+//!   [`BandLimit`]).
 //! * The logarithm of the single layer is integrated by the weights of Kress (Linear Integral Equations, 2014, section
 //!   12.3), the rest by the trapezoidal rule.
-//! * Interfaces that are close are summed node by node in free space, or with a row of images in closed form in a channel.
-//!   What is left is smooth, the images of a box and interfaces farther away: its Taylor series, found from values on a circle,
-//!   is summed by moments. Walls are a Fourier series along the channel, analytic across it.
+//! * Interfaces that are close are summed node by node in free space, or with a row of images in closed form in a
+//!   channel. What is left is smooth, the images of a box and interfaces farther away: its Taylor series, found from
+//!   values on a circle, is summed by moments. Walls are a Fourier series along the channel, analytic across it.
 //! * A viscosity contrast needs the double layer and GMRES; its iterations depend neither on the nodes nor, beyond a
 //!   ratio of about ten, on the ratio.
 //! * Points and nodes close to an interface use the preimage of the point under the complex parametrisation.
 //!
-//! The cost of an evaluation grows with the square of the number of nodes of an interface and of its close neighbours, and
-//! for pairs farther apart by some microseconds each; it suits some tens of droplets.
+//! The cost of an evaluation grows with the square of the number of nodes of an interface and of its close neighbours,
+//! and for pairs farther apart by some microseconds each; it suits some tens of droplets.
 
 mod box_flow;
 mod calculus;

@@ -1,8 +1,8 @@
 //! Corrections of the pair sums for nodes close to another interface or to an image of their own.
 //!
-//! The sums over nodes are exact where curves are some spacings apart. A node that is closer gets the difference between
-//! the accurate quadrature of [`CloseWeights`] and the plain sum, both in free space: images farther away and walls do
-//! not notice.
+//! The sums over nodes are exact where curves are some spacings apart. A node that is closer gets the difference
+//! between the accurate quadrature of [`CloseWeights`] and the plain sum, both in free space: images farther away and
+//! walls do not notice.
 
 use num_complex::Complex64;
 

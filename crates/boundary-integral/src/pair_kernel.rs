@@ -19,7 +19,8 @@ pub(crate) trait PairKernel {
     /// The stress (xxx, xxy, xyy, yyy) as a function of source minus target.
     fn stress(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> [f64; 4];
 
-    /// The stress acting on dipoles (xx, s, yy) at the source and at the target: velocity at the target, and at the source.
+    /// The stress acting on dipoles (xx, s, yy) at the source and at the target: velocity at the target, and at the
+    /// source.
     #[inline(always)]
     fn act(&self, t: &Window<'_>, s: &Window<'_>, i: usize, source: [f64; 3], target: [f64; 3]) -> [[f64; 2]; 2] {
         let [xxx, xxy, xyy, yyy] = self.stress(t, s, i);

@@ -1,8 +1,8 @@
 //! Sums over all pairs of nodes of one or two interfaces.
 //!
-//! Pairs are visited by cyclic shift: node i of one curve with node i + d of the other, for all i, then the next d. Both
-//! directions of a pair share one evaluation of the kernel, and the loop over i has no sums across i, so it runs in
-//! vector registers.
+//! Pairs are visited by cyclic shift: node i of one curve with node i + d of the other, for all i, then the next d.
+//! Both directions of a pair share one evaluation of the kernel, and the loop over i has no sums across i, so it runs
+//! in vector registers.
 
 use std::f64::consts::{PI, TAU};
 

@@ -13,7 +13,8 @@ const NEW: f64 = 1e-6;
 /// Cosine below which two images count as orthogonal: most older ones still are.
 const ORTHOGONAL: f64 = 1e-4;
 
-/// Directions u with their images c = A u, orthonormal, from earlier solutions with matrices A that were nearly the same.
+/// Directions u with their images c = A u, orthonormal, from earlier solutions with matrices A that were nearly the
+/// same.
 ///
 /// From step to step of a run the matrix and the change of the right-hand side vary slowly, so the directions that
 /// mattered in one solution matter in the next. `M = 1 + sum over i of (u_i - c_i) c_i^T` takes c_i to u_i, which the

@@ -153,8 +153,8 @@ impl Sampler {
         }
     }
 
-    /// Adds the flow of one image of an interface by the quadrature for close points, and tells the side if the point is
-    /// close to the fine nodes as well.
+    /// Adds the flow of one image of an interface by the quadrature for close points, and tells the side if the point
+    /// is close to the fine nodes as well.
     fn add_close(
         &mut self,
         interface: &Interface,
@@ -168,8 +168,8 @@ impl Sampler {
         let inside = self.weights.find(interface, transforms, point, self.reach);
         let velocities = &self.fine[body * len..(body + 1) * len];
         let [first, second, third] = &self.weights.powers;
-        // The double layer of a constant is known: with the velocity of the nearest node taken off, nothing is divided by
-        // a small distance.
+        // The double layer of a constant is known: with the velocity of the nearest node taken off, nothing is divided
+        // by a small distance.
         let distances = self.weights.distance.iter().map(Complex64::norm_sqr).enumerate();
         let nearest = distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(j, _)| j);
         let constant = if inside.is_some() { velocities[nearest] } else { Complex64::default() };

@@ -18,12 +18,13 @@ pub struct Settings {
     /// Relative accuracy of everything that is truncated: images, wall modes, close quadrature and the residual of the
     /// iteration for a viscosity contrast. Between 1e-15 and 1e-3.
     pub tolerance: f64,
-    /// Start the iteration for a viscosity contrast from the velocities of the evaluation before. It halves the iterations
-    /// and lets results depend on what was computed before, by the order of the tolerance.
+    /// Start the iteration for a viscosity contrast from the velocities of the evaluation before. It halves the
+    /// iterations and lets results depend on what was computed before, by the order of the tolerance.
     pub warm_start: bool,
     /// Iterations for a viscosity contrast after which an evaluation fails.
     pub most_iterations: usize,
-    /// Perimeter of the smallest interface (length) that `medium` assumes until a first evaluation has seen the real one.
+    /// Perimeter of the smallest interface (length) that `medium` assumes until a first evaluation has seen the real
+    /// one.
     pub reference_perimeter: f64,
 }
 

@@ -34,9 +34,9 @@ const FOUR_PI: f64 = 4.0 * std::f64::consts::PI;
 /// GMRES. Nodes close to another interface get a quadrature of their own, so that gaps are limited by what the film
 /// between them needs, not by the kernel.
 ///
-/// Every interface comes as a group of markers, [`MarkerKind::Interface`] or [`MarkerKind::UnevenInterface`]: `nodes` or
-/// more markers, counter-clockwise, marker k at the parameter 2 pi k/markers. Positions and forces are truncated to the
-/// modes that the nodes carry and the velocities come back with these modes alone.
+/// Every interface comes as a group of markers, [`MarkerKind::Interface`] or [`MarkerKind::UnevenInterface`]: `nodes`
+/// or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers. Positions and forces are truncated to
+/// the modes that the nodes carry and the velocities come back with these modes alone.
 #[derive(Debug)]
 pub struct BoundaryIntegral<D> {
     domain: D,

@@ -32,8 +32,8 @@ impl<'a> NodeVelocities<'a> {
     }
 }
 
-/// Images and walls: which Green's function acts between pairs, and what is added to the sums over pairs. Flows are 4 pi
-/// times velocity times viscosity.
+/// Images and walls: which Green's function acts between pairs, and what is added to the sums over pairs. Flows are 4
+/// pi times velocity times viscosity.
 pub(crate) trait Surroundings: std::fmt::Debug + Send {
     /// The periods.
     fn images(&self) -> Images;

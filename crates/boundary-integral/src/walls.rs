@@ -12,8 +12,8 @@ use crate::wall_points::{LANES, Lanes, WallPoints};
 /// No gap asks for more modes than this.
 const MOST_MODES: usize = 4096;
 
-/// Sums over sources for some modes, real and imaginary parts: of e q and of e (p - k s q), with e = exp(-k s - i k x), q
-/// complex and p real.
+/// Sums over sources for some modes, real and imaginary parts: of e q and of e (p - k s q), with e = exp(-k s - i k x),
+/// q complex and p real.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     plain: [Lanes; 2],
@@ -167,8 +167,8 @@ impl WallModes {
         }
     }
 
-    /// Adds dipoles: (v_x n_x, v_x n_y + v_y n_x, v_y n_y) times weight at points, with x measured from anywhere as long
-    /// as the flux through the curve is zero.
+    /// Adds dipoles: (v_x n_x, v_x n_y + v_y n_x, v_y n_y) times weight at points, with x measured from anywhere as
+    /// long as the flux through the curve is zero.
     pub(crate) fn add_dipoles(
         &mut self,
         points: &WallPoints,

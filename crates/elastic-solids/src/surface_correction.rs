@@ -7,18 +7,18 @@ use crate::rounded_kink::{Beside, RoundedKink};
 
 /// The mobility correction of a solid's surface.
 ///
-/// On the surface the elastic stress jumps by the traction, and with it the velocity gradient of the fluid. Spreading and interpolation
-/// round that kink off; without the correction the velocity has an error of first order in h, and a stiff wall stops the fluid about
-/// 0.3 to 0.6 h inside the channel. With D the flow beside a missing velocity along the surface ([`RoundedKink`]) the points move, besides
-/// with the fluid, with
+/// On the surface the elastic stress jumps by the traction, and with it the velocity gradient of the fluid. Spreading
+/// and interpolation round that kink off; without the correction the velocity has an error of first order in h, and a
+/// stiff wall stops the fluid about 0.3 to 0.6 h inside the channel. With D the flow beside a missing velocity along
+/// the surface ([`RoundedKink`]) the points move, besides with the fluid, with
 /// ```text
 /// V = (h/eta) D G^(1/2) P l^-1 P G^(1/2) D^T F
 /// ```
-/// where D^T F are the forces F of the points as they work on the surface, l the lengths of its edges, P an average over neighbours, and G the
-/// deficit G_t of a flat interface ([`MobilityDeficit::flat`]) over what D has on the surface. D has no divergence: else surfaces are
-/// compressed for as long as forces vary along them, by what no flow undoes (0.015 R0 at k = 1e6 and h = 0.1). The operator is symmetric and
-/// positive, as reciprocity asks: it takes energy in any state. With the force of the surface's points in place of D^T F
-/// soft surfaces fold.
+/// where D^T F are the forces F of the points as they work on the surface, l the lengths of its edges, P an average
+/// over neighbours, and G the deficit G_t of a flat interface ([`MobilityDeficit::flat`]) over what D has on the
+/// surface. D has no divergence: else surfaces are compressed for as long as forces vary along them, by what no flow
+/// undoes (0.015 R0 at k = 1e6 and h = 0.1). The operator is symmetric and positive, as reciprocity asks: it takes
+/// energy in any state. With the force of the surface's points in place of D^T F soft surfaces fold.
 #[derive(Debug, Clone)]
 pub(crate) struct SurfaceCorrection {
     vertices: Vec<Vertex>,
@@ -60,8 +60,8 @@ struct Vertex {
     pinned: bool,
 }
 
-/// A point near the surface, as a place among the free points, and the vertex at which the edge begins that is nearest in the reference
-/// state.
+/// A point near the surface, as a place among the free points, and the vertex at which the edge begins that is nearest
+/// in the reference state.
 #[derive(Debug, Clone, Copy)]
 struct Near {
     marker: usize,
@@ -94,9 +94,9 @@ struct Foot {
     beside: Option<Beside>,
 }
 
-/// How often both together are averaged, (1, 2, 1)/4, where the points are one grid spacing apart. The deficit falls with the
-/// wave number q along the surface; four times make it `exp(-(q h)^2)`, which is near enough where it matters, for q h up to
-/// 0.5.
+/// How often both together are averaged, (1, 2, 1)/4, where the points are one grid spacing apart. The deficit falls
+/// with the wave number q along the surface; four times make it `exp(-(q h)^2)`, which is near enough where it matters,
+/// for q h up to 0.5.
 const SMOOTHING: f64 = 4.0;
 
 /// Edges along which the nearest one is looked for.
@@ -227,7 +227,8 @@ impl SurfaceCorrection {
         (away - tangent * along, if length > 0.0 { along / length } else { 0.0 })
     }
 
-    /// The place of the surface nearest to a point now, from one edge on: a sheared solid carries its points far along its surface.
+    /// The place of the surface nearest to a point now, from one edge on: a sheared solid carries its points far along
+    /// its surface.
     fn foot(&self, mut vertex: usize, point: Vec2, period: Option<f64>) -> Foot {
         let (mut away, mut fraction) = self.away(vertex, point, period);
         for _ in 0..FARTHEST {
@@ -252,8 +253,9 @@ impl SurfaceCorrection {
         Foot { vertex, fraction, beside }
     }
 
-    /// What is missing at the vertices: the deficit of an interface of their direction and, where the surface runs along the grid, the
-    /// first grid harmonic ([`MobilityDeficit::harmonic`]), which follows their place between the grid lines.
+    /// What is missing at the vertices: the deficit of an interface of their direction and, where the surface runs
+    /// along the grid, the first grid harmonic ([`MobilityDeficit::harmonic`]), which follows their place between the
+    /// grid lines.
     fn find_roots(&mut self, origin: [f64; 2]) {
         for (root, vertex) in self.roots.iter_mut().zip(&self.vertices) {
             let Edge { from, tangent, .. } = self.edges[vertex.own];

@@ -105,8 +105,8 @@ fn turned_seeds_are_even() {
     }
 }
 
-/// Of a wall, most of the variance of the edges is that of the edges at dislocations: at points next to one that has not
-/// six neighbours (four on the boundary). And there is about one dislocation for every row that ends.
+/// Of a wall, most of the variance of the edges is that of the edges at dislocations: at points next to one that has
+/// not six neighbours (four on the boundary). And there is about one dislocation for every row that ends.
 #[test]
 fn what_is_left_is_at_dislocations() {
     let waves = SinusoidalChannel { period: PERIOD, width: WIDTH, amplitude: 0.3, waves: 2, phase: 0.0 };

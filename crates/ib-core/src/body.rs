@@ -9,17 +9,17 @@ use crate::{BodyError, Boundary, MarkerKind, Medium, Record, StepLimits, Vec2};
 pub struct StepInfo {
     /// Its length (time).
     pub dt: f64,
-    /// Whether the body is to slow down its stiff couplings by adding a diffusion to its implicit part and taking it off the explicit
-    /// one.
+    /// Whether the body is to slow down its stiff couplings by adding a diffusion to its implicit part and taking it
+    /// off the explicit one.
     pub stabilised: bool,
 }
 
 /// A body of a scene.
 ///
-/// Its state is a flat list of numbers, which the integrator advances: `d state/dt = rate + L state`, the rate explicit,
-/// the linear part L (by default nothing) implicit. The calls of one evaluation come in this order, and a body may keep
-/// what it computed in one for the next: [`Body::read_state`], [`Body::write_markers`], [`Body::write_forces`],
-/// [`Body::rate`].
+/// Its state is a flat list of numbers, which the integrator advances: `d state/dt = rate + L state`, the rate
+/// explicit, the linear part L (by default nothing) implicit. The calls of one evaluation come in this order, and a
+/// body may keep what it computed in one for the next: [`Body::read_state`], [`Body::write_markers`],
+/// [`Body::write_forces`], [`Body::rate`].
 pub trait Body: Any + std::fmt::Debug + Send {
     /// A name for messages.
     fn name(&self) -> &str;
@@ -51,8 +51,8 @@ pub trait Body: Any + std::fmt::Debug + Send {
     /// A state that is not finite or not possible.
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError>;
 
-    /// Writes the explicit part of the state's rate of change (unit of the state per time) to `rate`, from the velocities of the
-    /// fluid at the markers (length per time).
+    /// Writes the explicit part of the state's rate of change (unit of the state per time) to `rate`, from the
+    /// velocities of the fluid at the markers (length per time).
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]);
 
     /// Called before the first evaluation of a step.
@@ -79,13 +79,15 @@ pub trait Body: Any + std::fmt::Debug + Send {
         Ok(())
     }
 
-    /// Called when the step that [`Body::end_step`] has ended stays: for what is counted over a run. Steps that are taken back do not come here.
+    /// Called when the step that [`Body::end_step`] has ended stays: for what is counted over a run. Steps that are
+    /// taken back do not come here.
     fn keep_step(&mut self) {}
 
     /// The largest stable time steps of the explicit midpoint rule at the present state, one for each reason there is.
     fn step_limits(&self, medium: &Medium) -> StepLimits;
 
-    /// Adds the body's boundary, to which gaps are measured: by default the polygon of an interface, and nothing of other bodies.
+    /// Adds the body's boundary, to which gaps are measured: by default the polygon of an interface, and nothing of
+    /// other bodies.
     fn write_boundary(&self, boundary: &mut Boundary) {
         if !matches!(self.kind(), MarkerKind::Points) {
             let mut positions = vec![Vec2::zeros(); self.marker_count()];
@@ -94,14 +96,14 @@ pub trait Body: Any + std::fmt::Debug + Send {
         }
     }
 
-    /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive): the radius of a
-    /// droplet for positions, say. By default all are one.
+    /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive):
+    /// the radius of a droplet for positions, say. By default all are one.
     fn write_scales(&self, scales: &mut [f64]) {
         scales.fill(1.0);
     }
 
-    /// Everything from which [`Body::load`] makes the present state again, bit for bit: by default what [`Body::write_state`]
-    /// writes. A body whose next step depends on more must save that too.
+    /// Everything from which [`Body::load`] makes the present state again, bit for bit: by default what
+    /// [`Body::write_state`] writes. A body whose next step depends on more must save that too.
     fn save(&self) -> Record {
         let mut reals = vec![0.0; self.state_len()];
         self.write_state(&mut reals);

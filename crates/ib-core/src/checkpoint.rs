@@ -11,8 +11,8 @@ use crate::{Domain, FlowReport, Hydrodynamics, Integrator, MarkerKind, Record, S
 
 /// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
 ///
-/// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. Time step, integrator, viscosities and
-/// resolution of the grid may be others then; the domain and the bodies must be the same.
+/// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. Time step, integrator,
+/// viscosities and resolution of the grid may be others then; the domain and the bodies must be the same.
 ///
 /// ```
 /// use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
@@ -143,8 +143,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         }
     }
 
-    /// Goes on from a checkpoint of this scene: the steps that follow are, bit for bit, those that would have followed there. With
-    /// another integrator that starts afresh. After an error the scene is as it was.
+    /// Goes on from a checkpoint of this scene: the steps that follow are, bit for bit, those that would have followed
+    /// there. With another integrator that starts afresh. After an error the scene is as it was.
     ///
     /// # Errors
     /// A checkpoint of another domain, of other bodies, or of a state that a body refuses.
@@ -208,26 +208,4 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
 }
 
 #[cfg(test)]
-mod tests {
-    use stokes_grid::{Grid, PeriodicStokes};
-
-    use super::*;
-    use crate::{CubicQuadratic, ImmersedBoundary};
-
-    /// What is wrong here comes to light only after the flow has taken its record over.
-    #[test]
-    fn a_refusal_leaves_the_flow_as_it_was() {
-        let solver = PeriodicStokes::new(Grid::periodic(16, 16, 0.25).unwrap(), 1.0).unwrap();
-        let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
-        let before = scene.checkpoint("");
-        let found = Found { iterations: 0, residual: 0.0, mean_pressure_gradient: [0.0; 2] };
-        let other = Checkpoint {
-            flow: Record { reals: vec![1.0; 6], counts: vec![0, 0, 0, 6] },
-            known: Some((vec![[0.0; 2]], found)),
-            time: 1.0,
-            ..before.clone()
-        };
-        assert!(matches!(scene.resume(&other), Err(SceneError::ForeignCheckpoint { .. })));
-        assert_eq!(scene.checkpoint(""), before);
-    }
-}
+mod tests;

@@ -11,7 +11,8 @@ use crate::{Body, Domain, MarkerKind, Vec2};
 /// How far boundaries are looked for, in units of what a contact is measured in.
 const REACH: f64 = 4.0;
 
-/// The narrowest gap between a marker of an interface and the boundary of another body, or of its own image in a periodic domain.
+/// The narrowest gap between a marker of an interface and the boundary of another body, or of its own image in a
+/// periodic domain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gap {
     /// Number of the interface.
@@ -79,8 +80,8 @@ impl ContactFinder {
     }
 }
 
-/// Displacements of an interface at which it is compared with a boundary: for one of another body its place (that body's nearest image is
-/// looked for), for its own those of its images.
+/// Displacements of an interface at which it is compared with a boundary: for one of another body its place (that
+/// body's nearest image is looked for), for its own those of its images.
 fn shifts(domain: &Domain, own: bool) -> [Option<Vec2>; 4] {
     if !own {
         return [Some(Vec2::zeros()), None, None, None];

@@ -39,16 +39,16 @@ pub(crate) struct Effort {
     pub(crate) pressure_gradient: f64,
 }
 
-/// Velocities on interfaces between different viscosities from the velocities that the same forces have in a fluid of one
-/// viscosity (boundary integral equation of Pozrikidis, 1992, with the single layer from a grid):
+/// Velocities on interfaces between different viscosities from the velocities that the same forces have in a fluid of
+/// one viscosity (boundary integral equation of Pozrikidis, 1992, with the single layer from a grid):
 ///
 /// `A v = s`, A the [`DoubleLayer`], s the one-viscosity velocity times viscosity.
 ///
-/// A stiff droplet answers to a rigid motion with the viscosity of its surroundings, to all else with the mean viscosity. A
-/// small error of s along the corresponding left eigenvectors phi, `A^T phi = eta phi`, is therefore amplified by the ratio of
-/// viscosities. Reciprocity tells what a droplet's own forces have there: their net force and torque, which are zero. So
-/// phi is computed and that part of s is removed from the flow of the droplets' own forces, while the flow of all other forces
-/// (solids, other interfaces, walls that move) keeps it.
+/// A stiff droplet answers to a rigid motion with the viscosity of its surroundings, to all else with the mean
+/// viscosity. A small error of s along the corresponding left eigenvectors phi, `A^T phi = eta phi`, is therefore
+/// amplified by the ratio of viscosities. Reciprocity tells what a droplet's own forces have there: their net force and
+/// torque, which are zero. So phi is computed and that part of s is removed from the flow of the droplets' own forces,
+/// while the flow of all other forces (solids, other interfaces, walls that move) keeps it.
 #[derive(Debug)]
 pub(crate) struct Contrast {
     layer: DoubleLayer,
@@ -166,8 +166,8 @@ impl Contrast {
         Ok(())
     }
 
-    /// Fills `velocities` at the nodes of the loaded droplets from the one-viscosity velocities there: `own` those of the droplets'
-    /// forces, `other` those of all other forces.
+    /// Fills `velocities` at the nodes of the loaded droplets from the one-viscosity velocities there: `own` those of
+    /// the droplets' forces, `other` those of all other forces.
     pub(crate) fn solve(&mut self, own: &[Vec2], other: &[Vec2], velocities: &mut [Vec2]) -> Result<Effort, FlowError> {
         let len = 2 * self.nodes;
         for array in [&mut self.own, &mut self.other, &mut self.right] {

@@ -15,21 +15,21 @@ use crate::{FlowError, Vec2};
 /// `V_t += (h/eta) (S[G_t] F_t + S[G_x] F_n)`, `V_n += (h/eta) T (S[G_n] F_n + S[G_x] F_t)`,
 ///
 /// F_t and F_n the tangential and normal force per length, S[G] the multiplication of each Fourier mode along the
-/// equally spaced markers, of wave number q, by `G(q h)`, and `T = exp(-(q h/2)^4)` (in the coupling on both sides). The uniform mode of
-/// F_n only changes the pressure inside and is dropped.
+/// equally spaced markers, of wave number q, by `G(q h)`, and `T = exp(-(q h/2)^4)` (in the coupling on both sides).
+/// The uniform mode of F_n only changes the pressure inside and is dropped.
 ///
-/// The deficits depend on the direction of the interface through cos(4 theta), cos(8 theta) and, for the coupling G_x, sin(4 theta),
-/// theta the angle of the normal. Along a curve direction and wave number are no longer independent: multiplying by the direction only
-/// after S would be wrong by a term of second order which is not reciprocal and turns a swimmer towards the axes. Multiplying by half
-/// the phase before and by half after it,
+/// The deficits depend on the direction of the interface through cos(4 theta), cos(8 theta) and, for the coupling G_x,
+/// sin(4 theta), theta the angle of the normal. Along a curve direction and wave number are no longer independent:
+/// multiplying by the direction only after S would be wrong by a term of second order which is not reciprocal and turns
+/// a swimmer towards the axes. Multiplying by half the phase before and by half after it,
 ///
 /// `cos(4 theta) G F  ->  Re( e^{2 i theta} S[G] e^{2 i theta} F )`, `sin(4 theta) G F  ->  Im( ... )`,
 ///
 /// is symmetric and takes to each term the wave number half way between that of the force and that of the velocity.
 ///
-/// These mobilities are averages over positions of the interface between the grid lines. Where it runs along the grid, the
-/// tangential one depends on that position, through the first harmonic of the grid, which is taken off: for each axis,
-/// with `phi = 2 pi y / h` for the interface along x,
+/// These mobilities are averages over positions of the interface between the grid lines. Where it runs along the grid,
+/// the tangential one depends on that position, through the first harmonic of the grid, which is taken off: for each
+/// axis, with `phi = 2 pi y / h` for the interface along x,
 ///
 /// `V -= (h/eta) 2 Re(e^{i phi/2} S[H] e^{i phi/2} F_t) (tau + tau' - (tau . tau') tau)`,
 ///
@@ -78,8 +78,9 @@ impl std::fmt::Debug for Plan {
     }
 }
 
-/// Forces that are multiplied by a phase before and after their modes are multiplied by factors: with e^{2i theta} the tangential
-/// and the normal one, with e^{4i theta} the tangential one, with the grid's phase along both axes the tangential one.
+/// Forces that are multiplied by a phase before and after their modes are multiplied by factors: with e^{2i theta} the
+/// tangential and the normal one, with e^{4i theta} the tangential one, with the grid's phase along both axes the
+/// tangential one.
 const MODULATED: usize = 5;
 
 /// A marker on its interface.
@@ -111,8 +112,8 @@ impl MobilityCorrection {
         Self { deficit, planner: Planner(RealFftPlanner::new()), plan: None }
     }
 
-    /// Adds the correction of one equally spaced closed interface to `velocities`; `gaps` are the distances of its markers from
-    /// elastic solids (grid spacings), empty without.
+    /// Adds the correction of one equally spaced closed interface to `velocities`; `gaps` are the distances of its
+    /// markers from elastic solids (grid spacings), empty without.
     pub(crate) fn apply(
         &mut self,
         setting: &Setting,
@@ -141,9 +142,10 @@ impl MobilityCorrection {
 }
 
 impl Setting {
-    /// How much of the tangential and of the normal part is left at height y and at the distance `to_solids` (grid spacings) from
-    /// elastic solids, if there are any: the image of the force in the wall cancels it at the wall, and so do the forces of a
-    /// solid. `1 - exp(-x^2) + sqrt(pi) x erfc(x)`, x = gap/(h sqrt(variance)), and `(1 - exp(-gap/2h))^2`.
+    /// How much of the tangential and of the normal part is left at height y and at the distance `to_solids` (grid
+    /// spacings) from elastic solids, if there are any: the image of the force in the wall cancels it at the wall, and
+    /// so do the forces of a solid. `1 - exp(-x^2) + sqrt(pi) x erfc(x)`, x = gap/(h sqrt(variance)), and `(1 -
+    /// exp(-gap/2h))^2`.
     fn left(&self, y: f64, to_solids: Option<&f64>) -> [f64; 2] {
         let to_walls = self.walls.map(|[bottom, top]| (y - bottom).min(top - y).max(0.0) / self.spacing);
         let gap = to_walls.unwrap_or(f64::INFINITY).min(to_solids.copied().unwrap_or(f64::INFINITY));
@@ -192,8 +194,8 @@ impl Plan {
         }
     }
 
-    /// Tangents and forces per length along and across them, for `d = (X_{k+1} - X_{k-1}) / 2 = w tau`, n = (tau_y, -tau_x), the
-    /// normal ones less their mean; the sum of w.
+    /// Tangents and forces per length along and across them, for `d = (X_{k+1} - X_{k-1}) / 2 = w tau`, n = (tau_y,
+    /// -tau_x), the normal ones less their mean; the sum of w.
     fn place(&mut self, setting: &Setting, gaps: &[f64], positions: &[Vec2], forces: &[Vec2]) -> f64 {
         let count = positions.len();
         let [tangential, normal] = &mut self.forces;
@@ -295,8 +297,8 @@ impl Plan {
         Ok(())
     }
 
-    /// What is put back along the tangent and the normal of each marker (length per time). A uniform pressure moves nothing, so a force has
-    /// no uniform normal velocity.
+    /// What is put back along the tangent and the normal of each marker (length per time). A uniform pressure moves
+    /// nothing, so a force has no uniform normal velocity.
     fn restored(&self) -> impl Iterator<Item = [f64; 2]> {
         let count = self.places.len();
         let turned = move |which: usize, k: usize| {

@@ -100,8 +100,8 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     /// Work done since the start.
     fn work(&self) -> FlowWork;
 
-    /// What the next evaluation depends on besides its arguments, such as the last solution, from which an iteration starts; by default
-    /// nothing.
+    /// What the next evaluation depends on besides its arguments, such as the last solution, from which an iteration
+    /// starts; by default nothing.
     fn save(&self) -> Record {
         Record::default()
     }

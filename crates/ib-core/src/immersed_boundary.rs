@@ -21,22 +21,23 @@ const WALL_TOLERANCE: f64 = 0.25;
 /// (thesis section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).
 ///
 /// Only [`MarkerKind::Interface`] is corrected; the order of the markers' velocities is then two, else one.
-/// [`Hydrodynamics::sample`] interpolates bilinearly between grid points: second order further than the kernel's reach from
-/// interfaces, first order within it.
+/// [`Hydrodynamics::sample`] interpolates bilinearly between grid points: second order further than the kernel's reach
+/// from interfaces, first order within it.
 ///
-/// **Other viscosities inside interfaces.** The grid solves for one viscosity, that of the surroundings; where a group of markers
-/// has another one inside, the boundary integral equation
+/// **Other viscosities inside interfaces.** The grid solves for one viscosity, that of the surroundings; where a group
+/// of markers has another one inside, the boundary integral equation
 ///
 /// `(eta_in + eta)/2 v(x) = eta u(x) - (eta_in - eta)/(4 pi) PV INT v(y) T(x, y) n ds`
 ///
-/// gives its velocity v from the grid's velocity u, with the stress T of the Green's function of the box or channel, n outward
-/// (Pozrikidis, Boundary Integral and Singularity Methods, 1992). It is solved on the markers by GMRES, to errors that do
-/// not grow with the ratio of viscosities and are of second order in h.
+/// gives its velocity v from the grid's velocity u, with the stress T of the Green's function of the box or channel, n
+/// outward (Pozrikidis, Boundary Integral and Singularity Methods, 1992). It is solved on the markers by GMRES, to
+/// errors that do not grow with the ratio of viscosities and are of second order in h.
 ///
-/// All other markers, and samples, get the flow of forces on the interfaces that, in a fluid of one viscosity, leave the same
-/// velocities there: by uniqueness it is the same flow, and its errors do not grow with the ratio either. These forces take a few
-/// solves on the grid, starting from the last ones. Samples are interpolated cubically, and next to such an interface along
-/// its normal, so that velocities are of second order there too. Without such groups none of this costs anything.
+/// All other markers, and samples, get the flow of forces on the interfaces that, in a fluid of one viscosity, leave
+/// the same velocities there: by uniqueness it is the same flow, and its errors do not grow with the ratio either.
+/// These forces take a few solves on the grid, starting from the last ones. Samples are interpolated cubically, and
+/// next to such an interface along its normal, so that velocities are of second order there too. Without such groups
+/// none of this costs anything.
 #[derive(Debug)]
 pub struct ImmersedBoundary<S, K> {
     solver: S,
@@ -79,7 +80,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let grid = *solver.grid();
         let deficit = MobilityDeficit::new(&kernel);
         let stiffness = deficit.interface_stiffness(corrected) / grid.spacing();
-        // c(theta) at q = 0 is sqrt(variance_eff / pi)-like: the tangential velocity profile is the kernel smeared twice.
+        // c(theta) at q = 0 is sqrt(variance_eff / pi)-like: the tangential velocity profile is the kernel smeared
+        // twice.
         let constant = deficit.at(0.0).tangential;
         Self {
             transfer: Transfer::new(grid, kernel),
@@ -120,8 +122,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.correction.is_some()
     }
 
-    /// The velocity on the grid (length per time) of the last evaluation or sampling. Where viscosities differ and there are no markers
-    /// but those of interfaces, an evaluation leaves that of a fluid of one viscosity under the same forces.
+    /// The velocity on the grid (length per time) of the last evaluation or sampling. Where viscosities differ and
+    /// there are no markers but those of interfaces, an evaluation leaves that of a fluid of one viscosity under the
+    /// same forces.
     #[must_use]
     pub fn velocity_field(&self) -> &StaggeredField {
         &self.velocity
@@ -133,8 +136,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         &self.density
     }
 
-    /// The pressure at the cell centres for the last evaluation or sampling (force per length; periodic part, mean zero). Makes a
-    /// field.
+    /// The pressure at the cell centres for the last evaluation or sampling (force per length; periodic part, mean
+    /// zero). Makes a field.
     ///
     /// # Errors
     /// Those of the solver.

@@ -26,8 +26,8 @@ pub trait Integrator: std::fmt::Debug + Send {
     fn name(&self) -> &'static str;
 
     /// Advances the states of `system` by `dt` (time): reads them with [`System::write_state`], computes rates with
-    /// [`System::present_rate`] and [`System::rate`], and leaves the new ones with [`System::read_state`]. The clock, the calls before and after a step and the return to the last good
-    /// state after an error are the scene's.
+    /// [`System::present_rate`] and [`System::rate`], and leaves the new ones with [`System::read_state`]. The clock,
+    /// the calls before and after a step and the return to the last good state after an error are the scene's.
     ///
     /// # Errors
     /// Those of the bodies and of the flow.
@@ -43,8 +43,9 @@ pub trait Integrator: std::fmt::Debug + Send {
         true
     }
 
-    /// Largest error of a step, in the measure of [`crate::StepSize::Adaptive`], that runs with [`crate::StepSize::OfLimit`] accept; by
-    /// default none is estimated. For integrators whose stability limit is so long that it says nothing of accuracy.
+    /// Largest error of a step, in the measure of [`crate::StepSize::Adaptive`], that runs with
+    /// [`crate::StepSize::OfLimit`] accept; by default none is estimated. For integrators whose stability limit is so
+    /// long that it says nothing of accuracy.
     fn error_bound(&self) -> Option<f64> {
         None
     }

@@ -7,8 +7,8 @@
 //!        correct the mobility of interfaces --marker velocities--> bodies (rate of their state) --> Integrator
 //! ```
 //!
-//! [`Hydrodynamics`] is everything between forces and velocities; [`ImmersedBoundary`] is it by a grid. A [`Body`] is anything
-//! with markers; a [`Scene`] couples bodies and advances them; observers look on during a [`Run`].
+//! [`Hydrodynamics`] is everything between forces and velocities; [`ImmersedBoundary`] is it by a grid. A [`Body`] is
+//! anything with markers; a [`Scene`] couples bodies and advances them; observers look on during a [`Run`].
 //!
 //! A droplet of constant tension as the simplest body, three numbers a marker in, one number out:
 //!
@@ -36,13 +36,13 @@
 //! # Ok::<(), ib_core::FlowError>(())
 //! ```
 //!
-//! Interfaces may have fluid of another viscosity inside, [`MarkerKind::Interface`]: a double layer on the markers takes care of
-//! it, at any ratio of viscosities and with errors that do not grow with it. [`SmearedContrast`] has the thesis' way, a viscosity that
-//! varies on the grid.
+//! Interfaces may have fluid of another viscosity inside, [`MarkerKind::Interface`]: a double layer on the markers
+//! takes care of it, at any ratio of viscosities and with errors that do not grow with it. [`SmearedContrast`] has the
+//! thesis' way, a viscosity that varies on the grid.
 //!
 //! Accuracy: velocities on an interface have errors of first order in h without the mobility correction and of second
-//! order with it; far from interfaces the method is of second order throughout. Formulas and derivations: docs/method.md in
-//! the repository.
+//! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
+//! docs/method.md in the repository.
 
 mod band_limit;
 mod body;

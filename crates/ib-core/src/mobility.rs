@@ -14,20 +14,21 @@ const CUT: f64 = 50.0;
 ///
 /// A force of wave number q along a flat interface moves it, in Stokes flow without boundaries, at `F / (4 eta q)`,
 /// tangentially and normally alike. Spreading, the discrete Laplacian and interpolation reduce that to
-/// `R F / (4 eta q)`, averaged over positions between the grid lines, with (all wave numbers in units of 1/h; tangent t, normal n,
-/// k the wave number across the interface, `(k_x, k_y) = q t + k n`, `d_j = 2 sin(k_j / 2)`, w_u and w_v the Fourier
-/// transforms of the kernels of the two velocity components)
+/// `R F / (4 eta q)`, averaged over positions between the grid lines, with (all wave numbers in units of 1/h; tangent
+/// t, normal n, k the wave number across the interface, `(k_x, k_y) = q t + k n`, `d_j = 2 sin(k_j / 2)`, w_u and w_v
+/// the Fourier transforms of the kernels of the two velocity components)
 ///
 /// `R_t = 4 q / (2 pi) integral dk (t_x w_u d_y - t_y w_v d_x)^2 / (d_x^2 + d_y^2)^2`, and `R_n` with n for t.
 ///
-/// An interface inclined to the grid has one more: a tangential force moves it normally too, and the other way round, by `-G_x F`,
+/// An interface inclined to the grid has one more: a tangential force moves it normally too, and the other way round,
+/// by `-G_x F`,
 ///
 /// `G_x = -1 / (2 pi) integral dk (t_x w_u d_y - t_y w_v d_x) (n_x w_u d_y - n_y w_v d_x) / (d_x^2 + d_y^2)^2`,
 ///
 /// which is as large as a sixth of G_n, odd under reflection, and therefore turns a droplet that is not along the grid.
 ///
-/// Stored are the first coefficients of `G = (1 - R) / (4 q)` in cos(4 angle) and, for G_t, cos(8 angle), and that of G_x in
-/// sin(4 angle).
+/// Stored are the first coefficients of `G = (1 - R) / (4 q)` in cos(4 angle) and, for G_t, cos(8 angle), and that of
+/// G_x in sin(4 angle).
 #[derive(Debug, Clone)]
 pub struct MobilityDeficit {
     /// Rows at equal steps of sqrt(q): mean, slope and curvature of G_t, mean and slope of G_n, G_x.
@@ -43,8 +44,8 @@ const HARMONIC_LAST: f64 = 6.0;
 /// Intervals of the table of the grid harmonic.
 const HARMONIC_INTERVALS: usize = 48;
 
-/// The deficits `G = (1 - R) / (4 q)` of one wave number, q in units of 1/h, so that `(h/eta) G F` is the velocity that is missing: with
-/// `z = n_x^4 + n_y^4 - 3/4 = cos(4 angle) / 4`, n the normal of the interface,
+/// The deficits `G = (1 - R) / (4 q)` of one wave number, q in units of 1/h, so that `(h/eta) G F` is the velocity that
+/// is missing: with `z = n_x^4 + n_y^4 - 3/4 = cos(4 angle) / 4`, n the normal of the interface,
 /// `G = mean + slope z + curvature (32 z^2 - 1)`, and `G_x = cross sin(4 angle)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Deficit {
@@ -152,8 +153,9 @@ impl MobilityDeficit {
         Deficit { tangential, tangential_slope, tangential_curvature, normal, normal_slope, cross }
     }
 
-    /// The tangential deficit `G_t(0)` of forces that do not vary along a flat interface with this unit `tangent` (no dimension): half
-    /// of how much the grid rounds off the kink in the velocity, in units of h/eta times the force per length.
+    /// The tangential deficit `G_t(0)` of forces that do not vary along a flat interface with this unit `tangent` (no
+    /// dimension): half of how much the grid rounds off the kink in the velocity, in units of h/eta times the force per
+    /// length.
     #[must_use]
     pub fn flat(&self, tangent: Vec2) -> f64 {
         let rest = self.at(0.0);
@@ -161,16 +163,16 @@ impl MobilityDeficit {
         (rest.tangential + rest.tangential_slope * z + rest.tangential_curvature * (32.0 * z * z - 1.0)).max(0.0)
     }
 
-    /// The second grid harmonic over the first, `H_2 / H`, for forces that vary slowly; H_2 is H with 4 pi for 2 pi and multiplies
-    /// `cos(4 pi y/h)`.
+    /// The second grid harmonic over the first, `H_2 / H`, for forces that vary slowly; H_2 is H with 4 pi for 2 pi and
+    /// multiplies `cos(4 pi y/h)`.
     #[must_use]
     pub fn second_harmonic(&self) -> f64 {
         self.second_harmonic
     }
 
     /// The fastest relaxation of a nearly flat interface on the grid, in units of tension/(viscosity h): the maximum
-    /// over wave numbers and directions of `q^2` times the discrete normal mobility, with or without the correction. About
-    /// 0.33 for the default kernel with the correction and 0.19 without, 0.13 for Peskin's without.
+    /// over wave numbers and directions of `q^2` times the discrete normal mobility, with or without the correction.
+    /// About 0.33 for the default kernel with the correction and 0.19 without, 0.13 for Peskin's without.
     #[must_use]
     pub fn interface_stiffness(&self, corrected: bool) -> f64 {
         let mut fastest: f64 = 0.0;
@@ -300,60 +302,4 @@ impl Transforms {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{CubicQuadratic, Gaussian6, Peskin4};
-
-    #[test]
-    fn cubic_quadratic_table() {
-        // (q, A_t, B_t, A_n, B_n) of the flat-interface analysis, independently computed to four digits.
-        let expected = [
-            (0.05, 0.2539, -0.0839, 0.0051, 0.0001),
-            (0.1, 0.2488, -0.0698, 0.0101, 0.0004),
-            (0.5, 0.2115, -0.0032, 0.0434, 0.0045),
-            (1.0, 0.1723, 0.0165, 0.0704, 0.0057),
-            (2.0, 0.1162, 0.0065, 0.0867, -0.0021),
-            (4.0, 0.0625, 0.0, 0.0618, -0.0009),
-            (6.0, 0.0417, 0.0, 0.0417, 0.0),
-        ];
-        let table = MobilityDeficit::new(&CubicQuadratic::default());
-        for (q, at, bt, an, bn) in expected {
-            let d = table.at(q);
-            assert!((d.tangential - at).abs() < 3e-4, "q {q}: {d:?}");
-            assert!((d.normal - an).abs() < 3e-4, "q {q}: {d:?}");
-            assert!((d.tangential_slope - bt).abs() < 2e-3, "q {q}: {d:?}");
-            assert!((d.normal_slope - bn).abs() < 1e-3, "q {q}: {d:?}");
-        }
-    }
-
-    #[test]
-    fn coupling_of_tangent_and_normal() {
-        // Trapezoidal rule with 8e4 points in sinh^-1(k) at an angle of pi/8 (a script).
-        let table = MobilityDeficit::new(&CubicQuadratic::default());
-        for (q, expected) in [(0.05, -9.36e-4), (0.1, -1.679e-3), (0.5, -3.079e-3), (1.0, -7.03e-4), (2.0, 1.497e-3)] {
-            let cross = table.at(q).cross;
-            assert!((cross - expected).abs() < 2e-5, "q {q}: {cross}");
-        }
-    }
-
-    #[test]
-    fn zero_wave_number_is_the_kink_constant() {
-        // Direct quadrature of the same integral at q = 0 (a script with 1.2e5 trapezoidal points), 0 and 45 degrees.
-        for (table, along, across) in [
-            (MobilityDeficit::new(&CubicQuadratic::default()), 0.2333, 0.2833),
-            (MobilityDeficit::new(&Peskin4), 0.381, 0.395),
-        ] {
-            let d = table.at(0.0);
-            assert!((d.tangential + 0.25 * d.tangential_slope - along).abs() < 3e-3, "{d:?}");
-            assert!((d.tangential - 0.25 * d.tangential_slope - across).abs() < 3e-3, "{d:?}");
-        }
-    }
-
-    #[test]
-    fn stiffness_of_the_kernels() {
-        let of = |deficit: MobilityDeficit| deficit.interface_stiffness(false);
-        assert!((of(MobilityDeficit::new(&Peskin4)) - 0.125).abs() < 0.01);
-        assert!((of(MobilityDeficit::new(&CubicQuadratic::default())) - 0.188).abs() < 0.01);
-        assert!(of(MobilityDeficit::new(&Gaussian6)) < 0.12);
-    }
-}
+mod tests;

@@ -100,8 +100,8 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         self
     }
 
-    /// Saves a checkpoint with that description to `path` after every `every` steps of the scene (0 counts as 1), in place of the last
-    /// one, which stays until the new one is complete. What is saved has no influence on the run.
+    /// Saves a checkpoint with that description to `path` after every `every` steps of the scene (0 counts as 1), in
+    /// place of the last one, which stays until the new one is complete. What is saved has no influence on the run.
     #[must_use]
     pub fn save(mut self, every: usize, path: &'a Path, description: &'a str) -> Self {
         self.saver = Some(Saver { every: every.max(1), path, description });

@@ -59,8 +59,8 @@ struct ErrorEstimate {
     scales: Vec<f64>,
 }
 
-/// The defect of the trapezoidal rule, twelvefold, is dt^3 times the third derivative; the integrators' errors are about this part
-/// of that.
+/// The defect of the trapezoidal rule, twelvefold, is dt^3 times the third derivative; the integrators' errors are
+/// about this part of that.
 const DEFECT: f64 = 1.0 / 15.0;
 
 impl<H: Hydrodynamics> Scene<H> {
@@ -102,9 +102,10 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         self
     }
 
-    /// The same scene with a bound on gaps (length): a step after which an interface is closer to another body, to its own image or to a
-    /// wall ends in [`SceneError::Gap`]. A grid resolves films of two spacings and more; below that they drain as the kernel and not as the
-    /// fluid has it. By default gaps are measured ([`System::minimum_gap`], [`System::minimum_wall_gap`]) and only overlaps are errors.
+    /// The same scene with a bound on gaps (length): a step after which an interface is closer to another body, to its
+    /// own image or to a wall ends in [`SceneError::Gap`]. A grid resolves films of two spacings and more; below that
+    /// they drain as the kernel and not as the fluid has it. By default gaps are measured ([`System::minimum_gap`],
+    /// [`System::minimum_wall_gap`]) and only overlaps are errors.
     ///
     /// # Errors
     /// A bound that is not finite.
@@ -161,7 +162,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         self.system.steps()
     }
 
-    /// Refuses a time step that makes no sense or is above the estimated stability limit of a body at the present state.
+    /// Refuses a time step that makes no sense or is above the estimated stability limit of a body at the present
+    /// state.
     ///
     /// # Errors
     /// [`SceneError::Time`], [`SceneError::TimeStepTooLarge`].
@@ -187,8 +189,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             .min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// Advances the scene by one step of `dt` (time). After an error the scene is in the state before the step. Stability limits are
-    /// not looked at here but in [`Scene::check_step`], and during a [`Run`].
+    /// Advances the scene by one step of `dt` (time). After an error the scene is in the state before the step.
+    /// Stability limits are not looked at here but in [`Scene::check_step`], and during a [`Run`].
     ///
     /// # Errors
     /// A time step that is not positive; those of the bodies and of the flow, also at the state that the step leads to.
@@ -196,8 +198,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         self.attempt(dt, None).map(|_| ())
     }
 
-    /// Takes a step, and estimates its error in units of `tolerance` where one is given; where the error is above it, or after an error,
-    /// the scene is in the state before the step.
+    /// Takes a step, and estimates its error in units of `tolerance` where one is given; where the error is above it,
+    /// or after an error, the scene is in the state before the step.
     pub(crate) fn attempt(&mut self, dt: f64, tolerance: Option<f64>) -> Result<f64, SceneError> {
         if !(dt.is_finite() && dt > 0.0) {
             return Err(SceneError::Time { name: "the time step", value: dt, remedy: "a positive finite number" });

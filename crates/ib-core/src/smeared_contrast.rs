@@ -8,16 +8,17 @@ use crate::{
     Transfer, Vec2,
 };
 
-/// The immersed boundary method with the viscosity as a smooth field on the grid (thesis section 2.2.4): the outward normals
-/// of the interfaces, spread like forces, are minus the gradient of an indicator that is one inside,
+/// The immersed boundary method with the viscosity as a smooth field on the grid (thesis section 2.2.4): the outward
+/// normals of the interfaces, spread like forces, are minus the gradient of an indicator that is one inside,
 ///
 /// `lap H = -div(sum n ds delta_h)` (2.42), (2.43), `eta = eta_out + (eta_in - eta_out) H` (2.44),
 ///
-/// and a solver for viscosity that varies does the rest. Nodes take the arithmetic mean of the four centres around them.
+/// and a solver for viscosity that varies does the rest. Nodes take the arithmetic mean of the four centres around
+/// them.
 ///
-/// It is of first order in h, and the errors grow with the ratio of viscosities: at h = R/20 a droplet a hundred times as viscous
-/// as its surroundings is 25 to 40 per cent too fast. [`ImmersedBoundary`] alone does better at a fraction of the cost; this is here
-/// to reproduce the thesis. There is no mobility correction.
+/// It is of first order in h, and the errors grow with the ratio of viscosities: at h = R/20 a droplet a hundred times
+/// as viscous as its surroundings is 25 to 40 per cent too fast. [`ImmersedBoundary`] alone does better at a fraction
+/// of the cost; this is here to reproduce the thesis. There is no mobility correction.
 #[derive(Debug)]
 pub struct SmearedContrast<S, K> {
     flow: ImmersedBoundary<TwoPhaseStokes<S>, K>,

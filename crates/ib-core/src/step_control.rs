@@ -13,12 +13,12 @@ pub enum StepSize {
     /// This fraction of the stability limit at each step; shorter where the integrator bounds the error of such steps
     /// ([`crate::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
     OfLimit(f64),
-    /// As long as accuracy and stability allow: the error of each step is estimated, steps whose error is above the tolerance or that
-    /// fail otherwise are taken anew with a shorter one.
+    /// As long as accuracy and stability allow: the error of each step is estimated, steps whose error is above the
+    /// tolerance or that fail otherwise are taken anew with a shorter one.
     Adaptive {
         /// Largest error of a step: root mean square over the entries of a body's state, in units of their scales
-        /// ([`crate::Body::write_scales`]: the radius of a droplet for positions). No dimension; errors of 1e-5 to 1e-4 make for
-        /// speeds right to about 1e-4.
+        /// ([`crate::Body::write_scales`]: the radius of a droplet for positions). No dimension; errors of 1e-5 to 1e-4
+        /// make for speeds right to about 1e-4.
         tolerance: f64,
     },
 }
@@ -88,8 +88,8 @@ const DECLINE: f64 = 0.1;
 /// Change of length after a step in which something went wrong.
 const RETREAT: f64 = 0.25;
 
-/// The length of adaptive steps from the errors of the last two (Watts 1984; Gustafsson 1994: the error of the next step is extrapolated
-/// from how it changed).
+/// The length of adaptive steps from the errors of the last two (Watts 1984; Gustafsson 1994: the error of the next
+/// step is extrapolated from how it changed).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct StepControl {
     /// What accuracy allows for the next step (time); 0 before the first.
@@ -143,38 +143,4 @@ impl StepControl {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Errors C(t) dt^3 with C jumping by a factor of 1000: the length follows within a few attempts, with few rejections.
-    #[test]
-    fn steps_follow_the_error() {
-        let mut control = StepControl { next: 1e-3, ..StepControl::default() };
-        let (mut time, mut rejected, mut steps) = (0.0, 0, 0);
-        while time < 10.0 {
-            let constant = if (4.0..5.0).contains(&time) { 1e6 } else { 1e3 };
-            let dt = control.next;
-            if control.judge(dt, constant * dt.powi(3)) {
-                time += dt;
-                steps += 1;
-            } else {
-                rejected += 1;
-            }
-        }
-        // 0.1 and 0.01 are the lengths of error one.
-        assert!(rejected <= 6, "{rejected}");
-        assert!((190..300).contains(&steps), "{steps}");
-    }
-
-    #[test]
-    fn a_failure_shortens_and_a_recovery_is_slow() {
-        let mut control = StepControl::default();
-        control.retreat(1.0);
-        assert_eq!(control.next, 0.25);
-        assert!(control.judge(0.25, 1e-9));
-        assert_eq!(control.next, 0.25);
-        assert!(control.judge(0.25, 1e-9));
-        assert!(control.next > 0.25);
-        assert!(!control.judge(1.0, f64::INFINITY) && control.next < 1.0);
-    }
-}
+mod tests;

@@ -5,8 +5,8 @@
 pub enum StepCause {
     /// A mode that decays at the rate `2/dt`: an integrator with a longer interval of stability takes longer steps.
     Decay,
-    /// A mode that a stabiliser ([`crate::StepInfo::stabilised`]) has slowed down to what this bound allows, and that decays at the rate
-    /// `2/bare` without it.
+    /// A mode that a stabiliser ([`crate::StepInfo::stabilised`]) has slowed down to what this bound allows, and that
+    /// decays at the rate `2/bare` without it.
     Stabilised {
         /// The bound without the stabiliser (time).
         bare: f64,
@@ -116,18 +116,4 @@ impl IntoIterator for StepLimits {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_eight_shortest_are_kept() {
-        let mut limits = StepLimits::none();
-        assert!(limits.is_empty());
-        for k in 0..12 {
-            limits.push(StepLimit::decay(f64::from((5 * k) % 12), "a rate"));
-        }
-        let mut kept: Vec<f64> = limits.into_iter().map(|limit| limit.dt).collect();
-        kept.sort_by(f64::total_cmp);
-        assert_eq!(kept, [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
-    }
-}
+mod tests;

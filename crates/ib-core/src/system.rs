@@ -167,8 +167,9 @@ impl<H: Hydrodynamics> System<H> {
             let problem = format!("it has the velocities of {found} markers, the scene has {expected}");
             return Err(SceneError::ForeignCheckpoint { problem });
         }
-        // For all that a flow makes of its markers, such as what it samples from. The velocities come out the same only to the tolerance of
-        // its iterations, so those that were found take their place, and so does what the next iteration starts from.
+        // For all that a flow makes of its markers, such as what it samples from. The velocities come out the same only
+        // to the tolerance of its iterations, so those that were found take their place, and so does what the next
+        // iteration starts from.
         self.compute_flow()?;
         self.hydrodynamics.load(flow);
         self.markers.velocities.iter_mut().zip(velocities).for_each(|(to, from)| *to = from);

@@ -28,9 +28,9 @@ use visits::STRIDE;
 /// back, odd for the x component and even for the y component, so that the interpolated velocity vanishes on the
 /// wall (docs/method.md, section 2).
 ///
-/// Weights are not kept but computed twice: for the kernels that are polynomials ([`Kernel::pieces`]) that is faster than
-/// to read them from memory. Where the machine has fused multiply-add it is used, so that results differ between machines by
-/// round-off; on one machine they do not depend on the number of threads (feature `rayon`).
+/// Weights are not kept but computed twice: for the kernels that are polynomials ([`Kernel::pieces`]) that is faster
+/// than to read them from memory. Where the machine has fused multiply-add it is used, so that results differ between
+/// machines by round-off; on one machine they do not depend on the number of threads (feature `rayon`).
 #[derive(Debug, Clone)]
 pub struct Transfer<K> {
     kernel: K,
@@ -67,8 +67,8 @@ impl<K: Kernel> Transfer<K> {
         self.bands.find(Anywhere::new(&self.kernel, &self.grid), &self.spots);
     }
 
-    /// Adds the force density of the located markers to `density` (force per volume), thesis (2.33). `forces` (force) has an
-    /// entry for each of them.
+    /// Adds the force density of the located markers to `density` (force per volume), thesis (2.33). `forces` (force)
+    /// has an entry for each of them.
     pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) {
         let scale = 1.0 / (self.grid.spacing() * self.grid.spacing());
         let anywhere = Anywhere::new(&self.kernel, &self.grid);
@@ -87,7 +87,8 @@ impl<K: Kernel> Transfer<K> {
         spread(anywhere, scale, markers, Band { first_row: 0, fx, fy });
     }
 
-    /// The velocities at the located markers (length per time), thesis (2.34). `velocities` has an entry for each of them.
+    /// The velocities at the located markers (length per time), thesis (2.34). `velocities` has an entry for each of
+    /// them.
     pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) {
         let anywhere = Anywhere::new(&self.kernel, &self.grid);
         let elsewhere = self.spots.elsewhere();

@@ -130,7 +130,8 @@ fn continued(field: &StaggeredField, component: usize, column: i64, row: i64) ->
 }
 
 proptest! {
-    /// Interpolation is the sum of the kernel's values times the field, everywhere: at walls, in corners, across the ends of the box.
+    /// Interpolation is the sum of the kernel's values times the field, everywhere: at walls, in corners, across the
+    /// ends of the box.
     #[test]
     fn interpolation_is_the_sum_over_the_grid(x in -7.0..7.0_f64, height in -0.2..1.2_f64, walls: bool, seed in 0..1000_u64) {
         let h = 0.25;

@@ -28,16 +28,17 @@ pub enum WallMesh {
     Unstructured,
 }
 
-/// What is done about the smearing of a wall's surface over the grid, by which a stiff wall stops the fluid 0.31 to 0.44
-/// grid spacings in front of its surface (with the default kernel).
+/// What is done about the smearing of a wall's surface over the grid, by which a stiff wall stops the fluid 0.31 to
+/// 0.44 grid spacings in front of its surface (with the default kernel).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WallSurface {
-    /// The mobility correction of the surface ([`elastic_solids::Solid::surface_corrected`]), of second order. A droplet that would
-    /// start in touch with the walls starts squeezed a little, beside a film.
+    /// The mobility correction of the surface ([`elastic_solids::Solid::surface_corrected`]), of second order. A
+    /// droplet that would start in touch with the walls starts squeezed a little, beside a film.
     Corrected,
-    /// Walls are meshed as much further back ([`ElasticChannel::set_back`]). Leaves an error of first order, of a few tenths of a
-    /// grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for long, such as the mouth of a
-    /// constriction, where in time they enter corrected surfaces or turn a triangle of springs inside out.
+    /// Walls are meshed as much further back ([`ElasticChannel::set_back`]). Leaves an error of first order, of a few
+    /// tenths of a grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for
+    /// long, such as the mouth of a constriction, where in time they enter corrected surfaces or turn a triangle of
+    /// springs inside out.
     SetBack,
     /// Nothing, as in the thesis.
     Plain,
@@ -45,9 +46,9 @@ pub enum WallSurface {
 
 /// An active droplet in a channel between elastic walls (thesis chapter 4), in the thesis' units.
 ///
-/// The flow is that of a channel with rigid walls, periodic in x, which is as high as the channel and both elastic walls;
-/// the outermost row of each elastic wall is held by the rigid one. [`Swimmer::lengths`] are the period and the width of
-/// the channel between the elastic walls.
+/// The flow is that of a channel with rigid walls, periodic in x, which is as high as the channel and both elastic
+/// walls; the outermost row of each elastic wall is held by the rigid one. [`Swimmer::lengths`] are the period and the
+/// width of the channel between the elastic walls.
 ///
 /// ```
 /// use motile::elastic_solids::{Moduli, width_between};
@@ -82,8 +83,8 @@ pub struct ElasticChannel {
     pub surface: WallSurface,
     /// Whether triangles of springs may turn inside out ([`Solid::allow_inversion`]).
     pub may_invert: bool,
-    /// Force per displacement and area that holds islands in place ([`Solid::tethered`]; force per length cubed); `None`
-    /// for the shear modulus over the square of the droplet's radius.
+    /// Force per displacement and area that holds islands in place ([`Solid::tethered`]; force per length cubed);
+    /// `None` for the shear modulus over the square of the droplet's radius.
     pub hold: Option<f64>,
     /// What drives the flow along the channel.
     pub drive: Drive,
@@ -91,17 +92,18 @@ pub struct ElasticChannel {
 
 /// Angle by which the seeds of unstructured meshes are turned (radians).
 const TURN: f64 = 0.2;
-/// Offset of the plane where a stiff wall stops the fluid, over the deficit of its surface and the grid spacing: 0.315 grid
-/// spacings for the default kernel. Measured offsets are 0.31 to 0.44, depending on where the surface lies between grid
-/// lines; this value gives droplets in films of 0.1 R0 between walls of k = 1e6 and h = 0.05 the speed they have between rigid walls within
-/// 2 %.
+/// Offset of the plane where a stiff wall stops the fluid, over the deficit of its surface and the grid spacing: 0.315
+/// grid spacings for the default kernel. Measured offsets are 0.31 to 0.44, depending on where the surface lies between
+/// grid lines; this value gives droplets in films of 0.1 R0 between walls of k = 1e6 and h = 0.05 the speed they have
+/// between rigid walls within 2 %.
 const OFFSET: f64 = 1.35;
 /// Film that is left beside a droplet squeezed to fit, over its radius.
 const FILM: f64 = 0.05;
 /// How deep the droplet may start inside a wall, over the grid spacing.
 const OVERLAP: f64 = 0.25;
 
-/// A scene, the droplet in it, and the elastic solids beside it (lower wall, upper wall, islands), or why there is none.
+/// A scene, the droplet in it, and the elastic solids beside it (lower wall, upper wall, islands), or why there is
+/// none.
 pub type BuiltElastic = Result<(Scene<AnyFlow>, Handle<ActiveDroplet>, Vec<Handle<AnySolid>>), SetupError>;
 
 impl ElasticChannel {
@@ -123,8 +125,9 @@ impl ElasticChannel {
         }
     }
 
-    /// Walls by the method of the thesis (section 4.1): springs on an unstructured mesh, nothing done about their surfaces,
-    /// and triangles may turn inside out. For a droplet by its method too, make the swimmer from [`Swimmer::thesis`].
+    /// Walls by the method of the thesis (section 4.1): springs on an unstructured mesh, nothing done about their
+    /// surfaces, and triangles may turn inside out. For a droplet by its method too, make the swimmer from
+    /// [`Swimmer::thesis`].
     #[must_use]
     pub fn thesis(swimmer: Swimmer, moduli: Moduli) -> Self {
         let mesh = WallMesh::Unstructured;
@@ -182,8 +185,8 @@ impl ElasticChannel {
         Ok((scene, droplet, solids))
     }
 
-    /// How far the meshed surfaces of the walls lie behind those where they stop the fluid (length); islands are meshed as
-    /// they are.
+    /// How far the meshed surfaces of the walls lie behind those where they stop the fluid (length); islands are meshed
+    /// as they are.
     #[must_use]
     pub fn set_back(&self) -> f64 {
         if self.surface == WallSurface::SetBack {
@@ -235,9 +238,9 @@ impl ElasticChannel {
         Solid::with_forces(mesh, law)
     }
 
-    /// Half the length of the straight sides and the radius of the ends (length) of the stadium as which the droplet starts in a
-    /// channel narrower than itself, beside a film; a circle has no straight sides. `None` where the channel does not hold
-    /// the droplet.
+    /// Half the length of the straight sides and the radius of the ends (length) of the stadium as which the droplet
+    /// starts in a channel narrower than itself, beside a film; a circle has no straight sides. `None` where the
+    /// channel does not hold the droplet.
     #[must_use]
     pub fn start_shape(&self) -> Option<(f64, f64)> {
         let ([lx, ly], y, radius) = (self.swimmer.lengths, self.swimmer.offset[1], self.swimmer.radius);

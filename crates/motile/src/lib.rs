@@ -31,13 +31,13 @@
 //! | [`active_interface`] | the droplet: curve, particles, tension, observables, linear theory, SI units |
 //! | [`elastic_solids`] | elastic materials and meshes |
 //!
-//! Each can be used by itself; this crate re-exports them and adds [`Swimmer`], which sets up a droplet in a box or a channel
-//! from a few numbers, with the method of the thesis this work rests on as the preset [`Swimmer::thesis`].
+//! Each can be used by itself; this crate re-exports them and adds [`Swimmer`], which sets up a droplet in a box or a
+//! channel from a few numbers, with the method of the thesis this work rests on as the preset [`Swimmer::thesis`].
 //!
 //! # Units
 //!
-//! The library is free of units: give all quantities in one consistent system. Presets and examples use R0 = 10 um for length
-//! and gamma0/10 for tension; [`active_interface::Units`] converts to SI.
+//! The library is free of units: give all quantities in one consistent system. Presets and examples use R0 = 10 um for
+//! length and gamma0/10 for tension; [`active_interface::Units`] converts to SI.
 
 mod elastic_channel;
 mod method;

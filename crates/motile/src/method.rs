@@ -16,6 +16,7 @@ pub enum ContrastMethod {
     /// A jump, by a double layer on the interface ([`ib_core::ImmersedBoundary`]): second order in the grid spacing.
     #[default]
     Sharp,
-    /// A smooth viscosity field, thesis section 2.2.4 ([`ib_core::SmearedContrast`]): first order, without mobility correction.
+    /// A smooth viscosity field, thesis section 2.2.4 ([`ib_core::SmearedContrast`]): first order, without mobility
+    /// correction.
     Arithmetic,
 }

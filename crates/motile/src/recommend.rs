@@ -35,9 +35,9 @@ const OF_LIMIT: f64 = 0.9;
 /// In a channel films drain and the limit falls on the way.
 const OF_LIMIT_IN_CHANNELS: f64 = 0.5;
 
-/// The largest error over the scenes of docs/speed-against-error.md of that kind, of these settings and of all finer ones of the same
-/// kind; in boxes also at activity -4 at 0.2, 0.4 and 0.6 radians from the axes to t = 80, in a channel of width two also, by boundary
-/// integrals, at activity -4. From coarse to fine.
+/// The largest error over the scenes of docs/speed-against-error.md of that kind, of these settings and of all finer
+/// ones of the same kind; in boxes also at activity -4 at 0.2, 0.4 and 0.6 radians from the axes to t = 80, in a
+/// channel of width two also, by boundary integrals, at activity -4. From coarse to fine.
 fn measured(scene: SceneKind, method: Method) -> &'static [Entry] {
     use AnyKernel::BSpline4;
     use Settings::{Grid, Integrals};
@@ -66,12 +66,12 @@ fn measured(scene: SceneKind, method: Method) -> &'static [Entry] {
     }
 }
 
-/// A swimmer with the cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to give its steady
-/// speed with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of scene by a method. All else is the
-/// default; the grid spacing is that for a radius of one.
+/// A swimmer with the cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to
+/// give its steady speed with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of
+/// scene by a method. All else is the default; the grid spacing is that for a radius of one.
 ///
-/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the thesis' units (-1 with a
-/// contrast, -2 on a grid in a channel); a sharper edge of the concentration needs more cells
+/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the
+/// thesis' units (-1 with a contrast, -2 on a grid in a channel); a sharper edge of the concentration needs more cells
 /// ([`active_interface::DropletWarning::CellPeclet`] tells).
 ///
 /// ```

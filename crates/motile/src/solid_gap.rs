@@ -51,8 +51,8 @@ pub struct SolidEntered {
 }
 
 impl SolidGap {
-    /// A watch that lets the droplet enter solids by `allowed` (length): the flow keeps surfaces apart to a quarter of a
-    /// grid spacing.
+    /// A watch that lets the droplet enter solids by `allowed` (length): the flow keeps surfaces apart to a quarter of
+    /// a grid spacing.
     #[must_use]
     pub fn new(allowed: f64) -> Self {
         Self { allowed, set_back: 0.0, surfaces: None, present: None, smallest: None }
@@ -124,25 +124,4 @@ impl<H: Hydrodynamics> Observer<H> for SolidGap {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{ElasticChannel, Swimmer};
-    use elastic_solids::{Moduli, Solid};
-
-    #[test]
-    fn a_droplet_inside_a_wall_is_an_error() {
-        let swimmer = Swimmer { lengths: [4.0, 2.2], spacing: 0.2, ..Swimmer::default() };
-        let channel = ElasticChannel::new(swimmer, Moduli::new(1.0, 2.0).unwrap());
-        let (mut scene, _, walls) = channel.build().unwrap();
-        let mut gap = SolidGap::new(0.05).with_set_back(channel.set_back());
-        gap.observe(scene.system_mut()).unwrap();
-        assert!((gap.present().unwrap() - 0.1).abs() < 2e-3, "{gap:?}");
-        let lower = scene.body_mut(walls[0]);
-        let raised: Vec<_> = lower.positions().iter().map(|p| p + ib_core::Vec2::new(0.0, 0.3)).collect();
-        Solid::set_positions(lower, &raised).unwrap();
-        let error = gap.observe(scene.system_mut()).unwrap_err();
-        let entered: &SolidEntered = error.downcast_ref().unwrap();
-        assert!((entered.depth - 0.2).abs() < 2e-3, "{entered}");
-        assert_eq!(gap.smallest(), Some((-entered.depth, 0.0)));
-    }
-}
+mod tests;

@@ -21,13 +21,14 @@ pub enum InitialState {
     },
 }
 
-/// An active droplet in a periodic box, a rigid channel or unbounded fluid, in the thesis' units (lengths in R0, Appendix A): a scene
-/// from a few numbers.
+/// An active droplet in a periodic box, a rigid channel or unbounded fluid, in the thesis' units (lengths in R0,
+/// Appendix A): a scene from a few numbers.
 ///
 /// The default is the accurate method; [`Swimmer::thesis`] is the thesis' own. [`Swimmer::build`] and
-/// [`Swimmer::build_in_channel`] compute the flow as [`Swimmer::method`] says. For a type known at compile time there are
-/// [`Swimmer::build_on_grid`], [`Swimmer::build_on_grid_in_channel`], [`Swimmer::build_without_grid`],
-/// [`Swimmer::build_without_grid_in_channel`] and [`Swimmer::build_unbounded`]. Fields that a method has no use for are ignored.
+/// [`Swimmer::build_in_channel`] compute the flow as [`Swimmer::method`] says. For a type known at compile time there
+/// are [`Swimmer::build_on_grid`], [`Swimmer::build_on_grid_in_channel`], [`Swimmer::build_without_grid`],
+/// [`Swimmer::build_without_grid_in_channel`] and [`Swimmer::build_unbounded`]. Fields that a method has no use for are
+/// ignored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Swimmer {
     /// Activity zeta delta-mu (force times length), negative if contractile.
@@ -56,15 +57,17 @@ pub struct Swimmer {
     pub spacing: f64,
     /// Marker spacing on a grid (length); `None` for h/2.
     pub marker_spacing: Option<f64>,
-    /// Shape nodes of the boundary integrals. With the default, and its cells of the concentration, all observables (speed, shape, stresslet,
-    /// squirmer coefficients, active region, largest concentration) were within a per cent in boxes at activities of -4 and -5, and in a channel
-    /// of width 2 at -4 except the stresslet (1.6 per cent). For the speed alone a third of it will do ([`crate::recommend`]).
+    /// Shape nodes of the boundary integrals. With the default, and its cells of the concentration, all observables
+    /// (speed, shape, stresslet, squirmer coefficients, active region, largest concentration) were within a per cent in
+    /// boxes at activities of -4 and -5, and in a channel of width 2 at -4 except the stresslet (1.6 per cent). For the
+    /// speed alone a third of it will do ([`crate::recommend`]).
     pub nodes: usize,
     /// Cells of the concentration, and markers, with boundary integrals; at least as many as nodes.
     pub concentration_cells: usize,
     /// Kernel.
     pub kernel: AnyKernel,
-    /// Whether the mobility correction is on; without effect for [`Motion::WithFluid`], whose markers are not equally spaced.
+    /// Whether the mobility correction is on; without effect for [`Motion::WithFluid`], whose markers are not equally
+    /// spaced.
     pub corrected: bool,
     /// How the markers move.
     pub motion: Motion,
@@ -115,8 +118,9 @@ impl Default for Swimmer {
 
 impl Swimmer {
     /// The thesis' method: Peskin's 4-point function, no mobility correction, markers that move with the fluid and are
-    /// inserted and removed, a smooth viscosity field, an area constraint, h = 0.05, markers h/2 apart, steps of 1e-3. What the thesis does not state is a
-    /// reading of it: a first-order upwind flux; diffusion is implicit as in the default.
+    /// inserted and removed, a smooth viscosity field, an area constraint, h = 0.05, markers h/2 apart, steps of 1e-3.
+    /// What the thesis does not state is a reading of it: a first-order upwind flux; diffusion is implicit as in the
+    /// default.
     #[must_use]
     pub fn thesis() -> Self {
         Self {

@@ -67,8 +67,8 @@ impl Swimmer {
         }
     }
 
-    /// The scene and the droplet in a channel with rigid no-slip walls at y = +-`lengths[1]`/2, periodic in x with the period
-    /// `lengths[0]` (thesis section 3.1), by [`Swimmer::method`].
+    /// The scene and the droplet in a channel with rigid no-slip walls at y = +-`lengths[1]`/2, periodic in x with the
+    /// period `lengths[0]` (thesis section 3.1), by [`Swimmer::method`].
     ///
     /// # Errors
     /// As [`Swimmer::build`]; a droplet beyond a wall.
@@ -99,8 +99,8 @@ impl Swimmer {
         Ok(Scene::new(self.couple(self.box_solver()?)).with_step_size(self.step))
     }
 
-    /// The scene and the droplet in a channel as in [`Swimmer::build_in_channel`], on a grid, with a sharp contrast. A channel as
-    /// wide as the droplet (two radii) is the narrowest.
+    /// The scene and the droplet in a channel as in [`Swimmer::build_in_channel`], on a grid, with a sharp contrast. A
+    /// channel as wide as the droplet (two radii) is the narrowest.
     ///
     /// # Errors
     /// Parameters out of their range, lengths that do not hold a whole number of cells, a droplet beyond a wall.
@@ -125,8 +125,8 @@ impl Swimmer {
         self.with_droplet(&self.circle_of_cells()?, self.integrals(FreeSpace)?)
     }
 
-    /// As [`Swimmer::build_without_grid`], in a channel with rigid walls. A droplet that would start closer to a wall than a
-    /// twentieth of its radius is squeezed to an ellipse of the same area.
+    /// As [`Swimmer::build_without_grid`], in a channel with rigid walls. A droplet that would start closer to a wall
+    /// than a twentieth of its radius is squeezed to an ellipse of the same area.
     ///
     /// # Errors
     /// Parameters out of their range, a droplet beyond a wall.

@@ -13,22 +13,22 @@ use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, 
 ///
 /// `eta (d2x + d2y)^2 psi = curl f`, `u = d psi/dy`, `v = -d psi/dx`,
 ///
-/// with the differences of the staggered grid and the ghost velocity `u[-1] = 2 U - u[0]` behind a wall of velocity U, which is
-/// the same as `psi[-1] = psi[1] - 2 h U`. The solution is that of the whole discrete system of momentum and continuity to
-/// round-off; nothing is iterated.
+/// with the differences of the staggered grid and the ghost velocity `u[-1] = 2 U - u[0]` behind a wall of velocity U,
+/// which is the same as `psi[-1] = psi[1] - 2 h U`. The solution is that of the whole discrete system of momentum and
+/// continuity to round-off; nothing is iterated.
 ///
-/// Per wave number of x it takes two tridiagonal sweeps for the Dirichlet problems `lap w = curl f / eta`, `lap psi = w` and a
-/// 2 x 2 system for the two wall values of w (minus the vorticity there) that make the walls no-slip. There is no transform in y:
-/// one forward and one inverse transform in x, each fused with half of the sweeps.
+/// Per wave number of x it takes two tridiagonal sweeps for the Dirichlet problems `lap w = curl f / eta`, `lap psi =
+/// w` and a 2 x 2 system for the two wall values of w (minus the vorticity there) that make the walls no-slip. There is
+/// no transform in y: one forward and one inverse transform in x, each fused with half of the sweeps.
 ///
-/// **Forces on the walls.** The y components in the first and last row lie on the walls; they are ignored (a wall takes up any
-/// force on it).
+/// **Forces on the walls.** The y components in the first and last row lie on the walls; they are ignored (a wall takes
+/// up any force on it).
 ///
-/// **Mean flow.** [`Drive`] says whether the mean pressure gradient or the flux is prescribed; [`SolveReport`] has the mean
-/// pressure gradient, [`crate::flux`] the flux. The y velocity has no mean on any row.
+/// **Mean flow.** [`Drive`] says whether the mean pressure gradient or the flux is prescribed; [`SolveReport`] has the
+/// mean pressure gradient, [`crate::flux`] the flux. The y velocity has no mean on any row.
 ///
-/// **Sizes.** Every size is correct. Only `nx` is transformed: even values with no prime factors but 2, 3, 5, 7 and 11 are fast; `ny`
-/// may be anything.
+/// **Sizes.** Every size is correct. Only `nx` is transformed: even values with no prime factors but 2, 3, 5, 7 and 11
+/// are fast; `ny` may be anything.
 #[derive(Debug)]
 pub struct ChannelStokes {
     grid: Grid,
@@ -46,7 +46,8 @@ pub struct ChannelStokes {
 }
 
 impl ChannelStokes {
-    /// A solver for a channel and a viscosity eta (stress times time), with walls at rest and no mean pressure gradient.
+    /// A solver for a channel and a viscosity eta (stress times time), with walls at rest and no mean pressure
+    /// gradient.
     ///
     /// # Errors
     /// A periodic grid, or a viscosity that is not positive and finite.
@@ -122,8 +123,8 @@ impl StokesSolver for ChannelStokes {
         let width = self.rows.width();
         let (fx, fy) = (force.x(), force.y());
 
-        // On the way up: the curl, its transform, and the elimination of the first Dirichlet problem. With h curl f on the
-        // right and psi / h on the left the stencils are bare differences; the transform's 1 / nx goes in here too.
+        // On the way up: the curl, its transform, and the elimination of the first Dirichlet problem. With h curl f on
+        // the right and psi / h on the left the stencils are bare differences; the transform's 1 / nx goes in here too.
         let scale = h * h / (self.viscosity * nx as f64);
         self.mean_u[0] = sum(&fx[..nx]) / nx as f64;
         for j in 1..ny {
@@ -174,7 +175,8 @@ impl StokesSolver for ChannelStokes {
         Ok(SolveReport { mean_pressure_gradient: [gradient, 0.0], ..SolveReport::default() })
     }
 
-    /// From the momentum balance along x, `grad p = eta lap u + fx`, with one transform there and back; no Poisson problem.
+    /// From the momentum balance along x, `grad p = eta lap u + fx`, with one transform there and back; no Poisson
+    /// problem.
     fn pressure(
         &mut self,
         force: &StaggeredField,

@@ -4,20 +4,20 @@ use num_complex::Complex64;
 
 use crate::symbol::second_difference;
 
-/// What a wall does at a distance, relative to what it does nearby, is left out when it is smaller than this: it is far below
-/// round-off, and skipping it saves half of the work in the middle of a wide channel.
+/// What a wall does at a distance, relative to what it does nearby, is left out when it is smaller than this: it is far
+/// below round-off, and skipping it saves half of the work in the middle of a wide channel.
 const NEGLIGIBLE: f64 = 1e-20;
 
 /// Tables and sweeps for `T w = g`, `T psi = w` on rows 1..N of nodes, for each wave number m of x, where
 ///
 /// `(T psi)[j] = psi[j-1] - (2 + k^2) psi[j] + psi[j+1]`, `k = 2 sin(pi m / nx)`, `psi[0] = psi[N] = 0`,
 ///
-/// and the wall values of w are such that `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)`, which is no slip.
-/// (All lengths in cells, psi and U in the same units.)
+/// and the wall values of w are such that `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)`, which is no
+/// slip. (All lengths in cells, psi and U in the same units.)
 ///
-/// The first problem is eliminated upwards and substituted downwards; the second one is eliminated downwards on the same way
-/// and substituted upwards. So the spectrum is passed three times, and twice together with a transform. The influence of the
-/// wall values on psi comes from a table.
+/// The first problem is eliminated upwards and substituted downwards; the second one is eliminated downwards on the
+/// same way and substituted upwards. So the spectrum is passed three times, and twice together with a transform. The
+/// influence of the wall values on psi comes from a table.
 #[derive(Debug, Clone)]
 pub(crate) struct ChannelModes {
     ny: usize,
@@ -28,7 +28,8 @@ pub(crate) struct ChannelModes {
     harmonic: Vec<f64>,
     /// Solution of T P = E with P = 0 at both walls.
     influence: Vec<f64>,
-    /// How many wave numbers a wall `d` rows away reaches: beyond, `pivots` are `limits`, `harmonic` and `influence` are zero.
+    /// How many wave numbers a wall `d` rows away reaches: beyond, `pivots` are `limits`, `harmonic` and `influence`
+    /// are zero.
     reach: Vec<usize>,
     /// Reciprocal pivots of T far from the walls.
     limits: Vec<f64>,
@@ -121,8 +122,8 @@ impl ChannelModes {
         }
     }
 
-    /// Substitution of the first problem and elimination of the second one, downwards; then the wall values, for walls of
-    /// velocities `bottom` and `top`.
+    /// Substitution of the first problem and elimination of the second one, downwards; then the wall values, for walls
+    /// of velocities `bottom` and `top`.
     pub(crate) fn descend(&mut self, spectrum: &mut [Complex64], bottom: &[Complex64], top: &[Complex64]) {
         let (width, ny) = (self.width, self.ny);
         let mut carried = std::mem::take(&mut self.carried);
@@ -158,7 +159,8 @@ impl ChannelModes {
         self.near_top = near_top;
     }
 
-    /// Substitution of the second problem in row `j`, upwards, and the influence of the walls: gives the spectrum of psi.
+    /// Substitution of the second problem in row `j`, upwards, and the influence of the walls: gives the spectrum of
+    /// psi.
     pub(crate) fn ascend(&mut self, j: usize, row: &mut [Complex64]) {
         let (near, far) = (self.reach[j].max(self.reach[self.ny - j]), self.width);
         let pivots = self.row(&self.pivots, self.ny - j);

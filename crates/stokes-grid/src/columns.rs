@@ -14,8 +14,8 @@ const GAP: usize = 4;
 
 /// A plan for the transform of the columns of an array of `ny` rows of complex numbers and back, not normalised.
 ///
-/// Columns are gathered a few at a time into a buffer that stays in the cache, so that no pass walks through memory with a large
-/// stride and nothing is transposed as a whole.
+/// Columns are gathered a few at a time into a buffer that stays in the cache, so that no pass walks through memory
+/// with a large stride and nothing is transposed as a whole.
 pub(crate) struct ColumnTransform {
     ny: usize,
     forward: Arc<dyn Fft<f64>>,
@@ -127,8 +127,8 @@ fn run(plan: &dyn Fft<f64>, column: &mut [Complex64], scratch: &mut [Complex64])
     plan.process_with_scratch(column, &mut scratch[..plan.get_inplace_scratch_len()]);
 }
 
-/// Copies the leading `N` columns of rows of length `width` into contiguous ones. (The number is a constant because the copies of
-/// one row then need no loop, which halves the time.)
+/// Copies the leading `N` columns of rows of length `width` into contiguous ones. (The number is a constant because the
+/// copies of one row then need no loop, which halves the time.)
 fn gather<const N: usize>(rows: &[Complex64], width: usize, columns: &mut [&mut [Complex64]; N]) {
     for (j, row) in rows.chunks(width).enumerate() {
         if let Some(row) = row.first_chunk::<N>() {

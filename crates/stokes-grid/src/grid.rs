@@ -2,7 +2,8 @@
 
 use crate::StokesError;
 
-/// A rectangle of `nx` x `ny` square cells of width `h`, periodic in x, and in y either periodic or bounded by two walls.
+/// A rectangle of `nx` x `ny` square cells of width `h`, periodic in x, and in y either periodic or bounded by two
+/// walls.
 ///
 /// Quantities are staggered (marker-and-cell layout). With the lower left corner at `origin`:
 ///

@@ -54,8 +54,8 @@ pub fn normal_strain_rates(
     Ok(())
 }
 
-/// The shear strain rate `D_xy = (du/dy + dv/dx) / 2` (1/time) at the nodes. On a wall it is the one that balances momentum
-/// with the flow, see [`wall_shear_stress`]; `walls` are those of the solver, at rest in a periodic box.
+/// The shear strain rate `D_xy = (du/dy + dv/dx) / 2` (1/time) at the nodes. On a wall it is the one that balances
+/// momentum with the flow, see [`wall_shear_stress`]; `walls` are those of the solver, at rest in a periodic box.
 ///
 /// # Errors
 /// Fields of different grids, or walls that do not belong to them.
@@ -67,8 +67,8 @@ pub fn shear_strain_rate(
     cross_differences(velocity, walls, out, |u_slope, v_slope| 0.5 * (u_slope + v_slope))
 }
 
-/// The vorticity `dv/dx - du/dy` (1/time) at the nodes, which is minus the Laplacian of the streamfunction; `walls` are those
-/// of the solver, at rest in a periodic box.
+/// The vorticity `dv/dx - du/dy` (1/time) at the nodes, which is minus the Laplacian of the streamfunction; `walls` are
+/// those of the solver, at rest in a periodic box.
 ///
 /// # Errors
 /// Fields of different grids, or walls that do not belong to them.
@@ -105,11 +105,11 @@ fn cross_differences(
     Ok(())
 }
 
-/// The streamfunction (area per time) at the nodes, `u = d psi/dy`, `v = -d psi/dx`, of a velocity without divergence, by
-/// summation; accurate to a few units of round-off times the number of cells in a row.
+/// The streamfunction (area per time) at the nodes, `u = d psi/dy`, `v = -d psi/dx`, of a velocity without divergence,
+/// by summation; accurate to a few units of round-off times the number of cells in a row.
 ///
-/// In a channel psi is zero on the bottom wall and the flux on the top one. In a periodic box the mean velocity, which has no
-/// periodic streamfunction, is left out, and psi has mean zero.
+/// In a channel psi is zero on the bottom wall and the flux on the top one. In a periodic box the mean velocity, which
+/// has no periodic streamfunction, is left out, and psi has mean zero.
 ///
 /// # Errors
 /// Fields of different grids.
@@ -149,11 +149,12 @@ pub fn flux(velocity: &StaggeredField) -> f64 {
     sum(velocity.x()) * velocity.grid().spacing() / velocity.grid().nx() as f64
 }
 
-/// The shear stress on the fluid at a wall (force per length in 2D), `eta du/dy`, at the columns of nodes; `out` has `nx`
-/// values.
+/// The shear stress on the fluid at a wall (force per length in 2D), `eta du/dy`, at the columns of nodes; `out` has
+/// `nx` values.
 ///
-/// It is `2 eta (u - U) / h` with the velocity u half a cell from the wall, the value that balances momentum with the forces in
-/// the fluid exactly: force per length on the fluid is plus this at the top, minus this at the bottom. It is second-order accurate.
+/// It is `2 eta (u - U) / h` with the velocity u half a cell from the wall, the value that balances momentum with the
+/// forces in the fluid exactly: force per length on the fluid is plus this at the top, minus this at the bottom. It is
+/// second-order accurate.
 ///
 /// # Errors
 /// A periodic grid, walls of another grid, or an `out` of the wrong length.

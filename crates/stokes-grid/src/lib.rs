@@ -1,9 +1,10 @@
-//! Stokes flow on staggered grids: given forces, the velocity of a viscous fluid without inertia, exactly free of divergence.
+//! Stokes flow on staggered grids: given forces, the velocity of a viscous fluid without inertia, exactly free of
+//! divergence.
 //!
-//! The equations are `eta lap(v) - grad p + f = 0`, `div v = 0` in two dimensions, with a viscosity eta and a force density f
-//! (force per volume). The fluid fills a box that is periodic in both directions or a channel that is periodic in x and has
-//! no-slip walls in y, at rest or sliding. A [`Grid`] says which; fields on it are a [`StaggeredField`] (velocities, forces), a
-//! [`CentreField`] or a [`NodeField`].
+//! The equations are `eta lap(v) - grad p + f = 0`, `div v = 0` in two dimensions, with a viscosity eta and a force
+//! density f (force per volume). The fluid fills a box that is periodic in both directions or a channel that is
+//! periodic in x and has no-slip walls in y, at rest or sliding. A [`Grid`] says which; fields on it are a
+//! [`StaggeredField`] (velocities, forces), a [`CentreField`] or a [`NodeField`].
 //!
 //! | solver | region | method | real transforms of a field |
 //! |---|---|---|---|
@@ -12,22 +13,22 @@
 //! | [`ProjectionStokes`] | both | projection, the thesis' way | 3 + 3 (box), 2 + 2 and six sine or cosine transforms (channel) |
 //! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients around one of the above | one solve an iteration |
 //!
-//! All but the last are direct: their velocity and pressure satisfy the discrete equations (second-order differences on the
-//! marker-and-cell grid) to round-off, so the two methods agree to round-off as well. They are plans behind one trait,
-//! [`StokesSolver`]: made once for a grid, run many times, without an allocation per run.
+//! All but the last are direct: their velocity and pressure satisfy the discrete equations (second-order differences on
+//! the marker-and-cell grid) to round-off, so the two methods agree to round-off as well. They are plans behind one
+//! trait, [`StokesSolver`]: made once for a grid, run many times, without an allocation per run.
 //!
 //! A solve gives the velocity alone. The pressure ([`StokesSolver::pressure`]), [`streamfunction`], [`vorticity`],
 //! [`normal_strain_rates`], [`shear_strain_rate`], [`divergence`], [`flux`] and [`wall_shear_stress`] come on request.
 //!
-//! **Contract of the mean values.** In a box the velocity has mean zero (or what [`PeriodicStokes::set_mean_velocity`] says)
-//! and a mean force is balanced by a uniform pressure gradient. In a channel [`Drive`] prescribes the mean pressure gradient or the
-//! flux. Either way [`SolveReport::mean_pressure_gradient`] has the uniform part of grad p, and
-//! [`StokesSolver::pressure`] the rest, with mean zero.
+//! **Contract of the mean values.** In a box the velocity has mean zero (or what [`PeriodicStokes::set_mean_velocity`]
+//! says) and a mean force is balanced by a uniform pressure gradient. In a channel [`Drive`] prescribes the mean
+//! pressure gradient or the flux. Either way [`SolveReport::mean_pressure_gradient`] has the uniform part of grad p,
+//! and [`StokesSolver::pressure`] the rest, with mean zero.
 //!
 //! # Example
 //!
-//! Two opposite forces along x in a box push fluid against each other; in a channel a pressure gradient of -1 drives Poiseuille
-//! flow, whose fastest fluid has the speed `width^2 / (8 eta)`.
+//! Two opposite forces along x in a box push fluid against each other; in a channel a pressure gradient of -1 drives
+//! Poiseuille flow, whose fastest fluid has the speed `width^2 / (8 eta)`.
 //!
 //! ```
 //! use stokes_grid::{CentreField, ChannelStokes, Drive, Grid, PeriodicStokes, StaggeredField, StokesSolver, divergence};
@@ -63,15 +64,16 @@
 //!
 //! # Speed and sizes
 //!
-//! Every size is correct, odd and prime ones included. Numbers of cells with no prime factors but 2, 3, 5, 7 and 11 are fast, and an
-//! even `nx` is a third faster than an odd one; other prime factors take two to nine times as long. In a channel this concerns
-//! `nx` alone for [`ChannelStokes`], both directions for [`ProjectionStokes`].
+//! Every size is correct, odd and prime ones included. Numbers of cells with no prime factors but 2, 3, 5, 7 and 11 are
+//! fast, and an even `nx` is a third faster than an odd one; other prime factors take two to nine times as long. In a
+//! channel this concerns `nx` alone for [`ChannelStokes`], both directions for [`ProjectionStokes`].
 //!
-//! With the feature `rayon`, off by default, [`PeriodicStokes`] uses the threads of the current pool from 800,000 cells on, to the same
-//! bits for any number of them.
+//! With the feature `rayon`, off by default, [`PeriodicStokes`] uses the threads of the current pool from 800,000 cells
+//! on, to the same bits for any number of them.
 //!
-//! `cargo bench -p stokes-grid` prints times in units of plain real transforms of the same size in the same run: about 1.1 pairs for
-//! [`PeriodicStokes`] from 120 to 1024 cells squared, and about 2.1 times the passes along x alone for [`ChannelStokes`].
+//! `cargo bench -p stokes-grid` prints times in units of plain real transforms of the same size in the same run: about
+//! 1.1 pairs for [`PeriodicStokes`] from 120 to 1024 cells squared, and about 2.1 times the passes along x alone for
+//! [`ChannelStokes`].
 
 mod channel;
 mod channel_modes;

@@ -2,8 +2,8 @@
 
 use crate::{Drive, Grid};
 
-/// The x velocities of a channel averaged over x: `eta (u[j+1] - 2 u[j] + u[j-1]) / h^2 = g - f[j]` between walls, with the mean
-/// force f and the mean pressure gradient g.
+/// The x velocities of a channel averaged over x: `eta (u[j+1] - 2 u[j] + u[j-1]) / h^2 = g - f[j]` between walls, with
+/// the mean force f and the mean pressure gradient g.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct MeanFlow {
     /// h^2 / eta.
@@ -27,8 +27,8 @@ impl MeanFlow {
         Self { scale: h * h / viscosity, pivots, poiseuille: Poiseuille::new(grid, viscosity) }
     }
 
-    /// Turns the mean force on each row into its mean velocity, for the mean velocities of the bottom and the top wall; gives the
-    /// mean pressure gradient.
+    /// Turns the mean force on each row into its mean velocity, for the mean velocities of the bottom and the top wall;
+    /// gives the mean pressure gradient.
     pub(crate) fn solve(&self, drive: Drive, walls: [f64; 2], u: &mut [f64]) -> f64 {
         for u in u.iter_mut() {
             *u *= -self.scale;
@@ -48,8 +48,8 @@ impl MeanFlow {
     }
 }
 
-/// The response of the mean flow to a uniform force of one, `(y (H - y) / 2 + h^2 / 8) / eta`, and its flux. The constant is what
-/// the no-slip condition half a cell from the wall adds to the parabola.
+/// The response of the mean flow to a uniform force of one, `(y (H - y) / 2 + h^2 / 8) / eta`, and its flux. The
+/// constant is what the no-slip condition half a cell from the wall adds to the parabola.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Poiseuille {
     profile: Vec<f64>,
@@ -70,8 +70,8 @@ impl Poiseuille {
         Self { profile, h, flux }
     }
 
-    /// Makes the mean flow `u` that belongs to no pressure gradient one that belongs to `drive`; gives the mean pressure
-    /// gradient (force per volume).
+    /// Makes the mean flow `u` that belongs to no pressure gradient one that belongs to `drive`; gives the mean
+    /// pressure gradient (force per volume).
     pub(crate) fn impose(&self, drive: Drive, u: &mut [f64]) -> f64 {
         let found = self.h * u.iter().sum::<f64>();
         let gradient = match drive {

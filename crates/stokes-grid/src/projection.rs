@@ -10,21 +10,21 @@ use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, 
 ///
 /// `eta lap v* = -f` (2.22), `lap phi = div v*` (2.23), `v = v* - grad phi` (2.29), `p = -eta lap phi`.
 ///
-/// (The thesis' (2.30) lacks the minus sign, without which the momentum balance does not hold.) The solution is that of the
-/// whole discrete system, the same as that of [`crate::PeriodicStokes`] and [`crate::ChannelStokes`], which need less work: this
-/// is the reference, and the way the thesis went.
+/// (The thesis' (2.30) lacks the minus sign, without which the momentum balance does not hold.) The solution is that of
+/// the whole discrete system, the same as that of [`crate::PeriodicStokes`] and [`crate::ChannelStokes`], which need
+/// less work: this is the reference, and the way the thesis went.
 ///
-/// **Periodic box.** Three forward and three inverse transforms. The velocity has mean zero, a mean force is balanced by a
-/// uniform pressure gradient, which the report has.
+/// **Periodic box.** Three forward and three inverse transforms. The velocity has mean zero, a mean force is balanced
+/// by a uniform pressure gradient, which the report has.
 ///
-/// **Channel.** The transform in x is real; across, v* goes by sines on the nodes (DST-I), u* by sines in the cells (DST-II, III),
-/// phi by cosines (DCT-II, III), each of which diagonalises its Laplacian. In place of the thesis' lagged wall value, the
-/// tangential value of v* on the two walls that makes v no-slip comes from a 2 x 2 system per wave number, so that one pass is
-/// exact. Forces along y in the first and last row lie on the walls and are ignored. [`Drive`] and [`WallMotion`] are as in
-/// [`crate::ChannelStokes`].
+/// **Channel.** The transform in x is real; across, v* goes by sines on the nodes (DST-I), u* by sines in the cells
+/// (DST-II, III), phi by cosines (DCT-II, III), each of which diagonalises its Laplacian. In place of the thesis'
+/// lagged wall value, the tangential value of v* on the two walls that makes v no-slip comes from a 2 x 2 system per
+/// wave number, so that one pass is exact. Forces along y in the first and last row lie on the walls and are ignored.
+/// [`Drive`] and [`WallMotion`] are as in [`crate::ChannelStokes`].
 ///
-/// **Sizes.** Every size is correct; in both directions numbers of cells with no prime factors but 2, 3, 5, 7 and 11 are fast, and
-/// `nx` should be even.
+/// **Sizes.** Every size is correct; in both directions numbers of cells with no prime factors but 2, 3, 5, 7 and 11
+/// are fast, and `nx` should be even.
 #[derive(Debug)]
 pub struct ProjectionStokes {
     grid: Grid,
@@ -40,8 +40,8 @@ enum Region {
 }
 
 impl ProjectionStokes {
-    /// A solver for a grid, periodic or a channel, and a viscosity eta (stress times time). A channel has walls at rest and no
-    /// mean pressure gradient.
+    /// A solver for a grid, periodic or a channel, and a viscosity eta (stress times time). A channel has walls at rest
+    /// and no mean pressure gradient.
     ///
     /// # Errors
     /// A viscosity that is not positive and finite.

@@ -10,7 +10,8 @@ use crate::sine_cosine::SineCosine;
 use crate::symbol::second_difference;
 use crate::{CentreField, Drive, Grid, StaggeredField, Wall, WallMotion, Work};
 
-/// The projection method in a channel, exact in one pass by the wall values of u*. Lengths inside are in cells, phi is phi / h.
+/// The projection method in a channel, exact in one pass by the wall values of u*. Lengths inside are in cells, phi is
+/// phi / h.
 #[derive(Debug)]
 pub(crate) struct ChannelProjection {
     grid: Grid,
@@ -29,7 +30,8 @@ pub(crate) struct ChannelProjection {
     harmonic: Vec<f64>,
     /// Column by column: the cosine coefficients of Phi with the Laplacian B and no slope at the walls.
     potential: Vec<f64>,
-    /// Column by column: reciprocals of the two eigenvalues of the 2 x 2 system, for sums and differences of the wall values.
+    /// Column by column: reciprocals of the two eigenvalues of the 2 x 2 system, for sums and differences of the wall
+    /// values.
     capacitance: Vec<[f64; 2]>,
     u_spectrum: Vec<Complex64>,
     v_spectrum: Vec<Complex64>,
@@ -152,8 +154,8 @@ impl ChannelProjection {
         work.inverse_transforms += 1;
     }
 
-    /// Everything between the transforms in x: leaves the spectra of u and v, or of p in place of u; gives the mean pressure
-    /// gradient (of use with the velocity only).
+    /// Everything between the transforms in x: leaves the spectra of u and v, or of p in place of u; gives the mean
+    /// pressure gradient (of use with the velocity only).
     fn columns(&mut self, force: &StaggeredField, goal: Goal, work: &mut Work) -> f64 {
         let (nx, n, width) = (self.grid.nx(), self.grid.ny(), self.rows.width());
         // With this factor v* has the right units, and the transforms in x are normalised.
@@ -190,7 +192,8 @@ impl ChannelProjection {
         gradient
     }
 
-    /// One wave number: from the forces in `u_column` and `v_column` to the velocities, or to the pressure in `u_column`.
+    /// One wave number: from the forces in `u_column` and `v_column` to the velocities, or to the pressure in
+    /// `u_column`.
     fn column(&mut self, m: usize, goal: Goal) {
         let (nx, n) = (self.grid.nx(), self.grid.ny());
         let k2 = second_difference(m, nx);

@@ -52,12 +52,12 @@ pub trait StokesSolver: std::fmt::Debug + Send {
     /// The velocity for a force density; it is discretely divergence free.
     ///
     /// # Errors
-    /// Fields of another grid, a force that is not finite (the velocity is then left as it was), a result beyond the range of
-    /// double precision; for iterative solvers, no convergence.
+    /// Fields of another grid, a force that is not finite (the velocity is then left as it was), a result beyond the
+    /// range of double precision; for iterative solvers, no convergence.
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError>;
 
-    /// The periodic part of the pressure (force per length in 2D), mean zero, that belongs to a force density and the velocity that
-    /// [`StokesSolver::solve`] gave for it. The uniform part of its gradient is
+    /// The periodic part of the pressure (force per length in 2D), mean zero, that belongs to a force density and the
+    /// velocity that [`StokesSolver::solve`] gave for it. The uniform part of its gradient is
     /// [`SolveReport::mean_pressure_gradient`].
     ///
     /// # Errors

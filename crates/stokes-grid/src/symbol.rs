@@ -2,8 +2,8 @@
 
 use num_complex::Complex64;
 
-/// A real factor for each wave number that does not change when a wave number changes its sign: the effect of a symmetric
-/// linear operator with constant coefficients, to be applied by [`crate::RealFft2::filter`].
+/// A real factor for each wave number that does not change when a wave number changes its sign: the effect of a
+/// symmetric linear operator with constant coefficients, to be applied by [`crate::RealFft2::filter`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symbol {
     nx: usize,
@@ -22,8 +22,8 @@ impl Symbol {
         Self::new(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny).powi(2) })
     }
 
-    /// The factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by symmetry. The `1 / (nx ny)` of a
-    /// transform there and back is put in here, so that a factor of one everywhere gives the identity.
+    /// The factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by symmetry. The `1 / (nx ny)`
+    /// of a transform there and back is put in here, so that a factor of one everywhere gives the identity.
     pub fn new(nx: usize, ny: usize, factor: impl Fn(usize, usize) -> f64) -> Self {
         let scale = 1.0 / (nx as f64 * ny as f64);
         let mut values = Vec::with_capacity((nx / 2 + 1) * (ny / 2 + 1));

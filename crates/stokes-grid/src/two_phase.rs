@@ -10,16 +10,18 @@ use crate::{CentreField, Drive, NodeField, SolveReport, StaggeredField, StokesEr
 ///
 /// around any solver S of one viscosity, whose grid, walls and drive it takes over (thesis section 2.2.4).
 ///
-/// It is solved by conjugate gradients among the velocities without divergence, with a solve of S as preconditioner: each iteration
-/// costs one solve and one viscous force. The number of iterations grows like the square root of the ratio of the largest to
-/// the smallest viscosity, does not depend on the grid, nor on the viscosity of S; for a uniform viscosity one is enough. Normal
-/// stresses take the viscosity at the centres, shear stresses that at the nodes.
+/// It is solved by conjugate gradients among the velocities without divergence, with a solve of S as preconditioner:
+/// each iteration costs one solve and one viscous force. The number of iterations grows like the square root of the
+/// ratio of the largest to the smallest viscosity, does not depend on the grid, nor on the viscosity of S; for a
+/// uniform viscosity one is enough. Normal stresses take the viscosity at the centres, shear stresses that at the
+/// nodes.
 ///
-/// **Start.** Each solution starts from the linear extrapolation of the two before, which halves the iterations where the viscosity
-/// and the forces move slowly.
+/// **Start.** Each solution starts from the linear extrapolation of the two before, which halves the iterations where
+/// the viscosity and the forces move slowly.
 ///
-/// **Accuracy.** Iterations end when the residual r, in the norm `sqrt(r . S r)`, is below [`TwoPhaseStokes::tolerance`] times that of the
-/// forces. The true residual is computed anew from the solution and is what [`SolveReport::residual`] has.
+/// **Accuracy.** Iterations end when the residual r, in the norm `sqrt(r . S r)`, is below
+/// [`TwoPhaseStokes::tolerance`] times that of the forces. The true residual is computed anew from the solution and is
+/// what [`SolveReport::residual`] has.
 ///
 /// [`StokesSolver::viscosity`] is that of S, the surroundings' by convention.
 ///
@@ -120,8 +122,8 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         self.previous.iter().take(self.known)
     }
 
-    /// Takes over the last solutions, the latest first, as [`TwoPhaseStokes::solutions`] of the same solver had them. More than two are
-    /// ignored.
+    /// Takes over the last solutions, the latest first, as [`TwoPhaseStokes::solutions`] of the same solver had them.
+    /// More than two are ignored.
     ///
     /// # Errors
     /// Fields on another grid.
@@ -274,7 +276,8 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
             }
             let goal = self.tolerance * self.tolerance * scale;
             self.history.push((square.max(0.0) / scale).sqrt());
-            // Round-off lets the recurrence drift from the true residual; then the iteration starts anew from where it is.
+            // Round-off lets the recurrence drift from the true residual; then the iteration starts anew from where it
+            // is.
             for _ in 0..3 {
                 iterations += self.iterate(square, goal, scale, self.most - iterations)?;
                 self.fill_residual(force);

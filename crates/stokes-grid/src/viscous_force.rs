@@ -3,8 +3,9 @@
 use crate::kinematics::{left, right};
 use crate::{CentreField, Grid, NodeField, StaggeredField, Wall, WallMotion};
 
-/// `div(2 eta D)` of a velocity without divergence, D its strain rate: normal stresses at the centres, shear stresses at the
-/// nodes, each with the viscosity there. Minus this operator is symmetric and positive, and `eta lap` where eta is uniform.
+/// `div(2 eta D)` of a velocity without divergence, D its strain rate: normal stresses at the centres, shear stresses
+/// at the nodes, each with the viscosity there. Minus this operator is symmetric and positive, and `eta lap` where eta
+/// is uniform.
 #[derive(Debug)]
 pub(crate) struct ViscousForce {
     centres: CentreField,

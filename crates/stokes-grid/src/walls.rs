@@ -16,8 +16,8 @@ pub enum Wall {
     Top,
 }
 
-/// Tangential velocities (length per time) of both walls of a channel, uniform or functions of x. Walls never move along their
-/// normal.
+/// Tangential velocities (length per time) of both walls of a channel, uniform or functions of x. Walls never move
+/// along their normal.
 ///
 /// The default, [`WallMotion::AT_REST`], fits every grid, periodic ones included.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -38,8 +38,8 @@ impl WallMotion {
         Self::from_fn(grid, |_| bottom, |_| top)
     }
 
-    /// Walls whose velocities (length per time) are functions of x (length, from the grid's origin of coordinates), taken at
-    /// the columns of nodes.
+    /// Walls whose velocities (length per time) are functions of x (length, from the grid's origin of coordinates),
+    /// taken at the columns of nodes.
     ///
     /// # Errors
     /// A periodic grid, or a velocity that is not finite.

@@ -30,8 +30,8 @@ pub struct CheckpointFlags {
 }
 
 impl CheckpointFlags {
-    /// Brings the scene to the state to go on from, if there is one. A checkpoint whose description is another one was saved with other
-    /// flags: the run goes on with those that are given now, and says so.
+    /// Brings the scene to the state to go on from, if there is one. A checkpoint whose description is another one was
+    /// saved with other flags: the run goes on with those that are given now, and says so.
     ///
     /// # Errors
     /// A checkpoint that cannot be read or is of another scene, or one that is not before `end`.
@@ -77,8 +77,8 @@ impl CheckpointFlags {
         Ok(run.save(self.checkpoint_every.unwrap_or(EVERY), path, description).stop_on(&STOP))
     }
 
-    /// Saves what a run has come to: to the file of the flags where it ended or was stopped, and beside it, with `.last` added to
-    /// the name, where it failed, so that the last periodic checkpoint stays.
+    /// Saves what a run has come to: to the file of the flags where it ended or was stopped, and beside it, with
+    /// `.last` added to the name, where it failed, so that the last periodic checkpoint stays.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -105,36 +105,4 @@ fn last(path: &Path) -> PathBuf {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use motile::Swimmer;
-    use motile::ib_core::StepSize;
-
-    #[test]
-    fn a_run_in_two_parts_is_a_whole_one() {
-        let directory = std::env::temp_dir().join(format!("motile-flags-{}", std::process::id()));
-        crate::make_directory(&directory).unwrap();
-        let path = directory.join("state");
-        let swimmer = Swimmer { spacing: 0.25, ..Swimmer::default() };
-        let flags = CheckpointFlags { checkpoint: Some(path.clone()), ..CheckpointFlags::default() };
-        let make = || swimmer.build_on_grid().unwrap().0;
-        let mut first = make();
-        let run = first.run(0.25).step_size(StepSize::Fixed(0.025));
-        let outcome = flags.watch(run, "a droplet").unwrap().go();
-        assert!(!path.exists(), "there were fewer than 500 steps");
-        flags.save(&first, "a droplet", &outcome).unwrap();
-
-        let again = CheckpointFlags { resume: Some(path.clone()), ..CheckpointFlags::default() };
-        let mut second = make();
-        again.resume(&mut second, "a droplet", 0.5).unwrap();
-        second.run(0.5).step_size(StepSize::Fixed(0.025)).go().unwrap();
-        first.run(0.5).step_size(StepSize::Fixed(0.025)).go().unwrap();
-        assert_eq!(first.checkpoint(""), second.checkpoint(""));
-        let error = again.resume(&mut make(), "a droplet", 0.2).unwrap_err();
-        assert!(format!("{error:#}").contains("--time after"), "{error:#}");
-        std::fs::write(&path, "nothing").unwrap();
-        let error = again.resume(&mut make(), "a droplet", 0.5).unwrap_err();
-        assert!(format!("{error:#}").contains("not a checkpoint"), "{error:#}");
-        std::fs::remove_dir_all(&directory).unwrap();
-    }
-}
+mod tests;

@@ -62,7 +62,8 @@ impl Look {
         })
     }
 
-    /// Draws one time with the droplet in the middle of its periods, between walls with the path of its centroid so far.
+    /// Draws one time with the droplet in the middle of its periods, between walls with the path of its centroid so
+    /// far.
     ///
     /// # Errors
     /// A file that cannot be written.

@@ -1,7 +1,7 @@
 //! Command line flags that scenes share, in groups to be put together with `#[command(flatten)]`.
 //!
-//! Units are those of the thesis' simulations: lengths in R0, tensions such that gamma0 = 10, times such that D = 0.1; its
-//! Appendix A converts them.
+//! Units are those of the thesis' simulations: lengths in R0, tensions such that gamma0 = 10, times such that D = 0.1;
+//! its Appendix A converts them.
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,6 @@
 //! What the examples of motile share: the command line, a progress bar, pictures of flows, animations, plots, and files
-//! for other programs. Most works on plain data (positions, samples, numbers), so that any scene can use it; what scenes
-//! with a droplet share is built on that.
+//! for other programs. Most works on plain data (positions, samples, numbers), so that any scene can use it; what
+//! scenes with a droplet share is built on that.
 //!
 //! | for | there are |
 //! |---|---|

@@ -57,7 +57,8 @@ pub struct MethodFlags {
     /// Time to be simulated
     #[arg(long, default_value_t = 60.0, value_parser = positive, allow_hyphen_values = true)]
     pub time: f64,
-    /// Regularised delta function of the grid (peskin4, roma3, gaussian6, bspline3 to bspline6); without it the preset's
+    /// Regularised delta function of the grid (peskin4, roma3, gaussian6, bspline3 to bspline6); without it the
+    /// preset's
     #[arg(long, value_parser = kernel)]
     pub kernel: Option<AnyKernel>,
     /// How a grid treats two viscosities; without it the preset's

@@ -23,8 +23,8 @@ pub fn droplets<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &A
     system.bodies().filter_map(|body| (body as &dyn std::any::Any).downcast_ref())
 }
 
-/// Draws pressure, streamlines, all droplets coloured by their concentrations (in units of `concentration`, particles per length), solids
-/// and walls to a PNG file; fields are sampled at `spacing` (length) or coarser.
+/// Draws pressure, streamlines, all droplets coloured by their concentrations (in units of `concentration`, particles
+/// per length), solids and walls to a PNG file; fields are sampled at `spacing` (length) or coarser.
 ///
 /// # Errors
 /// A flow that cannot be computed, a domain without end, a file that cannot be written.
@@ -71,20 +71,4 @@ pub fn write_scene_picture<H: Hydrodynamics>(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use motile::Swimmer;
-
-    #[test]
-    fn two_droplets_are_drawn() {
-        let swimmer = Swimmer { spacing: 0.25, lengths: [8.0, 4.0], offset: [-2.0, 0.0], ..Swimmer::default() };
-        let mut scene = swimmer.scene().unwrap();
-        scene.add(swimmer.droplet().unwrap());
-        scene.add(Swimmer { offset: [2.0, 0.0], ..swimmer }.droplet().unwrap());
-        let path = std::env::temp_dir().join(format!("motile-two-{}.png", std::process::id()));
-        write_scene_picture(scene.system_mut(), 0.25, 100.0, "two", &path).unwrap();
-        assert!(std::fs::metadata(&path).unwrap().len() > 10_000);
-        assert_eq!(droplets(scene.system()).count(), 2);
-        std::fs::remove_file(&path).unwrap();
-    }
-}
+mod tests;

@@ -14,9 +14,9 @@ const PATIENCE: f64 = 0.5;
 
 /// Whether and when a steady state was reached.
 ///
-/// The final speed is the mean over the last fifth of the run. The state is steady from the time on after which the speed
-/// stays within 0.1 % of it (or below 1e-5 D/R0, at rest), provided that this is at least the last fifth of the run and
-/// at least half a diffusion time R0^2/D.
+/// The final speed is the mean over the last fifth of the run. The state is steady from the time on after which the
+/// speed stays within 0.1 % of it (or below 1e-5 D/R0, at rest), provided that this is at least the last fifth of the
+/// run and at least half a diffusion time R0^2/D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steadiness {
     /// Since when the state has been steady; `None` if it is not.
@@ -53,35 +53,4 @@ impl Steadiness {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn run(end: f64, speed: impl Fn(f64) -> f64) -> Steadiness {
-        let points: Vec<_> = (0..=600).map(|k| f64::from(k) / 600.0 * end).map(|t| (t, speed(t))).collect();
-        Steadiness::of(&points, 0.1)
-    }
-
-    #[test]
-    fn an_exponential_approach_is_steady_when_it_comes_close() {
-        // 0.1 (1 - exp(-t/2)) is within 0.1 % for t > 2 ln(1000) = 13.8.
-        let steady = run(60.0, |t| 0.1 * (1.0 - (-0.5 * t).exp()));
-        let since = steady.since.unwrap();
-        assert!((since - 13.8).abs() < 0.2, "{since}");
-        assert!((steady.final_speed - 0.1).abs() < 1e-6 && steady.deviation < 1e-6);
-    }
-
-    #[test]
-    fn what_has_not_settled_or_not_lasted_is_not_steady() {
-        assert_eq!(run(60.0, |t| 0.1 + 0.01 * t.sin()).since, None);
-        assert_eq!(run(15.0, |t| 0.1 * (1.0 - (-0.5 * t).exp())).since, None);
-        assert_eq!(run(1.0, |_| 0.1).since, None);
-        assert_eq!(Steadiness::of(&[], 0.1).since, None);
-        assert_eq!(run(60.0, |_| f64::NAN).since, None);
-    }
-
-    #[test]
-    fn rest_is_steady() {
-        let since = run(200.0, |t| 1e-2 * (-0.2 * t).exp()).since.unwrap();
-        assert!((since - 46.0).abs() < 2.0, "{since}");
-    }
-}
+mod tests;

@@ -216,23 +216,4 @@ pub(crate) fn dashes(path: &[Pixel], [dash, gap]: [f64; 2]) -> Vec<Vec<Pixel>> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn runs_split_at_levels() {
-        let levels: Vec<(String, i8)> = runs("R_{0} 10^{-3} m²_x").into_iter().map(|r| (r.text, r.level)).collect();
-        let expected = [("R", 0), ("0", -1), (" 10", 0), ("-3", 1), (" m", 0), ("2", 1), ("_x", 0)];
-        assert_eq!(levels, expected.map(|(t, l)| (t.to_string(), l)));
-    }
-
-    #[test]
-    fn dashes_cover_their_share_of_a_bent_path() {
-        let path = [[0.0, 0.0], [10.0, 0.0], [10.0, 24.0]];
-        let pieces = dashes(&path, [3.0, 2.0]);
-        let length: f64 =
-            pieces.iter().flat_map(|p| p.windows(2)).map(|w| (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1])).sum();
-        assert!((length - 21.0).abs() < 1e-9, "{length}");
-        assert_eq!(pieces.len(), 7);
-    }
-}
+mod tests;

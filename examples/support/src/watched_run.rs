@@ -102,8 +102,8 @@ impl WatchedRun {
         })
     }
 
-    /// The same where solids are meshed this far behind the surfaces where they stop the fluid (length): widths and gaps
-    /// are those between these surfaces.
+    /// The same where solids are meshed this far behind the surfaces where they stop the fluid (length): widths and
+    /// gaps are those between these surfaces.
     #[must_use]
     pub fn with_set_back(mut self, set_back: f64) -> Self {
         self.gap = self.gap.with_set_back(set_back);

@@ -23,8 +23,8 @@ fn droplets<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &Activ
     system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
 }
 
-/// The area that a droplet keeps (length squared): that of the polygon of its markers on a grid, and without one that of the smooth curve
-/// through them, from which the polygon's differs by `pi/6 L^2/N^2`, more for longer curves.
+/// The area that a droplet keeps (length squared): that of the polygon of its markers on a grid, and without one that
+/// of the smooth curve through them, from which the polygon's differs by `pi/6 L^2/N^2`, more for longer curves.
 fn area(droplet: &ActiveDroplet, on_grid: bool) -> f64 {
     let markers = droplet.markers();
     let count = markers.len();
@@ -52,7 +52,8 @@ fn contents<H: Hydrodynamics>(system: &System<H>) -> Vec<[f64; 2]> {
     droplets(system).map(|droplet| [area(droplet, on_grid), droplet.particle_numbers().iter().sum()]).collect()
 }
 
-/// How much area and particles of the droplets of `system` have changed, the droplet that changed most, since they were `start`.
+/// How much area and particles of the droplets of `system` have changed, the droplet that changed most, since they were
+/// `start`.
 fn drift<H: Hydrodynamics>(system: &System<H>, start: &[[f64; 2]]) -> Drift {
     let larger = |a: f64, b: f64| if b.is_nan() || b.abs() > a.abs() { b } else { a };
     contents(system).iter().zip(start).fold(Drift::default(), |drift, (now, start)| {

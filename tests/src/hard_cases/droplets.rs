@@ -61,8 +61,9 @@ pub(crate) fn trials() -> Vec<Trial> {
         Recipe::new(11, "all particles on a twentieth of the interface", EVERY, |way, extent, look| {
             filled(way, extent, look, |x| (-((x - 0.5) / 0.03).powi(2)).exp())
         }),
-        // The finer the resolution, the more they are crowded: pushed apart they make the tension there -1e5, and under a negative tension
-        // an interface buckles the faster the shorter the waves that it has. There is nothing to converge to.
+        // The finer the resolution, the more they are crowded: pushed apart they make the tension there -1e5, and under
+        // a negative tension an interface buckles the faster the shorter the waves that it has. There is nothing to
+        // converge to.
         Recipe::new(11, "all particles on one segment", EVERY, |way, extent, look| {
             let mut first = true;
             let all_on_one = |_: f64| f64::from(u8::from(std::mem::take(&mut first)));

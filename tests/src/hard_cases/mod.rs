@@ -1,8 +1,8 @@
 //! Scenes that are hard to compute: what is hard about each, and what must come of it.
 //!
-//! [`cases`] lists them. Each is a number of runs, by the methods that apply, in a quick version for tests and a longer one for
-//! the example `hard_cases`. A run must finish with its area and particles, or end in the error that is right for it;
-//! nothing else counts.
+//! [`cases`] lists them. Each is a number of runs, by the methods that apply, in a quick version for tests and a longer
+//! one for the example `hard_cases`. A run must finish with its area and particles, or end in the error that is right
+//! for it; nothing else counts.
 
 mod drive;
 mod droplets;

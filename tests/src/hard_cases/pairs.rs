@@ -31,7 +31,8 @@ pub(crate) fn trials() -> Vec<Trial> {
                 run_way(way, scene, extent.pick(6.0, 60.0), look)
             },
         )
-        // They press against each other until the film between them is thinner than the method can see, later the finer it is.
+        // They press against each other until the film between them is thinner than the method can see, later the finer
+        // it is.
         .ending_in(&[Ending::Finished, Ending::Crossing, Ending::Stagnated, Ending::SelfCrossing])
         .area_within(2e-3),
         Recipe::new(13, "a passive droplet overtakes another", &[Way::Grid, Way::Integral], |way, extent, look| {

@@ -8,8 +8,8 @@ use motile::{AnyFlow, ElasticChannel, Swimmer, WallSurface};
 use crate::hard_cases::drive::{run_way, swimmer};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
 
-/// Walls that give way around a throat far narrower than the droplet fold at its corners: where a triangle has turned inside out, adaptive
-/// steps shorten before the run ends.
+/// Walls that give way around a throat far narrower than the droplet fold at its corners: where a triangle has turned
+/// inside out, adaptive steps shorten before the run ends.
 const SQUEEZED: &[Ending] = &[Ending::Finished, Ending::Inverted, Ending::Stagnated];
 
 /// A swimmer of activity -2 in a channel as wide as it, between walls of the thesis' spring constant k.

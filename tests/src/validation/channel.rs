@@ -20,8 +20,8 @@ fn solver(l: f64, w: f64, h: f64, drive: Drive) -> Result<ChannelStokes, StudyEr
     Ok(solver)
 }
 
-/// Largest error of 4 pi eta times the velocity around point forces (period 4, width 2), over the points of the table that are at
-/// least 0.5 from the force; the velocities there are of order one.
+/// Largest error of 4 pi eta times the velocity around point forces (period 4, width 2), over the points of the table
+/// that are at least 0.5 from the force; the velocities there are of order one.
 ///
 /// # Errors
 /// What a setup can fail with.
@@ -141,8 +141,8 @@ pub struct SwimmerErrors {
     pub particle_change: f64,
 }
 
-/// Runs a swimmer (period 12, A = 10, viscosity 100, zero mean pressure gradient) from the polarised start to `time` and compares it
-/// with the steady state of `channel_steady_swimmer.csv`.
+/// Runs a swimmer (period 12, A = 10, viscosity 100, zero mean pressure gradient) from the polarised start to `time`
+/// and compares it with the steady state of `channel_steady_swimmer.csv`.
 ///
 /// # Errors
 /// An activity or width that is not in the table, and what a run can fail with.
@@ -191,15 +191,4 @@ pub fn drives() -> [(&'static str, Drive); 2] {
 }
 
 #[cfg(test)]
-mod tests {
-    use motile::stokes_grid::StokesSolver;
-
-    use super::*;
-
-    #[test]
-    fn solver_has_the_drive() {
-        let solver = solver(4.0, 2.0, 0.25, Drive::ZeroFlux).unwrap();
-        assert_eq!(solver.drive(), Drive::ZeroFlux);
-        assert!(solver.grid().has_walls());
-    }
-}
+mod tests;

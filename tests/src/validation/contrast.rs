@@ -65,8 +65,8 @@ impl Droplet {
         Self { phase, ..self }
     }
 
-    /// Scenes with gaps of 0.075, one and a half cells of 0.05: beside the wall of a channel, two droplets, and one beside a
-    /// passive interface. Tensions vary where the gap is.
+    /// Scenes with gaps of 0.075, one and a half cells of 0.05: beside the wall of a channel, two droplets, and one
+    /// beside a passive interface. Tensions vary where the gap is.
     #[must_use]
     pub fn close_scenes() -> Vec<(&'static str, Region, Vec<Self>)> {
         let (quarter, x) = (0.25 * TAU, 1.0 + 0.0375);
@@ -170,8 +170,8 @@ pub enum Region {
 /// Errors of one droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
-    /// Velocity of the centroid: the distance from the exact one, relative to that or to the fastest marker where the droplet does not
-    /// move.
+    /// Velocity of the centroid: the distance from the exact one, relative to that or to the fastest marker where the
+    /// droplet does not move.
     pub speed: f64,
     /// Root mean square over the markers relative to the fastest one.
     pub rms: f64,

@@ -49,8 +49,8 @@ impl Mode {
     }
 }
 
-/// The growth rate in a box of the length of `swimmer` (square): of the difference of two runs with opposite perturbations, so
-/// that what the grid and the box do to a round droplet does not count.
+/// The growth rate in a box of the length of `swimmer` (square): of the difference of two runs with opposite
+/// perturbations, so that what the grid and the box do to a round droplet does not count.
 ///
 /// # Errors
 /// What a run can fail with.

@@ -1,7 +1,7 @@
 //! Swimmers that head off the grid's axes, against boundary integrals.
 //!
-//! A droplet in a square box turns: its images form a lattice, which has directions, and with the direction its speed changes by some
-//! per cent. A grid has directions too, and must add as little as possible to the turning.
+//! A droplet in a square box turns: its images form a lattice, which has directions, and with the direction its speed
+//! changes by some per cent. A grid has directions too, and must add as little as possible to the turning.
 
 use motile::active_interface::{ActiveDroplet, Observables};
 use motile::ib_core::{Handle, Scene, StepSize};
@@ -48,8 +48,8 @@ impl Course {
     }
 }
 
-/// The swimmer of the reference tables (box 6, viscosity 100, A = 2 |activity|) on a grid of spacing h with markers `ds` apart, starting
-/// at `angle` (radians) from the x axis at a place between the grid points.
+/// The swimmer of the reference tables (box 6, viscosity 100, A = 2 |activity|) on a grid of spacing h with markers
+/// `ds` apart, starting at `angle` (radians) from the x axis at a place between the grid points.
 #[must_use]
 pub fn on_the_grid(base: &Swimmer, activity: f64, h: f64, ds: f64, angle: f64) -> Swimmer {
     Swimmer {

@@ -83,7 +83,8 @@ pub fn mode(swimmer: &Swimmer, method: Method, start: f64, time: f64) -> Result<
     Ok(fit_linear_mode(&track.times[first..], &track.heights[first..], Some(&track.velocities[first..]))?)
 }
 
-/// Growth rate and angular frequency of `channel_lateral_stability.csv` (width 5, period 12, A = 10, zero mean pressure gradient).
+/// Growth rate and angular frequency of `channel_lateral_stability.csv` (width 5, period 12, A = 10, zero mean pressure
+/// gradient).
 ///
 /// # Errors
 /// An activity that is not in the table.

@@ -1,7 +1,7 @@
 //! Comparisons of motile with exact and independently computed values.
 //!
-//! Each module is one study: a function from resolutions to rows with errors. Tests run the cheap resolutions and assert
-//! orders and bounds; the example `validation` runs all of them and prints the tables of the documentation.
+//! Each module is one study: a function from resolutions to rows with errors. Tests run the cheap resolutions and
+//! assert orders and bounds; the example `validation` runs all of them and prints the tables of the documentation.
 //!
 //! ```
 //! use motile_tests::validation::{fixed_shapes, Case};

@@ -63,7 +63,8 @@ pub fn reference_swimmer(base: &Swimmer, activity: f64, h: f64) -> Swimmer {
     }
 }
 
-/// Runs a swimmer on a grid from the polarised start to `time` and compares with the steady state of `steady_swimmer_box6.csv`.
+/// Runs a swimmer on a grid from the polarised start to `time` and compares with the steady state of
+/// `steady_swimmer_box6.csv`.
 ///
 /// # Errors
 /// An activity that is not in the table, and what a run can fail with.
@@ -118,7 +119,8 @@ fn compare<H: Hydrodynamics>(
     })
 }
 
-/// Largest relative error of the speed over the times of `swimmer_transient_box6_activity_1.csv`, with the time at which it occurs.
+/// Largest relative error of the speed over the times of `swimmer_transient_box6_activity_1.csv`, with the time at
+/// which it occurs.
 ///
 /// # Errors
 /// What a run can fail with.

@@ -122,7 +122,8 @@ fn net_flux_on_a_grid() {
     assert!(errors[1] < 2e-3 && (errors[0] / errors[1]).log2() > 1.9, "{errors:?}");
 }
 
-/// Through the part of the interface to the right of the cross-section flows what flows through the cross-section inside.
+/// Through the part of the interface to the right of the cross-section flows what flows through the cross-section
+/// inside.
 fn flux_through_interface(markers: &[Vec2], velocities: &[Vec2], x: f64) -> f64 {
     let count = markers.len();
     (0..count)

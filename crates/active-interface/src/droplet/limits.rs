@@ -26,7 +26,8 @@ impl ActiveDroplet {
             let reason = "the coupling of concentration and tension";
             limits.push(StepLimit { dt: remainder * unit, reason, cause });
             let slip = self.slip.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
-            // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, holds up to about two segments a step.
+            // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, holds up to about
+            // two segments a step.
             let dt = 1.8 * self.geometry.mean_length() / slip;
             limits.push(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
         }
@@ -34,8 +35,8 @@ impl ActiveDroplet {
     }
 }
 
-/// The length below which the flow no longer responds to forces along an interface: the grid spacing, or 2/q for the largest resolved
-/// wave number q, of which the interface's stiffness is a quarter.
+/// The length below which the flow no longer responds to forces along an interface: the grid spacing, or 2/q for the
+/// largest resolved wave number q, of which the interface's stiffness is a quarter.
 pub(crate) fn finest_response(medium: &Medium) -> f64 {
     medium.spacing.unwrap_or(0.5 / medium.interface_stiffness)
 }

@@ -38,7 +38,8 @@ pub struct ForceMoments {
 }
 
 impl ForceMoments {
-    /// The stresslet S_ij (force times length), the symmetric part of F_ij without trace, eq. (2.52). S_xx > 0 is a pusher.
+    /// The stresslet S_ij (force times length), the symmetric part of F_ij without trace, eq. (2.52). S_xx > 0 is a
+    /// pusher.
     #[must_use]
     pub fn stresslet(&self) -> [[f64; 2]; 2] {
         let [[xx, xy], [yx, yy]] = self.dipole;

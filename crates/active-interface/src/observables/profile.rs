@@ -10,7 +10,8 @@ use crate::{InterfaceError, polygon_moments};
 /// The concentration as a function of the arc length from the front of the droplet.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ConcentrationProfile {
-    /// Arc length of the middles of the segments, counter-clockwise from the front, ascending in [0, perimeter) (length).
+    /// Arc length of the middles of the segments, counter-clockwise from the front, ascending in [0, perimeter)
+    /// (length).
     pub arc: Vec<f64>,
     /// Concentration there (particles per length).
     pub concentration: Vec<f64>,
@@ -18,8 +19,8 @@ pub struct ConcentrationProfile {
     pub perimeter: f64,
 }
 
-/// The profile of the concentration (thesis, figure 2.4). The front is where the first axis of `frame` leaves the droplet,
-/// or the marker furthest along that axis where it does not meet the interface.
+/// The profile of the concentration (thesis, figure 2.4). The front is where the first axis of `frame` leaves the
+/// droplet, or the marker furthest along that axis where it does not meet the interface.
 ///
 /// # Errors
 /// Slices of different length, fewer than three markers, values that are not finite, no area, segments without length.
@@ -66,22 +67,4 @@ pub fn concentration_profile(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Curve, InitialConcentration};
-
-    #[test]
-    fn the_profile_starts_at_the_front() {
-        let heading = 2.0;
-        let centre = Vec2::new(1.0, -2.0);
-        let markers = Curve::circle(1.0).unwrap().translated(centre).markers(90).unwrap();
-        let numbers = InitialConcentration::polarised(100.0, heading).unwrap().particle_numbers(&markers).unwrap();
-        let profile = concentration_profile(&markers, &numbers, &Frame::new(centre, heading).unwrap()).unwrap();
-        assert!(profile.arc.windows(2).all(|pair| pair[0] < pair[1]));
-        assert!(profile.arc[0] >= 0.0 && profile.arc[89] < profile.perimeter);
-        for (arc, c) in profile.arc.iter().zip(&profile.concentration) {
-            assert!((c - 100.0 * (1.0 - arc.cos())).abs() < 0.2, "{arc} {c}");
-        }
-        assert!(concentration_profile(&markers, &numbers[2..], &Frame::new(centre, 0.0).unwrap()).is_err());
-    }
-}
+mod tests;

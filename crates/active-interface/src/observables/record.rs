@@ -69,8 +69,8 @@ pub struct Observables {
 
 /// Computes all observables of a droplet.
 ///
-/// A droplet at rest has no direction of motion: its axes are x and y where the velocity is exactly zero, and those of the
-/// round-off where it is not.
+/// A droplet at rest has no direction of motion: its axes are x and y where the velocity is exactly zero, and those of
+/// the round-off where it is not.
 ///
 /// # Errors
 /// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
@@ -131,11 +131,11 @@ impl Observables {
         self.velocity.y.atan2(self.velocity.x)
     }
 
-    /// Names and values, in the order of the columns of a table. Values that do not exist, such as the active fraction of a
-    /// uniform concentration, are `None`.
+    /// Names and values, in the order of the columns of a table. Values that do not exist, such as the active fraction
+    /// of a uniform concentration, are `None`.
     ///
-    /// Units: lengths, times and forces as in the state. `s_ijk` and `n_ijk` are the parts of the quadrupole, `b1`, `b2`,
-    /// `beta` those in the droplet's frame, `shape_mode_k` and `concentration_mode_k` amplitudes over the mean.
+    /// Units: lengths, times and forces as in the state. `s_ijk` and `n_ijk` are the parts of the quadrupole, `b1`,
+    /// `b2`, `beta` those in the droplet's frame, `shape_mode_k` and `concentration_mode_k` amplitudes over the mean.
     #[must_use]
     pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
         let stresslet = self.moments.stresslet();

@@ -22,14 +22,16 @@ impl Trajectory {
     ///
     /// 1. Speeds below [`RegimeCriteria::rest`] over the last quarter: at rest (unless they are increasing).
     /// 2. All heights within [`RegimeCriteria::centre`]: on the centre line.
-    /// 3. Four or more turning points: the amplitudes of the swings between them give the growth rate, over the longest tail in which they
-    ///    are exponential in time, so that an oscillation that has grown and saturated is steady. Drifting, if the height
-    ///    about which it oscillates moves to one side by more than the swings, or if the oscillation decays towards a height off
-    ///    the centre line. Undecided, if the amplitude goes up and down by more than a fifth and less than half of the swings belong to the tail.
+    /// 3. Four or more turning points: the amplitudes of the swings between them give the growth rate, over the longest
+    ///    tail in which they are exponential in time, so that an oscillation that has grown and saturated is steady.
+    ///    Drifting, if the height about which it oscillates moves to one side by more than the swings, or if the
+    ///    oscillation decays towards a height off the centre line. Undecided, if the amplitude goes up and down by more
+    ///    than a fifth and less than half of the swings belong to the tail.
     /// 4. Fewer turning points: growing or decaying, if a [`LinearMode`](crate::LinearMode) fits
-    ///    ([`RegimeCriteria::linear`]), its rate differs from zero by three standard errors, and the record contains at least half of its period,
-    ///    or without oscillation a change by a factor of e. Drifting, if the droplet leaves the centre line or stays away from
-    ///    it and there is no sign that it oscillates. Undecided otherwise; a steady oscillation is not told from fewer than four turning points.
+    ///    ([`RegimeCriteria::linear`]), its rate differs from zero by three standard errors, and the record contains at
+    ///    least half of its period, or without oscillation a change by a factor of e. Drifting, if the droplet leaves
+    ///    the centre line or stays away from it and there is no sign that it oscillates. Undecided otherwise; a steady
+    ///    oscillation is not told from fewer than four turning points.
     ///
     /// # Errors
     /// No samples, criteria out of their ranges.

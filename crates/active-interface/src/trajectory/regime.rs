@@ -83,8 +83,8 @@ impl fmt::Display for Doubt {
 pub struct RegimeCriteria {
     /// Part of the record, from its beginning, that is left out (no dimension, at least 0 and below 1).
     pub transient: f64,
-    /// A droplet this near to the centre line is on it (length). The default is far above the round-off of a symmetric run and
-    /// far below any perturbation made on purpose.
+    /// A droplet this near to the centre line is on it (length). The default is far above the round-off of a symmetric
+    /// run and far below any perturbation made on purpose.
     pub centre: f64,
     /// A droplet this slow is at rest (length per time).
     pub rest: f64,
@@ -92,11 +92,11 @@ pub struct RegimeCriteria {
     pub hysteresis: f64,
     /// Relative change of the amplitude per period up to which an oscillation is steady (no dimension).
     pub steady: f64,
-    /// How far a droplet has to have swum without turning to be called drifting (length); on a shorter path it may as well be about to
-    /// turn.
+    /// How far a droplet has to have swum without turning to be called drifting (length); on a shorter path it may as
+    /// well be about to turn.
     pub travel: f64,
-    /// Relative residual of a [`LinearMode`] up to which the motion counts as linear (no dimension). Used where there are fewer than four turning
-    /// points.
+    /// Relative residual of a [`LinearMode`] up to which the motion counts as linear (no dimension). Used where there
+    /// are fewer than four turning points.
     pub linear: f64,
 }
 
@@ -108,7 +108,8 @@ impl Default for RegimeCriteria {
 }
 
 impl RegimeCriteria {
-    /// The default for droplets of the radius `radius` (length) whose speeds are of the order of `speed` (length per time).
+    /// The default for droplets of the radius `radius` (length) whose speeds are of the order of `speed` (length per
+    /// time).
     ///
     /// # Errors
     /// Values that are not positive and finite.
@@ -145,8 +146,8 @@ pub struct Evidence {
     pub speed: f64,
     /// Largest distance from the centre line (length).
     pub largest: f64,
-    /// The same at the end: over the last period, or over the last quarter of the window where there is no period (length). The thesis' amplitude
-    /// (section 3.1.2).
+    /// The same at the end: over the last period, or over the last quarter of the window where there is no period
+    /// (length). The thesis' amplitude (section 3.1.2).
     pub amplitude: f64,
     /// Half of the last swing from one turning point to the next one (length).
     pub half_swing: Option<f64>,
@@ -158,7 +159,8 @@ pub struct Evidence {
     pub drift: Estimate,
     /// Turning points.
     pub extrema: Vec<Extremum>,
-    /// How many periods are seen: between the first and the last turning point, or, where these are few, by a linear fit.
+    /// How many periods are seen: between the first and the last turning point, or, where these are few, by a linear
+    /// fit.
     pub periods: f64,
     /// Period (time), of the tail of the motion whose amplitude is exponential or constant.
     pub period: Option<Estimate>,
@@ -178,36 +180,4 @@ pub struct RegimeReport {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names() {
-        assert_eq!(Regime::SteadyOscillation.to_string(), "steady oscillation");
-        let short = Regime::Undecided(Doubt::TooShort { periods: 0.62 });
-        assert_eq!(short.to_string(), "undecided: only 0.6 periods");
-        assert_eq!(Regime::Undecided(Doubt::TooFewSamples { found: 3 }).to_string(), "undecided: only 3 samples");
-    }
-
-    #[test]
-    fn criteria() {
-        let unit = RegimeCriteria::default();
-        assert!(unit.check().is_ok());
-        assert_eq!(RegimeCriteria::scaled(1.0, 0.1).unwrap(), unit);
-        let small = RegimeCriteria::scaled(1e-5, 2e-6).unwrap();
-        assert!((small.centre / 1e-11 - 1.0).abs() < 1e-14 && (small.rest / 2e-8 - 1.0).abs() < 1e-14);
-        assert!((small.travel / 1e-4 - 1.0).abs() < 1e-14);
-        assert!(RegimeCriteria::scaled(0.0, 0.1).is_err() && RegimeCriteria::scaled(1.0, f64::NAN).is_err());
-        for transient in [-0.1, 1.0, f64::NAN] {
-            assert!(RegimeCriteria { transient, ..unit }.check().is_err());
-        }
-        for bad in [0.0, f64::NAN, f64::INFINITY] {
-            assert!(RegimeCriteria { centre: bad, ..unit }.check().is_err());
-            assert!(RegimeCriteria { rest: bad, ..unit }.check().is_err());
-            assert!(RegimeCriteria { hysteresis: bad, ..unit }.check().is_err());
-            assert!(RegimeCriteria { steady: bad, ..unit }.check().is_err());
-            assert!(RegimeCriteria { travel: bad, ..unit }.check().is_err());
-            assert!(RegimeCriteria { linear: bad, ..unit }.check().is_err());
-        }
-    }
-}
+mod tests;

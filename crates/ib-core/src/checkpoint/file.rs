@@ -1,7 +1,7 @@
 //! Checkpoints as bytes and as files.
 //!
-//! A file is a header of 24 bytes and the contents in the postcard format (all numbers little-endian): eight bytes that say
-//! what it is, the version of the format (four bytes), the length of the contents (eight), their CRC-32 (four).
+//! A file is a header of 24 bytes and the contents in the postcard format (all numbers little-endian): eight bytes that
+//! say what it is, the version of the format (four bytes), the length of the contents (eight), their CRC-32 (four).
 
 use std::fs::{self, File};
 use std::io::{Read, Write};
@@ -75,8 +75,8 @@ impl Checkpoint {
         }
     }
 
-    /// Writes a file: to a temporary one in the same directory, which takes the place of `path` when it is complete and on the disk. However the
-    /// program ends, there is a complete checkpoint at `path` if there was one before.
+    /// Writes a file: to a temporary one in the same directory, which takes the place of `path` when it is complete and
+    /// on the disk. However the program ends, there is a complete checkpoint at `path` if there was one before.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -100,7 +100,8 @@ impl Checkpoint {
             .map_err(problem("write", &temporary))
             .and_then(|()| fs::rename(&temporary, path).map_err(problem("put in its place", path)));
         if moved.is_err() {
-            // What is left of a failed attempt is of no use; where it cannot be removed there is nothing to do about it.
+            // What is left of a failed attempt is of no use; where it cannot be removed there is nothing to do about
+            // it.
             let _ = fs::remove_file(&temporary);
         }
         moved
@@ -121,8 +122,8 @@ impl Checkpoint {
     }
 }
 
-/// Where a checkpoint is written before it is complete: beside its place, so that it can be moved there at once, under a name of this
-/// process' own.
+/// Where a checkpoint is written before it is complete: beside its place, so that it can be moved there at once, under
+/// a name of this process' own.
 fn temporary(path: &Path) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     path.with_file_name(format!(".{name}.{}.part", std::process::id()))

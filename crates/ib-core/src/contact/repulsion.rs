@@ -2,8 +2,9 @@
 
 use crate::{FlowError, MarkerKind, Markers, Vec2};
 
-/// A repulsion between different interfaces that come close, an option for scenes of several droplets whose films the grid does not
-/// resolve; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of the thesis' model.
+/// A repulsion between different interfaces that come close, an option for scenes of several droplets whose films the
+/// grid does not resolve; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of
+/// the thesis' model.
 ///
 /// Each pair of pieces of interfaces of lengths ds and ds', a distance r < range apart, is pushed apart by the force
 /// ```text
@@ -46,8 +47,8 @@ impl Repulsion {
         self.range
     }
 
-    /// Largest stable step of the midpoint rule (time) in fluid of viscosity eta: two flat interfaces within the range move apart at a rate
-    /// of at most about `strength range / (2 eta)`.
+    /// Largest stable step of the midpoint rule (time) in fluid of viscosity eta: two flat interfaces within the range
+    /// move apart at a rate of at most about `strength range / (2 eta)`.
     pub(crate) fn step_limit(&self, viscosity: f64) -> f64 {
         4.0 * viscosity / (self.strength * self.range)
     }
@@ -100,44 +101,4 @@ fn apart(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn circle(markers: &mut Markers, centre: Vec2) {
-        let start = markers.len();
-        markers.push_group(64, MarkerKind::Interface { viscosity_inside: None });
-        for k in 0..64 {
-            let angle = std::f64::consts::TAU * k as f64 / 64.0;
-            markers.positions[start + k] = centre + Vec2::new(angle.cos(), angle.sin());
-        }
-    }
-
-    #[test]
-    fn pushes_apart_across_a_period_without_a_resultant() {
-        let mut markers = Markers::new();
-        circle(&mut markers, Vec2::zeros());
-        circle(&mut markers, Vec2::new(-2.1, 0.0));
-        let repulsion = Repulsion::new(3.0, 0.2).unwrap();
-        let sums =
-            |markers: &Markers| [0, 1].map(|k| markers.forces[markers.groups()[k].range.clone()].iter().sum::<Vec2>());
-        repulsion.add(&mut markers, [None; 2]);
-        let near = sums(&markers);
-        assert!(near[0].x > 1e-4 && (near[0] + near[1]).norm() < 1e-15);
-        markers.forces.fill(Vec2::zeros());
-        for place in &mut markers.positions[64..] {
-            place.x += 8.0;
-        }
-        repulsion.add(&mut markers, [Some(8.0), None]);
-        assert!((sums(&markers)[0] - near[0]).norm() < 1e-14);
-        markers.forces.fill(Vec2::zeros());
-        repulsion.add(&mut markers, [None; 2]);
-        assert_eq!(sums(&markers)[0], Vec2::zeros());
-    }
-
-    #[test]
-    fn what_is_no_repulsion_is_refused() {
-        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(Repulsion::new(bad, 0.1).is_err() && Repulsion::new(1.0, bad).is_err());
-        }
-    }
-}
+mod tests;

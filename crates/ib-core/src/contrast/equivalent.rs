@@ -16,17 +16,19 @@ const TOLERANCE: f64 = 1e-4;
 /// Iterations before giving up.
 const MOST_ITERATIONS: usize = 120;
 
-/// Forces q on the markers of droplets of another viscosity that, in a fluid of one viscosity, leave the velocities v there:
+/// Forces q on the markers of droplets of another viscosity that, in a fluid of one viscosity, leave the velocities v
+/// there:
 ///
 /// `S q = eta v`, S the velocity times viscosity that forces have on the markers.
 ///
-/// By uniqueness the flow of q is then that of the droplets, inside and outside. It is not the small difference of two large
-/// flows, so that the errors of the grid are not multiplied by the ratio of viscosities, and it costs one solve on the grid
-/// wherever it is wanted. Pressures inside are those of the fluid of one viscosity times the ratio, plus a constant.
+/// By uniqueness the flow of q is then that of the droplets, inside and outside. It is not the small difference of two
+/// large flows, so that the errors of the grid are not multiplied by the ratio of viscosities, and it costs one solve
+/// on the grid wherever it is wanted. Pressures inside are those of the fluid of one viscosity times the ratio, plus a
+/// constant.
 ///
-/// On a straight interface S multiplies the wave number k by 1/(4 k), along and across alike, which makes a preconditioner; what
-/// is too short for the grid is left out. A uniform force along the normal moves nothing and is fixed to what suits the
-/// iteration.
+/// On a straight interface S multiplies the wave number k by 1/(4 k), along and across alike, which makes a
+/// preconditioner; what is too short for the grid is left out. A uniform force along the normal moves nothing and is
+/// fixed to what suits the iteration.
 #[derive(Debug, Default)]
 pub(crate) struct EquivalentForces {
     filters: Vec<Filter>,
@@ -142,7 +144,8 @@ impl EquivalentForces {
         self.unknown.extend_from_slice(guess);
     }
 
-    /// Finds the forces for velocities times viscosity `target` at the droplets' nodes; `respond` gives those of forces.
+    /// Finds the forces for velocities times viscosity `target` at the droplets' nodes; `respond` gives those of
+    /// forces.
     pub(crate) fn solve(
         &mut self,
         droplets: &[Droplet],

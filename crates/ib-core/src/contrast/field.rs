@@ -30,10 +30,10 @@ impl Nearby {
         self.distance
     }
 
-    /// Velocity and its gradient from the velocities `on_nodes` and the flow `at` places that are `reach` (length) and more away
-    /// from the interface. Nearer than that the velocity is a parabola along the normal, through a value a `step` farther away. The
-    /// gradient, which needs more room, is taken from twice the reach: across the interface by the same parabola, along it
-    /// on a straight line to that on the interface.
+    /// Velocity and its gradient from the velocities `on_nodes` and the flow `at` places that are `reach` (length) and
+    /// more away from the interface. Nearer than that the velocity is a parabola along the normal, through a value a
+    /// `step` farther away. The gradient, which needs more room, is taken from twice the reach: across the interface by
+    /// the same parabola, along it on a straight line to that on the interface.
     pub(crate) fn flow(
         &self,
         point: Vec2,
@@ -116,11 +116,11 @@ impl Contrast {
         })
     }
 
-    /// What the pressure inside each droplet exceeds the ratio of viscosities times that of the fluid of one viscosity by (force per
-    /// length).
+    /// What the pressure inside each droplet exceeds the ratio of viscosities times that of the fluid of one viscosity
+    /// by (force per length).
     ///
-    /// With the equivalent forces q in place of the forces F, both per length, that fluid's pressure inside is the mean of both sides,
-    /// `at_nodes`, less q_n/2. The normal stresses balance, with
+    /// With the equivalent forces q in place of the forces F, both per length, that fluid's pressure inside is the mean
+    /// of both sides, `at_nodes`, less q_n/2. The normal stresses balance, with
     /// `n . dv/dn = -tau . dv/ds` in an incompressible flow, so that on the interface
     ///
     /// `p_in = p + q_n/2 - F_n - 2 (eta_in - eta) tau . dv/ds`.

@@ -7,8 +7,8 @@ use super::droplet::Droplet;
 /// Rigid motions of one droplet: along x, along y, and a rotation.
 pub(crate) const RIGID: usize = 3;
 
-/// Rigid motions on the nodes of all droplets, orthonormal in the product weighted by the arc length; x components of all
-/// nodes first, then y components.
+/// Rigid motions on the nodes of all droplets, orthonormal in the product weighted by the arc length; x components of
+/// all nodes first, then y components.
 #[derive(Debug, Default)]
 pub(crate) struct RigidModes {
     /// Motion by motion, with zeros on the other droplets.

@@ -23,8 +23,8 @@ pub(crate) struct RigidWalls {
 }
 
 impl RigidWalls {
-    /// Walls at the heights `bottom` and `top` of a channel of length `period`; `zero_flux` where the flux is held fixed.
-    /// Nodes closer to a wall than `least_gap` (length) count as that far away.
+    /// Walls at the heights `bottom` and `top` of a channel of length `period`; `zero_flux` where the flux is held
+    /// fixed. Nodes closer to a wall than `least_gap` (length) count as that far away.
     pub(crate) fn new(period: f64, [bottom, top]: [f64; 2], zero_flux: bool, least_gap: f64) -> Self {
         let half = 0.5 * (top - bottom);
         Self {
@@ -63,8 +63,8 @@ impl RigidWalls {
         });
     }
 
-    /// Adds the tractions at the nodes of the flow of forces there: the transpose of [`RigidWalls::add_dipoles`], by the
-    /// symmetry of the Green's function.
+    /// Adds the tractions at the nodes of the flow of forces there: the transpose of [`RigidWalls::add_dipoles`], by
+    /// the symmetry of the Green's function.
     pub(crate) fn add_tractions(
         &mut self,
         droplets: &[Droplet],

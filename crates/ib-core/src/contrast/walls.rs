@@ -158,8 +158,8 @@ impl WallModes {
         }
     }
 
-    /// Adds dipoles: (v_x n_x, v_x n_y + v_y n_x, v_y n_y) times weight at points, with x measured from anywhere as long
-    /// as the flux through the curve is zero.
+    /// Adds dipoles: (v_x n_x, v_x n_y + v_y n_x, v_y n_y) times weight at points, with x measured from anywhere as
+    /// long as the flux through the curve is zero.
     pub(crate) fn add_dipoles(
         &mut self,
         points: &WallPoints,

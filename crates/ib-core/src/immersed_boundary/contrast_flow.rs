@@ -15,7 +15,8 @@ pub(super) struct ContrastFlow<K> {
     equivalent: EquivalentForces,
     /// For the droplets' nodes alone.
     transfer: Transfer<K>,
-    /// The flow without forces (imposed fluxes, walls that move) and its mean pressure gradient; none where it vanishes.
+    /// The flow without forces (imposed fluxes, walls that move) and its mean pressure gradient; none where it
+    /// vanishes.
     imposed: Option<(StaggeredField, [f64; 2])>,
     /// At the droplets' nodes.
     nodes: Nodes,
@@ -115,8 +116,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         })
     }
 
-    /// The flow with interfaces to other viscosities: one solve on the grid for their forces, one for all others if there are
-    /// any, and the double layer; where there are other markers, the flow of the equivalent forces for these.
+    /// The flow with interfaces to other viscosities: one solve on the grid for their forces, one for all others if
+    /// there are any, and the double layer; where there are other markers, the flow of the equivalent forces for these.
     pub(super) fn contrast_velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
         let mut flow = self.take_contrast()?;
         let outcome = self.contrast_with(&mut flow, markers);
@@ -168,8 +169,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(FlowReport { iterations, residual, mean_pressure_gradient: gradient })
     }
 
-    /// The flow of all forces but the droplets' and of what is imposed: at the droplets' nodes, at the other markers (with
-    /// the mobility correction) and on the grid; its mean pressure gradient.
+    /// The flow of all forces but the droplets' and of what is imposed: at the droplets' nodes, at the other markers
+    /// (with the mobility correction) and on the grid; its mean pressure gradient.
     fn solve_others(&mut self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<[f64; 2], FlowError> {
         flow.all.clear();
         flow.all.extend_from_slice(&markers.forces);
@@ -259,8 +260,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         })
     }
 
-    /// As [`crate::Hydrodynamics::sample`] where viscosities differ. Closer to an interface than the kernel reaches the velocity is a
-    /// parabola between the interface's and the flow at that distance on the same side; pressure and gradient are those there.
+    /// As [`crate::Hydrodynamics::sample`] where viscosities differ. Closer to an interface than the kernel reaches the
+    /// velocity is a parabola between the interface's and the flow at that distance on the same side; pressure and
+    /// gradient are those there.
     pub(super) fn contrast_sample(
         &mut self,
         markers: &Markers,
@@ -326,8 +328,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(())
     }
 
-    /// Distance from an interface (length) beyond which what spreading smears of the flow can be neglected, three times its
-    /// width, and a step beyond that.
+    /// Distance from an interface (length) beyond which what spreading smears of the flow can be neglected, three times
+    /// its width, and a step beyond that.
     fn reach(&self) -> [f64; 2] {
         let h = self.grid().spacing();
         [3.0 * self.variance.sqrt() * h, h]

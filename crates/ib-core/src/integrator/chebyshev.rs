@@ -13,8 +13,9 @@ use crate::{Hydrodynamics, Record, SceneError, System};
 pub enum SpectralEstimate {
     /// From the bodies' own limits ([`crate::Body::step_limits`]): costs nothing.
     Predicted,
-    /// From the bodies' limits, times how much faster the state was found to be by the power method, once every this many steps. A
-    /// state that was found to be slower is not trusted: where the method starts from it may not see the fastest mode.
+    /// From the bodies' limits, times how much faster the state was found to be by the power method, once every this
+    /// many steps. A state that was found to be slower is not trusted: where the method starts from it may not see the
+    /// fastest mode.
     Measured(usize),
 }
 
@@ -22,24 +23,28 @@ pub enum SpectralEstimate {
 const MARGIN: f64 = 1.05;
 /// Range in which a measurement may correct a prediction.
 const CORRECTION: [f64; 2] = [1.0, 20.0];
-/// Largest error of a step of a fraction of the stability limit: where decays do not bound the step, the limit says nothing of accuracy.
+/// Largest error of a step of a fraction of the stability limit: where decays do not bound the step, the limit says
+/// nothing of accuracy.
 const ERROR_BOUND: f64 = 3e-4;
 
-/// The second-order method of Runge, Kutta and Chebyshev (Sommeijer, Shampine and Verwer 1998), for stiff bodies: s stages, each an evaluation
-/// of forces and flow, are stable up to `dt rate < 0.65 (s^2 - 1)` where the midpoint rule's two reach 2. For a
-/// given step it takes as many stages as the fastest rate of decay asks for.
+/// The second-order method of Runge, Kutta and Chebyshev (Sommeijer, Shampine and Verwer 1998), for stiff bodies: s
+/// stages, each an evaluation of forces and flow, are stable up to `dt rate < 0.65 (s^2 - 1)` where the midpoint rule's
+/// two reach 2. For a given step it takes as many stages as the fastest rate of decay asks for.
 ///
-/// The bodies' implicit parts (diffusion along an interface) are solved for in each stage, as in Verwer and Sommeijer (2004):
+/// The bodies' implicit parts (diffusion along an interface) are solved for in each stage, as in Verwer and Sommeijer
+/// (2004):
 /// ```text
 /// Y_1 = Y_0 + m dt (f_0 + g_1)
 /// Y_j = (1-mu-nu) Y_0 + mu Y_{j-1} + nu Y_{j-2} + dt (r f_{j-1} + r_0 f_0) + dt ((r_0 - (1-mu-nu) m) g_0 - nu m g_{j-2} + m g_j)
 /// ```
-/// with f the explicit and g the implicit part of the rate. These are of first order in g; so the last stage is followed by
+/// with f the explicit and g the implicit part of the rate. These are of first order in g; so the last stage is
+/// followed by
 /// ```text
 /// y' = Y_0 + E_s + dt/2 (g(Y_0) + g(y')),   E_j = mu E_{j-1} + nu E_{j-2} + dt (r f_{j-1} + r_0 f_0),
 /// ```
-/// the explicit part of the step and the trapezoidal rule for the implicit one, which is of second order in both, and stable however stiff
-/// the implicit part is. What is not a decay, such as the transport of particles, limits a step as it does for any method.
+/// the explicit part of the step and the trapezoidal rule for the implicit one, which is of second order in both, and
+/// stable however stiff the implicit part is. What is not a decay, such as the transport of particles, limits a step as
+/// it does for any method.
 #[derive(Debug, Clone)]
 pub struct RungeKuttaChebyshev {
     most_stages: usize,
@@ -93,8 +98,8 @@ impl RungeKuttaChebyshev {
         Self::default()
     }
 
-    /// The same with at most this many stages a step (2 to 200; others are taken as the nearest of these). Runs shorten their steps where
-    /// more would be needed.
+    /// The same with at most this many stages a step (2 to 200; others are taken as the nearest of these). Runs shorten
+    /// their steps where more would be needed.
     #[must_use]
     pub fn with_most_stages(mut self, stages: usize) -> Self {
         self.most_stages = stages.clamp(2, 200);

@@ -9,11 +9,11 @@ const PERTURBATION: f64 = 1e-6;
 /// Part of the estimate that may be missing when it is taken.
 const TOLERANCE: f64 = 0.1;
 
-/// The nonlinear power method (Sommeijer, Shampine and Verwer 1998): differences of rates between a state and a perturbed one, the
-/// perturbation being turned towards the fastest mode. Starts from the direction found last.
+/// The nonlinear power method (Sommeijer, Shampine and Verwer 1998): differences of rates between a state and a
+/// perturbed one, the perturbation being turned towards the fastest mode. Starts from the direction found last.
 ///
-/// The rates of elastic walls and of interfaces lie densely up to the fastest, so that the estimate approaches it only as `1 - c/k` after
-/// k evaluations: what is missing is k times the last change, however small that is.
+/// The rates of elastic walls and of interfaces lie densely up to the fastest, so that the estimate approaches it only
+/// as `1 - c/k` after k evaluations: what is missing is k times the last change, however small that is.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PowerMethod {
     pub(super) direction: Vec<f64>,
@@ -29,8 +29,8 @@ fn norm(values: &[f64], scales: &[f64]) -> f64 {
 }
 
 impl PowerMethod {
-    /// The spectral radius (1/time) of the derivative of the explicit rate at `state`, whose rate is `rate`, and the evaluations that it
-    /// took. The bodies are left in another state.
+    /// The spectral radius (1/time) of the derivative of the explicit rate at `state`, whose rate is `rate`, and the
+    /// evaluations that it took. The bodies are left in another state.
     ///
     /// # Errors
     /// Those of the bodies and of the flow.
@@ -47,8 +47,8 @@ impl PowerMethod {
         self.perturbed.resize(len, 0.0);
         let known = self.direction.len() == len && norm(&self.direction, &self.scales) > 0.0;
         if !known {
-            // Neighbours move against each other, each body's entries in their own units; the weights keep it from being orthogonal
-            // to a mode by symmetry.
+            // Neighbours move against each other, each body's entries in their own units; the weights keep it from
+            // being orthogonal to a mode by symmetry.
             self.direction.clear();
             let weight = |k: usize| 1.0 + 0.5 * ((k * 7919) % 101) as f64 / 101.0;
             let sign = |k: usize| if (k / 2).is_multiple_of(2) { 1.0 } else { -1.0 };

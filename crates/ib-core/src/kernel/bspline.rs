@@ -4,8 +4,8 @@ use super::pieces::{CUBIC_QUADRATIC, QUADRATIC_LINEAR};
 use super::{Kernel, MAX_SUPPORT, Pieces, Role};
 
 /// Cardinal B-spline of order N in the normal role and N - 1 in the tangential one (degree one less): interpolation of
-/// a discretely divergence-free field with it is divergence free in the continuum (after Bao et al., J. Comput. Phys. 347,
-/// 2017; docs/method.md, section 2). `CompositeBSpline<4>`, cubic and quadratic, is the default of this crate.
+/// a discretely divergence-free field with it is divergence free in the continuum (after Bao et al., J. Comput. Phys.
+/// 347, 2017; docs/method.md, section 2). `CompositeBSpline<4>`, cubic and quadratic, is the default of this crate.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct CompositeBSpline<const N: usize>;
 

@@ -3,8 +3,8 @@
 /// The weights of a kernel of at most four points that between lattice points is a polynomial of degree three (normal
 /// role) or two (tangential role), for spreading and interpolation without a call for each weight.
 ///
-/// A coordinate `r + shift` has the whole part `w` and the fraction t. The weight of the point `w - 1 + i` in the normal role, and of the
-/// point `w - 1/2 + i` in the tangential one, is `sum over d of c[d][i] t^d`.
+/// A coordinate `r + shift` has the whole part `w` and the fraction t. The weight of the point `w - 1 + i` in the
+/// normal role, and of the point `w - 1/2 + i` in the tangential one, is `sum over d of c[d][i] t^d`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pieces {
     /// What is added to a coordinate (in units of h) before it is split.
@@ -37,34 +37,4 @@ pub(super) const QUADRATIC_LINEAR: Pieces = Pieces {
 };
 
 #[cfg(test)]
-mod tests {
-    use crate::{AnyKernel, Kernel, MAX_SUPPORT, Role};
-
-    #[test]
-    fn polynomials_are_the_weights() {
-        let mut with_pieces = 0;
-        for kernel in AnyKernel::ALL {
-            let Some(pieces) = kernel.pieces() else { continue };
-            with_pieces += 1;
-            for k in 0..200 {
-                let r = 0.0731 * f64::from(k) - 3.0;
-                let whole = (r + pieces.shift).floor();
-                let t = r + pieces.shift - whole;
-                let mut expected = [0.0; MAX_SUPPORT];
-                let first = kernel.weights(Role::Normal, r, &mut expected);
-                assert_eq!(first, whole as i64 - 1, "{} at {r}", kernel.name());
-                for (i, expected) in expected[..kernel.support(Role::Normal)].iter().enumerate() {
-                    let weight: f64 = (0..4).map(|d| pieces.normal[d as usize][i] * t.powi(d)).sum();
-                    assert!((weight - expected).abs() < 1e-15, "{}: {weight} {expected}", kernel.name());
-                }
-                let first = kernel.weights(Role::Tangential, r - 0.5, &mut expected);
-                assert_eq!(first, whole as i64 - 1, "{} at {r}", kernel.name());
-                for (i, expected) in expected[..kernel.support(Role::Tangential)].iter().enumerate() {
-                    let weight: f64 = (0..3).map(|d| pieces.tangential[d as usize][i] * t.powi(d)).sum();
-                    assert!((weight - expected).abs() < 1e-15, "{}: {weight} {expected}", kernel.name());
-                }
-            }
-        }
-        assert_eq!(with_pieces, 2);
-    }
-}
+mod tests;

@@ -4,13 +4,14 @@ use super::System;
 use crate::contact::Gap;
 use crate::{Hydrodynamics, MarkerKind, Medium, Repulsion, SceneError, Vec2, wall_gap};
 
-/// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the round-off of a grid.
+/// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the
+/// round-off of a grid.
 const CONTACT: f64 = 0.25;
 
 impl<H: Hydrodynamics> System<H> {
     /// The smallest distance of an interface to a rigid wall at the present state (length; negative beyond a wall, see
-    /// [`wall_gap`]); `None` without walls or interfaces. Solids ([`MarkerKind::Points`]) may stand on a wall and do not
-    /// count. Needs no evaluation.
+    /// [`wall_gap`]); `None` without walls or interfaces. Solids ([`MarkerKind::Points`]) may stand on a wall and do
+    /// not count. Needs no evaluation.
     pub fn wall_gap(&mut self) -> Option<f64> {
         let walls = self.hydrodynamics.medium().domain.walls?;
         let interfaces = || self.bodies.iter().filter(|body| body.kind() != MarkerKind::Points);
@@ -24,15 +25,15 @@ impl<H: Hydrodynamics> System<H> {
         (start > 0).then(|| wall_gap(&self.positions, walls))
     }
 
-    /// The smallest [`System::wall_gap`] since the start (length): over the states after each addition of a body and at the
-    /// end of each step.
+    /// The smallest [`System::wall_gap`] since the start (length): over the states after each addition of a body and at
+    /// the end of each step.
     #[must_use]
     pub fn minimum_wall_gap(&self) -> Option<f64> {
         self.minimum_wall_gap
     }
 
-    /// The smallest gap between two interfaces, or one and its own image in a periodic domain, since the start (length), where it was
-    /// small enough to be looked for; negative where they overlap.
+    /// The smallest gap between two interfaces, or one and its own image in a periodic domain, since the start
+    /// (length), where it was small enough to be looked for; negative where they overlap.
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
         self.minimum_gap
@@ -53,8 +54,8 @@ impl<H: Hydrodynamics> System<H> {
         self.repulsion.as_ref()
     }
 
-    /// Looks at the gaps of the present state: interfaces must not be inside other bodies or their own images by more than a quarter of
-    /// the grid spacing, and no gap narrower than the bound, if there is one.
+    /// Looks at the gaps of the present state: interfaces must not be inside other bodies or their own images by more
+    /// than a quarter of the grid spacing, and no gap narrower than the bound, if there is one.
     pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
         let Medium { domain, spacing, .. } = self.hydrodynamics.medium();
         // Without a grid the spacing of the markers that carry the flow.

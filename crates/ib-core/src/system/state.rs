@@ -49,7 +49,8 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// The explicit rate of change (unit of the state per time) at the present state, whose flow is computed only if it is not known yet.
+    /// The explicit rate of change (unit of the state per time) at the present state, whose flow is computed only if it
+    /// is not known yet.
     ///
     /// # Errors
     /// Those of the bodies and of the flow.
@@ -59,8 +60,8 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// The rate of change at the present state, the implicit part with it; `state` is that state or one that differs from it by what the
-    /// end of a step did.
+    /// The rate of change at the present state, the implicit part with it; `state` is that state or one that differs
+    /// from it by what the end of a step did.
     pub(crate) fn whole_rate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), SceneError> {
         self.present_rate(rate)?;
         self.add_implicit(state, 1.0, rate);

@@ -68,8 +68,8 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
         self.walls
     }
 
-    /// Adds `force` (force density times cells) at `place` (in units of h) to the rows of both components that are there, from
-    /// `first_row` on.
+    /// Adds `force` (force density times cells) at `place` (in units of h) to the rows of both components that are
+    /// there, from `first_row` on.
     #[inline(never)]
     pub(super) fn add(&self, place: [f64; 2], force: [f64; 2], first_row: usize, fx: &mut [f64], fy: &mut [f64]) {
         let [[normal_x, tangential_x], [normal_y, tangential_y]] = place.map(|r| self.lines(r));

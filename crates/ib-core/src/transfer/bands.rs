@@ -15,8 +15,8 @@ const LEAST_MARKERS: usize = 30_000;
 /// Bands of rows, and pieces of the list of markers, whatever the number of threads.
 const BANDS: usize = 16;
 
-/// Fewest rows of a band: many more than the kernels reach, so that few markers reach into two, and what is folded back at a wall
-/// stays in the band at the wall.
+/// Fewest rows of a band: many more than the kernels reach, so that few markers reach into two, and what is folded back
+/// at a wall stays in the band at the wall.
 const LEAST_ROWS: usize = 40;
 
 /// Rows that no kernel reaches beyond, and two by which the row of a marker may be off.
@@ -27,8 +27,8 @@ const SHARE: usize = 1024;
 
 /// Which markers reach which bands of rows of the grid.
 ///
-/// Each band adds the forces of its markers in the order of the markers. So every value on the grid is the same sum in the
-/// same order as on one thread.
+/// Each band adds the forces of its markers in the order of the markers. So every value on the grid is the same sum in
+/// the same order as on one thread.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Bands {
     /// Rows of a band; the last one has more. Zero where one thread does it all.
@@ -113,8 +113,8 @@ impl Bands {
     }
 }
 
-/// Does `work` for each of the bands from `first` to before `end`, whose rows begin at `components` and of which all but the last have
-/// `size` values, by halves that any thread may take.
+/// Does `work` for each of the bands from `first` to before `end`, whose rows begin at `components` and of which all
+/// but the last have `size` values, by halves that any thread may take.
 fn divide(
     first: usize,
     end: usize,
@@ -149,45 +149,4 @@ pub(super) fn interpolate<K: Kernel>(
 }
 
 #[cfg(test)]
-mod tests {
-    use stokes_grid::{Grid, StaggeredField};
-
-    use crate::{AnyKernel, Kernel, Transfer, Vec2};
-
-    #[test]
-    fn several_threads_give_the_bits_of_one() {
-        let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let grids =
-            [Grid::channel(64, 90, 0.1), Grid::channel(70, 161, 0.1), Grid::periodic(48, 97, 0.1)].map(Result::unwrap);
-        for (grid, kernel) in grids.into_iter().flat_map(|grid| AnyKernel::ALL.map(|kernel| (grid, kernel))) {
-            let [_, ly] = grid.lengths();
-            let y0 = grid.origin()[1];
-            // Everywhere, the walls themselves included.
-            let place = |k: usize| {
-                let k = k as f64;
-                Vec2::new(0.00137 * k - 20.0, y0 + ly * (0.5 + 0.5 * (1.1 * (0.37 * k).sin()).clamp(-1.0, 1.0)))
-            };
-            let positions: Vec<Vec2> = (0..31_000).map(place).collect();
-            let forces: Vec<Vec2> = positions.iter().map(|x| Vec2::new(x.y.sin(), (3.0 * x.x).cos())).collect();
-            let both = |threads| {
-                pool(threads).install(|| {
-                    let mut transfer = Transfer::new(grid, kernel);
-                    transfer.locate(&positions);
-                    assert_eq!(transfer.bands.are_used(), threads > 1);
-                    let mut density = StaggeredField::zeros(grid);
-                    transfer.spread(&forces, &mut density);
-                    let mut velocities = vec![Vec2::zeros(); positions.len()];
-                    transfer.interpolate(&density, &mut velocities);
-                    (density, velocities)
-                })
-            };
-            let (density, velocities) = both(1);
-            for threads in [2, 3] {
-                let (other_density, other_velocities) = both(threads);
-                assert_eq!(density.x(), other_density.x(), "{} {threads}", kernel.name());
-                assert_eq!(density.y(), other_density.y(), "{} {threads}", kernel.name());
-                assert_eq!(velocities, other_velocities, "{} {threads}", kernel.name());
-            }
-        }
-    }
-}
+mod tests;

@@ -48,8 +48,8 @@ pub(super) fn weights<L: Lanes>(l: L, pieces: &impl Polynomials, t: f64) -> [L::
     [normal, tangential]
 }
 
-/// The weights of the window of a marker as numbers, each for both components: of the rows, of the columns, and of the columns of a
-/// second window at the other end of the same rows.
+/// The weights of the window of a marker as numbers, each for both components: of the rows, of the columns, and of the
+/// columns of a second window at the other end of the same rows.
 #[derive(Debug, Clone, Copy)]
 struct Window {
     rows: [[f64; 4]; 2],
@@ -72,8 +72,8 @@ fn window<L: Lanes>(l: L, pieces: &impl Polynomials, spot: &Spot) -> Window {
     }
 }
 
-/// The weights of the windows of a marker at an edge of the grid from those of its stencil. At a wall the x component is odd, the
-/// y component even.
+/// The weights of the windows of a marker at an edge of the grid from those of its stencil. At a wall the x component
+/// is odd, the y component even.
 #[inline(never)]
 fn at_edge(edge: Edge, window: &mut Window) {
     let [u, v] = window.rows;
@@ -265,58 +265,4 @@ fn cells<L: Lanes>(l: L, field: &[f64], base: usize) -> L::Four {
 }
 
 #[cfg(test)]
-mod tests {
-    use stokes_grid::Grid;
-
-    use super::*;
-    use crate::CubicQuadratic;
-    use crate::transfer::lanes::{Portable, dispatch};
-    use crate::transfer::spots::Spots;
-
-    /// On a machine without wide instructions both are the same.
-    #[test]
-    fn all_instructions_agree() {
-        let grid = Grid::channel(20, 16, 0.1).unwrap();
-        let kernel = CubicQuadratic::default();
-        let anywhere = Anywhere::new(&kernel, &grid);
-        let positions: Vec<Vec2> =
-            (0..500).map(|k| f64::from(k) * 0.0731).map(|k| Vec2::new(k % 2.0 - 1.0, (k * 0.39) % 1.6 - 0.8)).collect();
-        let forces: Vec<Vec2> = positions.iter().map(|r| Vec2::new(r.x.sin(), (r.y * 1.7).cos())).collect();
-        let mut found = Spots::new(&grid);
-        found.find(kernel.pieces(), &positions);
-        let (spots, elsewhere) = (found.all(), found.elsewhere());
-        let cells = 20 * 17;
-        let both = |wide: bool| {
-            let (mut fx, mut fy) = (vec![0.0; cells - 20], vec![0.0; cells]);
-            let markers = Markers { spots, forces: &forces, stride: 8, elsewhere };
-            let band = Band { first_row: 0, fx: &mut fx, fy: &mut fy };
-            let task = Spreading { anywhere, pieces: CubicQuadratics, scale: 3.0, markers, band };
-            if wide {
-                dispatch(task);
-            } else {
-                task.run(Portable);
-            }
-            let mut velocities = vec![Vec2::zeros(); positions.len()];
-            let (u, v, velocities_mut) = (&fx[..], &fy[..], &mut velocities[..]);
-            let pieces = CubicQuadratics;
-            let task = Interpolation { anywhere, pieces, spots, elsewhere, u, v, velocities: velocities_mut };
-            if wide {
-                dispatch(task);
-            } else {
-                task.run(Portable);
-            }
-            (fx, fy, velocities)
-        };
-        let (wide, plain) = (both(true), both(false));
-        let size = plain.0.iter().chain(&plain.1).fold(0.0_f64, |size, value| size.max(value.abs()));
-        assert!(size > 1.0);
-        // A few roundings of the largest of the sums on the way.
-        let close = |a: f64, b: f64| (a - b).abs() < 16.0 * f64::EPSILON * size;
-        let numbers = |(fx, fy, velocities): (Vec<f64>, Vec<f64>, Vec<Vec2>)| {
-            fx.into_iter().chain(fy).chain(velocities.into_iter().flat_map(|u| [u.x, u.y])).collect::<Vec<_>>()
-        };
-        for (wide, plain) in numbers(wide).into_iter().zip(numbers(plain)) {
-            assert!(close(wide, plain), "{wide} {plain}");
-        }
-    }
-}
+mod tests;

@@ -1,6 +1,7 @@
 //! Four numbers at once, with the instructions of the machine.
 
-/// Arithmetic on four numbers, of which each operation is rounded once. Only [`Lanes::mul_add`] differs between machines.
+/// Arithmetic on four numbers, of which each operation is rounded once. Only [`Lanes::mul_add`] differs between
+/// machines.
 pub(super) trait Lanes: Copy {
     /// The four numbers.
     type Four: Copy;

@@ -8,8 +8,9 @@ use crate::{Pieces, Vec2};
 /// The smallest number above which doubles have no fraction, times one and a half to leave room for negative ones.
 const WHOLE: f64 = 6_755_399_441_055_744.0;
 
-/// The whole part of `x` and the rest in [0, 1], without the library call that `floor` is on machines of old. Below 2^50
-/// in size, else some number; at a whole number the rest may be one instead of zero, where continuous weights agree.
+/// The whole part of `x` and the rest in [0, 1], without the library call that `floor` is on machines of old. Below
+/// 2^50 in size, else some number; at a whole number the rest may be one instead of zero, where continuous weights
+/// agree.
 #[inline(always)]
 pub(super) fn split(x: f64) -> (i64, f64) {
     let shifted = (x - 0.5) + WHOLE;
@@ -40,8 +41,8 @@ pub(super) struct Edge {
     pub(super) below: bool,
     /// It ends one row above the window, beyond the upper wall.
     pub(super) above: bool,
-    /// The window ends the rows, and that many columns of the stencil (one to three) are in it; the others begin the rows. Zero where
-    /// the stencil does not wrap around.
+    /// The window ends the rows, and that many columns of the stencil (one to three) are in it; the others begin the
+    /// rows. Zero where the stencil does not wrap around.
     pub(super) wrapped: usize,
 }
 
@@ -70,8 +71,9 @@ impl From<Edge> for u32 {
 pub(super) struct Spots {
     /// In the order of the markers.
     spots: Vec<Spot>,
-    /// The places, in units of h from the origin of the grid and wrapped where the box is periodic, of the markers whose stencils wrap
-    /// around the box or reach far beyond a wall, or of all where the kernel is not made of polynomials.
+    /// The places, in units of h from the origin of the grid and wrapped where the box is periodic, of the markers
+    /// whose stencils wrap around the box or reach far beyond a wall, or of all where the kernel is not made of
+    /// polynomials.
     elsewhere: Vec<[f64; 2]>,
     columns: usize,
     rows: usize,

@@ -1,5 +1,5 @@
-//! Both channel solvers against a direct solution of the whole discrete system, against each other, and where the discrete
-//! solution is known.
+//! Both channel solvers against a direct solution of the whole discrete system, against each other, and where the
+//! discrete solution is known.
 
 use crate::common::{distance, largest, random_force, relative_distance, residuals};
 use crate::dense;

@@ -29,8 +29,8 @@ impl Flow {
 
 const K: f64 = 2.0 * PI;
 
-/// A channel 0 < y < 1 of length 1: psi = y^2 (1-y)^2 (2 + sin kx) plus the flow of walls that slide as 0.2 + 0.1 cos kx at the
-/// bottom, -y (1-y)^2 U, and sin kx at the top, -y^2 (1-y) U with its sign; p = e^y sin kx + y^3.
+/// A channel 0 < y < 1 of length 1: psi = y^2 (1-y)^2 (2 + sin kx) plus the flow of walls that slide as 0.2 + 0.1 cos
+/// kx at the bottom, -y (1-y)^2 U, and sin kx at the top, -y^2 (1-y) U with its sign; p = e^y sin kx + y^3.
 const CHANNEL: Flow = Flow {
     psi: |x, y| shape(y)[0] * (2.0 + (K * x).sin()) + low(y)[0] * bottom(x)[0] + high(y)[0] * top(x)[0],
     velocity: |x, y| {

@@ -19,8 +19,8 @@ pub struct FieldErrors {
     pub pressure: f64,
 }
 
-/// Largest errors of sampled flows at points of a droplet's surroundings that are nearer to the interface than 3h, on the
-/// inside and on the outside, and farther away, inside and outside.
+/// Largest errors of sampled flows at points of a droplet's surroundings that are nearer to the interface than 3h, on
+/// the inside and on the outside, and farther away, inside and outside.
 ///
 /// # Errors
 /// A spacing that does not divide the region; what the solvers can fail with.

@@ -21,8 +21,8 @@ pub struct Iterations {
     pub residual: f64,
 }
 
-/// The iterations of one solve from nothing: a circle of radius 1 with the tension 10 + 3 cos + 2 cos 2 + cos 3, `ratio` times as
-/// viscous as its surroundings, its viscosity smeared over Peskin's function.
+/// The iterations of one solve from nothing: a circle of radius 1 with the tension 10 + 3 cos + 2 cos 2 + cos 3,
+/// `ratio` times as viscous as its surroundings, its viscosity smeared over Peskin's function.
 ///
 /// # Errors
 /// A spacing that does not divide the region; no convergence.
@@ -43,8 +43,8 @@ pub fn cold_iterations(region: Region, h: f64, ratio: f64, tolerance: f64) -> Re
     Ok(Iterations { mean: report.iterations as f64, most: report.iterations, residual: report.residual })
 }
 
-/// The iterations of each solve of a swimmer, (10 `ratio`, 10), activity -4, A = 10, 6 x 6 box, over `steps` steps of `dt` once it has
-/// swum to t = 1.
+/// The iterations of each solve of a swimmer, (10 `ratio`, 10), activity -4, A = 10, 6 x 6 box, over `steps` steps of
+/// `dt` once it has swum to t = 1.
 ///
 /// # Errors
 /// What a run can fail with.

@@ -20,8 +20,8 @@ pub struct LayerErrors {
 }
 
 /// A layer `ratio` times as viscous as the rest, with edges about a tenth of the height wide, in the flow of
-/// `psi = y^2 (1-y)^2 (2 + sin 2 pi x)` between walls at y = 0 and 1 or `psi = sin 2 pi y (2 + sin 2 pi x)` in a unit box, driven by the
-/// forces that this takes.
+/// `psi = y^2 (1-y)^2 (2 + sin 2 pi x)` between walls at y = 0 and 1 or `psi = sin 2 pi y (2 + sin 2 pi x)` in a unit
+/// box, driven by the forces that this takes.
 #[derive(Debug, Clone, Copy)]
 struct Layer {
     ratio: f64,

@@ -25,8 +25,8 @@ pub enum Way {
     Smeared,
 }
 
-/// The rate (1/time) at which the first mode of the concentration of a round droplet of `swimmer` grows in its box: of the
-/// difference of two runs with opposite perturbations.
+/// The rate (1/time) at which the first mode of the concentration of a round droplet of `swimmer` grows in its box: of
+/// the difference of two runs with opposite perturbations.
 ///
 /// # Errors
 /// What a run can fail with.

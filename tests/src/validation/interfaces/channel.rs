@@ -23,8 +23,8 @@ pub struct ChannelErrors {
     pub area_change: f64,
 }
 
-/// Runs a swimmer (period 12, A = 10, viscosity 100, zero mean pressure gradient) from the polarised start to `time` and compares it
-/// with the steady state of `channel_steady_swimmer.csv`.
+/// Runs a swimmer (period 12, A = 10, viscosity 100, zero mean pressure gradient) from the polarised start to `time`
+/// and compares it with the steady state of `channel_steady_swimmer.csv`.
 ///
 /// # Errors
 /// An activity or width that is not in the table, and what a run can fail with.

@@ -19,8 +19,8 @@ pub struct IntegralRelaxation {
     pub area_change: f64,
 }
 
-/// Relaxes the ellipse (1.3 cos t, sin t / 1.3), tension 1, viscosity 1 outside and `ratio` (1 or 10) inside, in a 6 x 6 box to
-/// t = 2, with `nodes` nodes, `markers` markers and steps `dt`.
+/// Relaxes the ellipse (1.3 cos t, sin t / 1.3), tension 1, viscosity 1 outside and `ratio` (1 or 10) inside, in a 6 x
+/// 6 box to t = 2, with `nodes` nodes, `markers` markers and steps `dt`.
 ///
 /// # Errors
 /// A ratio that is not in the table; what a run can fail with.

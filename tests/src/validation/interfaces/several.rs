@@ -26,8 +26,8 @@ pub struct Several {
     pub steps: usize,
 }
 
-/// Two swimmers in unbounded fluid that come towards each other along lines `2 + offset` apart, to `time`. Each starts 2.5 from
-/// the middle.
+/// Two swimmers in unbounded fluid that come towards each other along lines `2 + offset` apart, to `time`. Each starts
+/// 2.5 from the middle.
 ///
 /// # Errors
 /// What a run can fail with.
@@ -37,8 +37,8 @@ pub fn passing(swimmer: &Swimmer, offset: f64, time: f64) -> Result<Several, Stu
     run(swimmer, FreeSpace, &places, [None; 2], time)
 }
 
-/// Ten swimmers in a square box of the side `swimmer.lengths[0]`, in two rows and a half, each with a heading of its own, to
-/// `time`.
+/// Ten swimmers in a square box of the side `swimmer.lengths[0]`, in two rows and a half, each with a heading of its
+/// own, to `time`.
 ///
 /// # Errors
 /// What a run can fail with.

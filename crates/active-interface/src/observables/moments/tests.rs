@@ -77,7 +77,8 @@ fn moments_of_the_reference_ellipse() {
 
 #[test]
 fn both_conventions_on_the_reference_circle() {
-    // reference/fixed_shape_moments_ratio_10.csv, circle, 1+0.5cos, L = inf; the velocities are those of the exact flow.
+    // reference/fixed_shape_moments_ratio_10.csv, circle, 1+0.5cos, L = inf; the velocities are those of the exact
+    // flow.
     use std::f64::consts::{FRAC_PI_4, PI};
     let printed = [
         -PI,

@@ -96,7 +96,8 @@ fn a_record_of_one_period_uses_the_linear_fit() {
     }
 }
 
-/// Amplitude and period of the limit cycle: 2.008619861 and 6.663286859 for mu = 1; 2.0001 and 2 pi (1 + mu^2/16) for mu = 0.1.
+/// Amplitude and period of the limit cycle: 2.008619861 and 6.663286859 for mu = 1; 2.0001 and 2 pi (1 + mu^2/16) for
+/// mu = 0.1.
 #[test]
 fn limit_cycles() {
     for (mu, amplitude, period) in [(1.0, 2.008_619_861, 6.663_286_859), (0.1, 2.000_104, 6.287_111)] {
@@ -243,7 +244,8 @@ fn few_samples() {
     assert!(trajectory(&even(10.0, 20), |t| t).regime(&criteria).is_err());
 }
 
-/// What the grid does to a droplet: wiggles of a few thousandths of the amplitude at a much higher frequency, and round-off.
+/// What the grid does to a droplet: wiggles of a few thousandths of the amplitude at a much higher frequency, and
+/// round-off.
 #[test]
 fn wiggles_of_the_grid() {
     let mut random = noise(7);
@@ -264,7 +266,8 @@ proptest! {
         // Four periods of 80 after the transient, uneven samples.
         let times: Vec<f64> = jitter.iter().enumerate().map(|(i, j)| i as f64 + j).collect();
         let rate = per_period / 80.0;
-        // A turn next to an end of the record is known less well (see `extrema`): there is one every 40, the record begins at 80.
+        // A turn next to an end of the record is known less well (see `extrema`): there is one every 40, the record
+        // begins at 80.
         let turn = ((per_period / TAU).atan() - phase) * 80.0 / TAU;
         prop_assume!((3.0..37.0).contains(&turn.rem_euclid(40.0)));
         let record = trajectory(&times, |t| size * (rate * t).exp() * (TAU * t / 80.0 + phase).cos());

@@ -1,0 +1,117 @@
+use super::*;
+use approx::assert_relative_eq;
+use proptest::prelude::*;
+
+/// Heights and velocities of `Re(a e^((s + i w) t))`.
+fn signal(times: &[f64], s: f64, w: f64, phase: f64) -> (Vec<f64>, Vec<f64>) {
+    times
+        .iter()
+        .map(|t| {
+            let (sin, cos) = (w * t + phase).sin_cos();
+            let size = 0.01 * (s * t).exp();
+            (size * cos, size * (s * cos - w * sin))
+        })
+        .unzip()
+}
+
+fn even(end: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|i| end * i as f64 / (count - 1) as f64).collect()
+}
+
+/// The three modes of `channel_lateral_stability.csv`: w = 5, l = 12.
+const REFERENCE: [(f64, f64); 3] =
+    [(-0.000_942_6, 0.033_642_4), (0.006_669_6, 0.057_778_5), (0.001_177_4, 0.045_963_5)];
+
+#[test]
+fn modes_of_the_reference_from_one_period() {
+    for (s, w) in REFERENCE {
+        let times = even(TAU / w, 60);
+        let (y, v) = signal(&times, s, w, 0.3);
+        for velocities in [None, Some(&v[..])] {
+            let mode = fit_linear_mode(&times, &y, velocities).unwrap();
+            assert_relative_eq!(mode.growth_rate.value, s, max_relative = 1e-6);
+            assert_relative_eq!(mode.frequency.unwrap().value, w, max_relative = 1e-8);
+            assert!(mode.residual < 1e-9 && (mode.periods() - 1.0).abs() < 1e-6, "{mode:?}");
+        }
+    }
+}
+
+#[test]
+fn a_quarter_of_a_period_with_velocities() {
+    for (s, w) in REFERENCE {
+        let times = even(0.25 * TAU / w, 40);
+        let (y, v) = signal(&times, s, w, 1.0);
+        let mode = fit_linear_mode(&times, &y, Some(&v)).unwrap();
+        assert_relative_eq!(mode.growth_rate.value, s, max_relative = 1e-3);
+        assert_relative_eq!(mode.frequency.unwrap().value, w, max_relative = 1e-4);
+    }
+}
+
+#[test]
+fn noise_does_not_bias_and_its_errors_are_honest() {
+    let (s, w) = REFERENCE[1];
+    let times = even(2.0 * TAU / w, 400);
+    let (clean, _) = signal(&times, s, w, 0.0);
+    // A fixed sequence of pseudo-random numbers in (-1, 1), five per cent of the amplitude.
+    let mut seed = 1_u64;
+    let mut noise = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    let trials = 40;
+    let scores: Vec<f64> = (0..trials)
+        .map(|_| {
+            let y: Vec<f64> = clean.iter().map(|y| y + 5e-4 * noise()).collect();
+            let mode = fit_linear_mode(&times, &y, None).unwrap();
+            assert_relative_eq!(mode.growth_rate.value, s, max_relative = 0.03);
+            (mode.growth_rate.value - s) / mode.growth_rate.error
+        })
+        .collect();
+    let mean = scores.iter().sum::<f64>() / f64::from(trials);
+    let spread = (scores.iter().map(|score| score * score).sum::<f64>() / f64::from(trials)).sqrt();
+    assert!(mean.abs() < 0.5 && (0.6..1.4).contains(&spread), "{mean} {spread}");
+}
+
+#[test]
+fn motion_without_oscillation() {
+    let times = even(30.0, 100);
+    let one: Vec<f64> = times.iter().map(|t| 0.2 * (-0.1 * t).exp()).collect();
+    let mode = fit_linear_mode(&times, &one, None).unwrap();
+    assert_relative_eq!(mode.growth_rate.value, -0.1, max_relative = 1e-8);
+    assert!(mode.frequency.is_none() && mode.period().is_none() && mode.periods() == 0.0);
+    let two: Vec<f64> = times.iter().map(|t| 0.2 * (-0.1 * t).exp() - 0.1 * (-0.4 * t).exp()).collect();
+    let mode = fit_linear_mode(&times, &two, None).unwrap();
+    assert_relative_eq!(mode.growth_rate.value, -0.1, max_relative = 1e-6);
+    assert_relative_eq!(mode.second_rate.unwrap(), -0.4, max_relative = 1e-6);
+    // A straight line has the rate zero twice.
+    let line: Vec<f64> = times.iter().map(|t| 0.1 + 0.02 * t).collect();
+    let mode = fit_linear_mode(&times, &line, None).unwrap();
+    assert!(mode.growth_rate.value.abs() < 1e-3 && mode.periods() < 1e-2, "{mode:?}");
+    let rest = fit_linear_mode(&times, &[0.3; 100], Some(&[0.0; 100]));
+    assert!(rest.is_err() || rest.unwrap().growth_rate.value.abs() < 1e-12);
+}
+
+#[test]
+fn bad_input_is_refused() {
+    let (times, y) = (even(1.0, 10), [1.0; 10]);
+    assert!(fit_linear_mode(&times, &[0.0; 10], None).is_err());
+    assert!(fit_linear_mode(&times[..7], &y[..7], None).is_err());
+    assert!(fit_linear_mode(&times, &y[..9], None).is_err());
+    assert!(fit_linear_mode(&[0.0; 10], &y, None).is_err());
+    assert!(fit_linear_mode(&times, &[f64::NAN; 10], None).is_err());
+    assert!(fit_linear_mode(&times, &y, Some(&y[..9])).is_err());
+    assert!(fit_linear_mode(&times, &y, Some(&[f64::INFINITY; 10])).is_err());
+}
+
+proptest! {
+    #[test]
+    fn uneven_samples(s in -0.02..0.02f64, w in 0.02..0.2f64, phase in 0.0..6.3f64, periods in 0.6..5.0f64,
+                      jitter in prop::collection::vec(-0.4..0.4f64, 120), known: bool) {
+        let end = periods * TAU / w;
+        let times: Vec<f64> = jitter.iter().enumerate().map(|(i, j)| end * (i as f64 + j) / 119.0).collect();
+        let (y, v) = signal(&times, s, w, phase);
+        let mode = fit_linear_mode(&times, &y, known.then_some(&v[..])).unwrap();
+        prop_assert!((mode.growth_rate.value - s).abs() < 1e-5 * w, "{:?}", mode);
+        prop_assert!((mode.frequency.unwrap().value - w).abs() < 1e-5 * w, "{:?}", mode);
+    }
+}

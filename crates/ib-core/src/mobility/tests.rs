@@ -1,0 +1,55 @@
+use super::*;
+use crate::{CubicQuadratic, Gaussian6, Peskin4};
+
+#[test]
+fn cubic_quadratic_table() {
+    // (q, A_t, B_t, A_n, B_n) of the flat-interface analysis, independently computed to four digits.
+    let expected = [
+        (0.05, 0.2539, -0.0839, 0.0051, 0.0001),
+        (0.1, 0.2488, -0.0698, 0.0101, 0.0004),
+        (0.5, 0.2115, -0.0032, 0.0434, 0.0045),
+        (1.0, 0.1723, 0.0165, 0.0704, 0.0057),
+        (2.0, 0.1162, 0.0065, 0.0867, -0.0021),
+        (4.0, 0.0625, 0.0, 0.0618, -0.0009),
+        (6.0, 0.0417, 0.0, 0.0417, 0.0),
+    ];
+    let table = MobilityDeficit::new(&CubicQuadratic::default());
+    for (q, at, bt, an, bn) in expected {
+        let d = table.at(q);
+        assert!((d.tangential - at).abs() < 3e-4, "q {q}: {d:?}");
+        assert!((d.normal - an).abs() < 3e-4, "q {q}: {d:?}");
+        assert!((d.tangential_slope - bt).abs() < 2e-3, "q {q}: {d:?}");
+        assert!((d.normal_slope - bn).abs() < 1e-3, "q {q}: {d:?}");
+    }
+}
+
+#[test]
+fn coupling_of_tangent_and_normal() {
+    // Trapezoidal rule with 8e4 points in sinh^-1(k) at an angle of pi/8 (a script).
+    let table = MobilityDeficit::new(&CubicQuadratic::default());
+    for (q, expected) in [(0.05, -9.36e-4), (0.1, -1.679e-3), (0.5, -3.079e-3), (1.0, -7.03e-4), (2.0, 1.497e-3)] {
+        let cross = table.at(q).cross;
+        assert!((cross - expected).abs() < 2e-5, "q {q}: {cross}");
+    }
+}
+
+#[test]
+fn zero_wave_number_is_the_kink_constant() {
+    // Direct quadrature of the same integral at q = 0 (a script with 1.2e5 trapezoidal points), 0 and 45 degrees.
+    for (table, along, across) in [
+        (MobilityDeficit::new(&CubicQuadratic::default()), 0.2333, 0.2833),
+        (MobilityDeficit::new(&Peskin4), 0.381, 0.395),
+    ] {
+        let d = table.at(0.0);
+        assert!((d.tangential + 0.25 * d.tangential_slope - along).abs() < 3e-3, "{d:?}");
+        assert!((d.tangential - 0.25 * d.tangential_slope - across).abs() < 3e-3, "{d:?}");
+    }
+}
+
+#[test]
+fn stiffness_of_the_kernels() {
+    let of = |deficit: MobilityDeficit| deficit.interface_stiffness(false);
+    assert!((of(MobilityDeficit::new(&Peskin4)) - 0.125).abs() < 0.01);
+    assert!((of(MobilityDeficit::new(&CubicQuadratic::default())) - 0.188).abs() < 0.01);
+    assert!(of(MobilityDeficit::new(&Gaussian6)) < 0.12);
+}

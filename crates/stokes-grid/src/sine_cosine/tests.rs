@@ -1,0 +1,44 @@
+use std::f64::consts::PI;
+
+use super::*;
+
+fn column(n: usize) -> Vec<Complex64> {
+    (0..n).map(|j| Complex64::new((3.0 * j as f64).sin() + 0.1, (1.0 + j as f64).powi(2).cos())).collect()
+}
+
+fn assert_close(a: &[Complex64], b: &[Complex64]) {
+    for (a, b) in a.iter().zip(b) {
+        assert!((a - b).norm() < 2e-13, "{a} and {b}");
+    }
+}
+
+#[test]
+fn synthesis_is_the_sum_it_says_and_analysis_undoes_it() {
+    for n in (2..=64).chain([97, 100, 120, 240]) {
+        let mut transform = SineCosine::new(n);
+        let sum = |coefficients: &[Complex64], rows: usize, wave: &dyn Fn(usize, usize) -> f64| -> Vec<Complex64> {
+            (0..rows).map(|j| coefficients.iter().enumerate().map(|(k, c)| c * wave(k, j)).sum()).collect()
+        };
+        // pi k half_rows / (2 n), reduced exactly.
+        let angle = |k: usize, half_rows: usize| 0.5 * PI * (k * half_rows % (4 * n)) as f64 / n as f64;
+        let start = column(n);
+
+        let mut values = start.clone();
+        transform.synthesise_sines(&mut values);
+        assert_close(&values, &sum(&start, n, &|k, j| angle(k + 1, 2 * j + 1).sin()));
+        transform.analyse_sines(&mut values);
+        assert_close(&values, &start);
+
+        transform.synthesise_cosines(&mut values);
+        assert_close(&values, &sum(&start, n, &|k, j| angle(k, 2 * j + 1).cos()));
+        transform.analyse_cosines(&mut values);
+        assert_close(&values, &start);
+
+        let start = column(n - 1);
+        let mut values = start.clone();
+        transform.synthesise_node_sines(&mut values);
+        assert_close(&values, &sum(&start, n - 1, &|k, j| angle(k + 1, 2 * j + 2).sin()));
+        transform.analyse_node_sines(&mut values);
+        assert_close(&values, &start);
+    }
+}

@@ -1,0 +1,54 @@
+use super::*;
+
+fn sampled(periodic: bool, flow: impl Fn(Vec2) -> Vec2) -> VectorSamples {
+    let raster = Raster::new([-1.0, -1.0], [2.0, 2.0], [96, 96], [periodic; 2]).unwrap();
+    VectorSamples::new(raster, raster.points().into_iter().map(flow).collect()).unwrap()
+}
+
+#[test]
+fn lines_of_a_rotation_are_circles_at_the_spacing() {
+    let field = sampled(false, |p| Vec2::new(-p.y, p.x));
+    let lines = streamlines(&field, 0.2, Vec2::new(0.3, 0.0)).unwrap();
+    for line in &lines {
+        let radius = line[0].norm();
+        assert!(line.iter().all(|p| (p.norm() - radius).abs() < 2e-3), "a line leaves its circle of {radius}");
+    }
+    // The radii from the anchor outwards, as closed lines.
+    for expected in [0.3, 0.5, 0.7, 0.9] {
+        let line = lines.iter().find(|l| (l[0].norm() - expected).abs() < 2e-3);
+        assert!(line.is_some_and(|l| l[0] == l[l.len() - 1]), "the line at {expected} is not closed");
+    }
+}
+
+#[test]
+fn lines_keep_apart_and_fill_a_periodic_box() {
+    let pi = std::f64::consts::PI;
+    let field = sampled(true, |p| Vec2::new((pi * p.y).sin(), (pi * p.x).sin()));
+    let spacing = 0.15;
+    let lines = streamlines(&field, spacing, Vec2::zeros()).unwrap();
+    let near = Neighbourhood::new(field.raster(), spacing);
+    for (k, a) in lines.iter().enumerate() {
+        for b in &lines[k + 1..] {
+            let closest = a
+                .iter()
+                .flat_map(|&p| b.iter().map(move |&q| (p, q)))
+                .map(|(p, q)| near.distance(p, q))
+                .fold(f64::INFINITY, f64::min);
+            assert!(closest >= NEAREST_OTHER * spacing * 0.999, "{closest}");
+        }
+    }
+    // Nowhere is there room for a circle much wider than the spacing.
+    let mut filled = Neighbourhood::new(field.raster(), 2.5 * spacing);
+    lines.iter().flatten().for_each(|&p| filled.add(p, 0));
+    let gaps = field.raster().points().into_iter().filter(|&p| !filled.closer(p, 2.0 * spacing)).count();
+    assert_eq!(gaps, 0);
+}
+
+#[test]
+fn a_fluid_at_rest_has_no_streamlines_and_a_bad_spacing_is_refused() {
+    let field = sampled(true, |_| Vec2::zeros());
+    assert!(streamlines(&field, 0.1, Vec2::zeros()).unwrap().is_empty());
+    for spacing in [0.0, -1.0, f64::NAN, 1e-9] {
+        assert!(streamlines(&field, spacing, Vec2::zeros()).is_err());
+    }
+}

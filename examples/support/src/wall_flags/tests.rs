@@ -1,0 +1,36 @@
+use clap::Parser;
+
+use super::*;
+
+#[derive(Debug, Parser)]
+struct Flags {
+    #[command(flatten)]
+    droplet: DropletFlags,
+    #[command(flatten)]
+    walls: ElasticFlags,
+    #[command(flatten)]
+    method: MethodFlags,
+}
+
+fn channel(line: &str) -> Result<ElasticChannel> {
+    let flags = Flags::try_parse_from(std::iter::once("test").chain(line.split_whitespace()))?;
+    flags.walls.channel(&flags.droplet, &flags.method, 0.0)
+}
+
+#[test]
+fn walls_that_do_not_hold_their_mesh_are_refused_with_the_flag_to_change() {
+    for (line, remedy) in [
+        ("--mesh-spacing 5", "give --mesh-spacing 2 or less"),
+        ("--mesh-spacing 0.001", "give --mesh-spacing 0.0039 or more"),
+        ("--wall-thickness 0.1 --mesh-spacing 0.15", "give 0.15 or more, or a smaller --mesh-spacing"),
+        ("--wall-thickness 0.05 --surface set-back", "give 0.0675 or more, or a smaller --spacing"),
+        ("--width 0.1", "give a larger --width"),
+        ("--bulk-modulus 3", "leave --bulk-modulus out"),
+    ] {
+        let refused = channel(line).unwrap_err().to_string();
+        assert!(refused.contains(remedy), "{line}: {refused}");
+    }
+    for line in ["", "--mesh-spacing 2 --wall-thickness 3", "--wall-thickness 0.1 --length 3", "--mesh-spacing 0.01"] {
+        assert!(channel(line).is_ok(), "{line}");
+    }
+}
