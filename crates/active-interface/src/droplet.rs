@@ -1,17 +1,18 @@
 //! The active droplet.
 
 mod limits;
+mod observe;
 mod warning;
 
 use std::sync::Arc;
 
-use ib_core::{BandLimit, Hydrodynamics, Medium, System, Vec2};
+use ib_core::{BandLimit, Medium, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::filter::WiggleFilter;
 use crate::geometry::{Geometry, signed_area};
 use crate::spectral::SpectralCurve;
-use crate::{CrossingFinder, Flux, InterfaceError, InterfaceState, Repair, Tension, Transport, cell_peclet};
+use crate::{CrossingFinder, Flux, InterfaceError, Repair, Tension, Transport, cell_peclet};
 pub(crate) use limits::finest_response;
 pub use warning::DropletWarning;
 
@@ -297,25 +298,6 @@ impl ActiveDroplet {
     #[must_use]
     pub fn viscosity_inside(&self) -> Option<f64> {
         self.viscosity_inside
-    }
-
-    /// What [`crate::observe`] needs, from the last evaluation of the system that the droplet is body number `index`
-    /// of. Call [`System::evaluate`] first: forces and velocities are those of the present state only then.
-    ///
-    /// # Panics
-    /// An index beyond the bodies of the system.
-    #[must_use]
-    pub fn interface_state<'a, H: Hydrodynamics>(&'a self, system: &'a System<H>, index: usize) -> InterfaceState<'a> {
-        let all = system.markers();
-        let range = all.groups()[index].range.clone();
-        let outside = system.hydrodynamics().medium().viscosity;
-        InterfaceState {
-            markers: &self.markers,
-            forces: &all.forces[range.clone()],
-            velocities: &all.velocities[range],
-            numbers: &self.numbers,
-            viscosities: [self.viscosity_inside.unwrap_or(outside), outside],
-        }
     }
 
     /// How often since the start particle numbers had to be kept from becoming negative, and what that took.

@@ -91,14 +91,14 @@ fn the_surface_correction_puts_the_walls_of_a_channel_in_their_place() {
 fn growth<F: ElasticForces>(solid: Solid<F>, h: f64, steps_over_limit: f64, energy: fn(&Solid<F>) -> f64) -> f64 {
     let mut scene = channel(h);
     let handle = scene.add(solid);
-    let limit = scene.body(handle).step_limits(&scene.system().hydrodynamics().medium())[0].dt;
-    let start = energy(scene.body(handle));
+    let limit = scene.body(handle).unwrap().step_limits(&scene.system().hydrodynamics().medium())[0].dt;
+    let start = energy(scene.body(handle).unwrap());
     for _ in 0..60 {
         if scene.step(steps_over_limit * limit).is_err() {
             return f64::INFINITY;
         }
     }
-    energy(scene.body(handle)) / start
+    energy(scene.body(handle).unwrap()) / start
 }
 
 #[test]
