@@ -10,7 +10,7 @@ use anyhow::Result;
 use clap::Parser;
 use motile::Swimmer;
 use motile::active_interface::{Evidence, RegimeCriteria, net_flux};
-use support::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
+use motile_examples::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a channel with rigid walls.
 #[derive(Debug, Parser)]
@@ -26,7 +26,7 @@ struct Flags {
 }
 
 fn main() -> ExitCode {
-    support::run(swim)
+    motile_examples::run(swim)
 }
 
 fn swim(flags: &Flags) -> Result<()> {

@@ -15,10 +15,8 @@ use clap::{Parser, ValueEnum};
 use motile::active_interface::{ActiveDroplet, centroid_velocity, polygon_moments};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
 use motile::{AnyFlow, Swimmer};
-use support::{
-    DropletFlags, MethodFlags, OutputFlags, Progress, Summary, Trajectory, check_run, pair, positive, say,
-    write_scene_picture,
-};
+use motile_examples::{DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say};
+use motile_output::{Progress, Trajectory, write_scene_picture};
 
 /// How the droplets start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -44,7 +42,7 @@ struct Flags {
     #[arg(long = "box", value_name = "X,Y", default_value = "12,6", value_parser = pair, allow_hyphen_values = true)]
     sides: [f64; 2],
     /// Activity of the second droplet; without it that of the first
-    #[arg(long, value_parser = support::activity, allow_hyphen_values = true)]
+    #[arg(long, value_parser = motile_examples::activity, allow_hyphen_values = true)]
     second_activity: Option<f64>,
     /// Viscosity of the second droplet; without it that of the first
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
@@ -64,7 +62,7 @@ struct Flags {
 const ROWS: f64 = 1000.0;
 
 fn main() -> ExitCode {
-    support::run(meet)
+    motile_examples::run(meet)
 }
 
 fn meet(flags: &Flags) -> Result<()> {
@@ -163,7 +161,7 @@ fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> R
     let time = system.time();
     system.evaluate()?;
     let mut seen = [(Vec2::zeros(), 0.0); 2];
-    for ((place, speed), (body, droplet)) in seen.iter_mut().zip(support::droplets(system).zip(droplets)) {
+    for ((place, speed), (body, droplet)) in seen.iter_mut().zip(motile_output::droplets(system).zip(droplets)) {
         let state = body.interface_state(system, droplet.index());
         *place = polygon_moments(state.markers)?.centroid;
         *speed = centroid_velocity(state.markers, state.velocities)?.norm();
