@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Curve, Regime};
+use crate::{Curve, trajectory::Regime};
 use approx::assert_relative_eq;
 use ib_core::{
     Domain, Every, FlowError, FlowReport, FlowSample, FlowWork, Markers, Medium, Scene, SceneError, StepSize, Vec2,
