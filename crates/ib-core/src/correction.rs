@@ -37,7 +37,7 @@ use crate::{FlowError, Vec2};
 /// wave number, so that H fades by itself where the interface turns away from the axis.
 #[derive(Debug)]
 pub(crate) struct MobilityCorrection {
-    deficit: MobilityDeficit,
+    deficit: Arc<MobilityDeficit>,
     planner: Planner,
     plan: Option<Plan>,
 }
@@ -108,7 +108,7 @@ pub(crate) struct Setting {
 }
 
 impl MobilityCorrection {
-    pub(crate) fn new(deficit: MobilityDeficit) -> Self {
+    pub(crate) fn new(deficit: Arc<MobilityDeficit>) -> Self {
         Self { deficit, planner: Planner(RealFftPlanner::new()), plan: None }
     }
 

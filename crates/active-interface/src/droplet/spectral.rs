@@ -7,7 +7,7 @@ use ib_core::Vec2;
 use num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
-use crate::geometry::{Geometry, outward};
+use super::geometry::{Geometry, outward};
 
 /// Fourier series along a curve of a fixed number M of markers, marker k at the parameter alpha = 2 pi k / M.
 ///
@@ -140,7 +140,7 @@ impl SpectralCurve {
         }
     }
 
-    /// As [`crate::geometry::equidistribute`], with derivatives and integrals along the smooth curve.
+    /// As [`super::geometry::equidistribute`], with derivatives and integrals along the smooth curve.
     pub(crate) fn equidistribute(
         &mut self,
         geometry: &Geometry,
