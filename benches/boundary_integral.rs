@@ -1,8 +1,8 @@
 //! Time of one evaluation of the velocities, in units of a pair of two-dimensional real transforms, which is what a
 //! solver on a grid spends at least.
 //!
-//! `cargo bench --bench boundary_integral` prints a table. All rows and the transforms are timed in turns, and the fastest
-//! of many turns counts, so that other work of the machine does not matter much.
+//! `cargo bench --bench boundary_integral` prints a table. All rows and the transforms are timed in turns, and the
+//! fastest of many turns counts, so that other work of the machine does not matter much.
 
 use std::{cell::Cell, f64::consts::TAU, hint::black_box, rc::Rc, time::Instant};
 

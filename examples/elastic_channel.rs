@@ -9,7 +9,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile::{
-    active_interface::{Evidence, RegimeCriteria},
+    active_interface::trajectory::{Evidence, RegimeCriteria},
     ib_core::Body,
 };
 use support::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};

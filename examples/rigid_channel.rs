@@ -9,7 +9,10 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile::Swimmer;
-use motile::active_interface::{Evidence, RegimeCriteria, net_flux};
+use motile::active_interface::{
+    observables::net_flux,
+    trajectory::{Evidence, RegimeCriteria},
+};
 use support::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a channel with rigid walls.

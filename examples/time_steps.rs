@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use anyhow::{Context, Result};
 use clap::{Parser, ValueEnum};
-use motile::active_interface::{ActiveDroplet, centroid_velocity, polygon_moments};
+use motile::active_interface::{ActiveDroplet, curve::polygon_moments, observables::centroid_velocity};
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{
     Checkpoint, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2,

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
-use motile::active_interface::{ActiveDroplet, centroid_velocity, polygon_moments};
+use motile::active_interface::{ActiveDroplet, curve::polygon_moments, observables::centroid_velocity};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
 use motile::{AnyFlow, Swimmer};
 use support::{

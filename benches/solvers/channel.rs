@@ -1,4 +1,5 @@
-//! Solvers of a channel, in units of one pass of real transforms in x, forward and inverse, of the same size in the same run.
+//! Solvers of a channel, in units of one pass of real transforms in x, forward and inverse, of the same size in the
+//! same run.
 
 use criterion::{BenchmarkId, Criterion};
 use motile::stokes_grid::{ChannelStokes, Grid, ProjectionStokes};

@@ -1,7 +1,10 @@
 //! A run by its parameters, and what is measured in it.
 
 use anyhow::{Result, bail};
-use motile::active_interface::{ActiveDroplet, Observables, RegimeCriteria, TrajectoryRecorder};
+use motile::active_interface::{
+    ActiveDroplet, Observables,
+    trajectory::{RegimeCriteria, TrajectoryRecorder},
+};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, StepSize};
 use motile::{Swimmer, stokes_grid::Drive};
 use support::{Steadiness, Summary};

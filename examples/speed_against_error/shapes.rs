@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow, bail};
-use motile::active_interface::{ActiveDroplet, Curve, polygon_moments};
+use motile::active_interface::{ActiveDroplet, Curve, curve::polygon_moments};
 use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
 use motile::elastic_solids::{ElasticSolid, NeoHookean, fitted_strip};
 use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, MobilityDeficit, Scene, Vec2};

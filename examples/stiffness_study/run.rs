@@ -2,7 +2,10 @@
 
 use anyhow::{Result, bail};
 use clap::ValueEnum;
-use motile::active_interface::{ActiveDroplet, Motion, RegimeCriteria, TrajectoryRecorder};
+use motile::active_interface::{
+    ActiveDroplet, Motion,
+    trajectory::{RegimeCriteria, TrajectoryRecorder},
+};
 use motile::elastic_solids::{AnySolid, Channel, Constriction, Moduli, StraightChannel, width_between};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
 use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, WallSurface, stokes_grid::Drive};

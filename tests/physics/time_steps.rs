@@ -1,6 +1,6 @@
 //! Integrators and step sizes: order, stability, accuracy, and what is reported of them.
 
-use motile::active_interface::{ActiveDroplet, Motion, centroid_velocity};
+use motile::active_interface::{ActiveDroplet, Motion, observables::centroid_velocity};
 use motile::elastic_solids::{ElasticSolid, Moduli, NeoHookean, equilateral_strip};
 use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,

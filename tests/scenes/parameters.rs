@@ -2,8 +2,10 @@
 //! works, never a panic, and never something that is made of a value that is not finite.
 
 use motile::active_interface::{
-    ActiveDroplet, ConstantTension, ContractileTension, Curve, Frame, InitialConcentration, LinearTheory,
-    NoExcludedVolume, QuadraticExcludedVolume, RoundDroplet, SquirmerFlow, StepExcludedVolume, Units,
+    ActiveDroplet, ConstantTension, ContractileTension, Curve, InitialConcentration, NoExcludedVolume,
+    QuadraticExcludedVolume, StepExcludedVolume, Units,
+    observables::Frame,
+    theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
 use motile::boundary_integral::{BoundaryIntegral, Channel, FreeSpace, PeriodicBox, Settings};
 use motile::elastic_solids::{

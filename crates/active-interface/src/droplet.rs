@@ -1,6 +1,11 @@
 //! The active droplet.
 
+mod body;
+mod filter;
+mod geometry;
 mod limits;
+mod redistribution;
+mod spectral;
 mod warning;
 
 use std::sync::Arc;
@@ -8,11 +13,16 @@ use std::sync::Arc;
 use ib_core::{BandLimit, Hydrodynamics, Medium, System, Vec2};
 
 use crate::error::{not_negative, positive};
-use crate::filter::WiggleFilter;
-use crate::geometry::{Geometry, signed_area};
-use crate::spectral::SpectralCurve;
-use crate::{CrossingFinder, Flux, InterfaceError, InterfaceState, Repair, Tension, Transport, cell_peclet};
+use crate::{
+    Flux, InterfaceError, Tension,
+    concentration::{Repair, Transport, cell_peclet},
+    curve::CrossingFinder,
+    observables::InterfaceState,
+};
+use filter::WiggleFilter;
+use geometry::{Geometry, signed_area};
 pub(crate) use limits::finest_response;
+use spectral::SpectralCurve;
 pub use warning::DropletWarning;
 
 /// Least number of markers of a droplet.
@@ -138,7 +148,7 @@ impl ActiveDroplet {
         diffusion: f64,
         transport: Option<Transport>,
     ) -> Result<Self, InterfaceError> {
-        let markers = crate::markers_from_points(markers)?;
+        let markers = crate::curve::markers_from_points(markers)?;
         let initial_area = signed_area(&markers);
         let mut droplet = Self {
             name: "droplet".to_owned(),

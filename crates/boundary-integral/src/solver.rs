@@ -186,6 +186,7 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
             spacing: None,
             shape_modes: Some(self.settings.nodes),
             interface_stiffness: self.stiffness,
+            mobility_deficit: None,
         }
     }
 

@@ -1,5 +1,7 @@
 //! Putting the lost mobility of an interface back.
 
+use std::sync::Arc;
+
 use fourier::{ComplexTransform, RealTransform};
 use num_complex::Complex;
 
@@ -34,7 +36,7 @@ use crate::{FlowError, Vec2};
 /// wave number, so that H fades by itself where the interface turns away from the axis.
 #[derive(Debug)]
 pub(crate) struct MobilityCorrection {
-    deficit: MobilityDeficit,
+    deficit: Arc<MobilityDeficit>,
     plan: Option<Plan>,
 }
 
@@ -86,7 +88,7 @@ pub(crate) struct Setting {
 }
 
 impl MobilityCorrection {
-    pub(crate) fn new(deficit: MobilityDeficit) -> Self {
+    pub(crate) fn new(deficit: Arc<MobilityDeficit>) -> Self {
         Self { deficit, plan: None }
     }
 

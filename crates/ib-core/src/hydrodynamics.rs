@@ -1,6 +1,8 @@
 //! From forces at markers to velocities at markers.
 
-use crate::{FlowError, Markers, Record, Vec2};
+use std::sync::Arc;
+
+use crate::{FlowError, Markers, MobilityDeficit, Record, Vec2};
 
 /// The region that the fluid fills.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,7 +16,7 @@ pub struct Domain {
 }
 
 /// What a body needs to know of the fluid around it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Medium {
     /// The region.
     pub domain: Domain,
@@ -28,6 +30,9 @@ pub struct Medium {
     /// displacement normal to an interface of tension gamma decays at most at the rate
     /// `stiffness * gamma / viscosity`.
     pub interface_stiffness: f64,
+    /// The mobility that an interface loses to the kernel and the grid, uncorrected; `None` where there is no grid. A
+    /// body that corrects its own surface takes it from here, so that it cannot be that of another kernel.
+    pub mobility_deficit: Option<Arc<MobilityDeficit>>,
 }
 
 /// The flow at a point.

@@ -2,6 +2,8 @@
 
 mod contrast_flow;
 
+use std::sync::Arc;
+
 use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, StokesSolver};
 
 use crate::clearance::Clearance;
@@ -44,6 +46,7 @@ pub struct ImmersedBoundary<S, K> {
     transfer: Transfer<K>,
     density: StaggeredField,
     velocity: StaggeredField,
+    deficit: Arc<MobilityDeficit>,
     correction: Option<MobilityCorrection>,
     clearance: Clearance,
     stiffness: f64,
@@ -78,7 +81,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
 
     fn build(solver: S, kernel: K, corrected: bool) -> Self {
         let grid = *solver.grid();
-        let deficit = MobilityDeficit::new(&kernel);
+        let deficit = Arc::new(MobilityDeficit::new(&kernel));
         let stiffness = deficit.interface_stiffness(corrected) / grid.spacing();
         // c(theta) at q = 0 is sqrt(variance_eff / pi)-like: the tangential velocity profile is the kernel smeared
         // twice.
@@ -87,7 +90,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             transfer: Transfer::new(grid, kernel),
             density: StaggeredField::zeros(grid),
             velocity: StaggeredField::zeros(grid),
-            correction: corrected.then(|| MobilityCorrection::new(deficit)),
+            correction: corrected.then(|| MobilityCorrection::new(Arc::clone(&deficit))),
+            deficit,
             stiffness,
             variance: std::f64::consts::PI * constant * constant,
             clearance: Clearance::default(),
@@ -252,6 +256,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             spacing: Some(grid.spacing()),
             shape_modes: None,
             interface_stiffness: self.stiffness,
+            mobility_deficit: Some(Arc::clone(&self.deficit)),
         }
     }
 

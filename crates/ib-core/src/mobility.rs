@@ -29,7 +29,7 @@ const CUT: f64 = 50.0;
 ///
 /// Stored are the first coefficients of `G = (1 - R) / (4 q)` in cos(4 angle) and, for G_t, cos(8 angle), and that of
 /// G_x in sin(4 angle).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MobilityDeficit {
     /// Rows at equal steps of sqrt(q): mean, slope and curvature of G_t, mean and slope of G_n, G_x.
     table: Vec<[f64; 6]>,

@@ -210,8 +210,9 @@ impl<H: Hydrodynamics> System<H> {
     /// All bounds on the time step at the present state, with the names of the bodies that set them.
     pub fn limits(&self) -> impl Iterator<Item = (StepLimit, &str)> {
         let medium = self.hydrodynamics.medium();
+        let viscosity = medium.viscosity;
         let repulsion = self.repulsion.iter().map(move |repulsion| {
-            (StepLimit::decay(repulsion.step_limit(medium.viscosity), "the repulsion"), "the interfaces")
+            (StepLimit::decay(repulsion.step_limit(viscosity), "the repulsion"), "the interfaces")
         });
         self.bodies
             .iter()

@@ -1,7 +1,7 @@
 //! Plots of what was measured on a droplet.
 
 use anyhow::Result;
-use motile::active_interface::ConcentrationProfile;
+use motile::active_interface::observables::ConcentrationProfile;
 
 use crate::{AxisScale, Figure, Plot, Series, Trajectory};
 

@@ -4,7 +4,7 @@ use std::fmt;
 
 use anyhow::{Context, Result};
 use motile::{
-    active_interface::{ActiveDroplet, polygon_moments},
+    active_interface::{ActiveDroplet, curve::polygon_moments},
     ib_core::{Hydrodynamics, Observer, System},
 };
 

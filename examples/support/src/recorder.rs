@@ -4,7 +4,11 @@ use std::{mem::discriminant, path::Path};
 
 use anyhow::{Context, Result, anyhow, ensure};
 use motile::{
-    active_interface::{ActiveDroplet, DropletWarning, Record, TrajectoryRecorder, centroid_velocity},
+    active_interface::{
+        ActiveDroplet, DropletWarning,
+        observables::centroid_velocity,
+        trajectory::{TrajectoryRecord, TrajectoryRecorder},
+    },
     ib_core::{Handle, Hydrodynamics, Integrator, Observer, Scene, StepSize, System},
 };
 
@@ -52,7 +56,7 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// A recorder of a droplet that writes to `path`; the columns are those of [`Record::entries`], without those about
+    /// A recorder of a droplet that writes to `path`; the columns are those of [`TrajectoryRecord::entries`], without those about
     /// walls where there are none, and where there are elastic solids those of [`SolidMeter::NAMES`].
     ///
     /// # Errors
@@ -83,7 +87,7 @@ impl Recorder {
 
     fn record<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<()> {
         self.records.observe(system).map_err(|error| anyhow!(error))?;
-        let entries = self.last().map(Record::entries).unwrap_or_default();
+        let entries = self.last().map(TrajectoryRecord::entries).unwrap_or_default();
         let mut row: Vec<f64> = self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect();
         if let Some(meter) = &mut self.solids {
             let values = meter.measure(system)?;
@@ -107,7 +111,7 @@ impl Recorder {
 
     /// What was measured first.
     #[must_use]
-    pub fn first(&self) -> Option<&Record> {
+    pub fn first(&self) -> Option<&TrajectoryRecord> {
         self.records.records().first()
     }
 
@@ -126,7 +130,7 @@ impl Recorder {
 
     /// What was measured last.
     #[must_use]
-    pub fn last(&self) -> Option<&Record> {
+    pub fn last(&self) -> Option<&TrajectoryRecord> {
         self.records.records().last()
     }
 

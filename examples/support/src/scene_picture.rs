@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Result;
 use motile::{
-    active_interface::{ActiveDroplet, polygon_moments},
+    active_interface::{ActiveDroplet, curve::polygon_moments},
     ib_core::{FlowSample, Hydrodynamics, System},
 };
 

@@ -2,7 +2,7 @@
 
 use anyhow::{Context, Result};
 use motile::{
-    active_interface::{ActiveDroplet, polygon_moments},
+    active_interface::{ActiveDroplet, curve::polygon_moments},
     ib_core::{Domain, FlowSample, Hydrodynamics, System},
 };
 

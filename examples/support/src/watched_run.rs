@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use motile::{
     Method, SolidGap, Swimmer,
-    active_interface::{ActiveDroplet, ConcentrationProfile, Frame, concentration_profile},
+    active_interface::{
+        ActiveDroplet,
+        observables::{ConcentrationProfile, Frame, concentration_profile},
+    },
     ib_core::{Every, Handle, Hydrodynamics, Integrator, Observer, Scene, SceneError, StepSize, System, Vec2},
 };
 

@@ -7,7 +7,14 @@ use crate::{Constriction, Mat2, Mesher, NeoHookean, equilateral_block, equilater
 
 fn medium() -> Medium {
     let domain = Domain { origin: [-2.0, -2.0], periods: [Some(4.0), None], walls: Some([-2.0, 2.0]) };
-    Medium { domain, viscosity: 10.0, spacing: Some(0.2), shape_modes: None, interface_stiffness: 1.0 }
+    Medium {
+        domain,
+        viscosity: 10.0,
+        spacing: Some(0.2),
+        shape_modes: None,
+        interface_stiffness: 1.0,
+        mobility_deficit: None,
+    }
 }
 
 fn block() -> TriangleMesh {

@@ -11,6 +11,7 @@ fn medium(spacing: f64) -> Medium {
         spacing: Some(spacing),
         shape_modes: None,
         interface_stiffness: 0.0,
+        mobility_deficit: None,
     }
 }
 

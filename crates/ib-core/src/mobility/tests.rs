@@ -53,3 +53,16 @@ fn stiffness_of_the_kernels() {
     assert!((of(MobilityDeficit::new(&CubicQuadratic::default())) - 0.188).abs() < 0.01);
     assert!(of(MobilityDeficit::new(&Gaussian6)) < 0.12);
 }
+
+#[test]
+fn bodies_are_told_the_deficit_of_the_kernel_in_use() {
+    use crate::{Hydrodynamics, ImmersedBoundary};
+    let solver = || {
+        let grid = stokes_grid::Grid::periodic(16, 16, 0.1).unwrap();
+        stokes_grid::PeriodicStokes::new(grid, 1.0).unwrap()
+    };
+    let of_peskin = ImmersedBoundary::uncorrected(solver(), Peskin4).medium().mobility_deficit.unwrap();
+    assert_eq!(*of_peskin, MobilityDeficit::new(&Peskin4));
+    let of_default = ImmersedBoundary::new(solver(), CubicQuadratic::default()).medium().mobility_deficit.unwrap();
+    assert_ne!(*of_default, *of_peskin);
+}

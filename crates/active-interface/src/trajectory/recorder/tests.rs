@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Curve, Regime};
+use crate::{Curve, trajectory::Regime};
 use approx::assert_relative_eq;
 use ib_core::{
     Domain, Every, FlowError, FlowReport, FlowSample, FlowWork, Markers, Medium, Scene, SceneError, StepSize, Vec2,
@@ -23,7 +23,14 @@ impl Hydrodynamics for Wind {
     fn medium(&self) -> Medium {
         let domain =
             Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls: self.walls.then_some([-1.0, 3.0]) };
-        Medium { domain, viscosity: 1.0, spacing: None, interface_stiffness: 1.0, shape_modes: None }
+        Medium {
+            domain,
+            viscosity: 1.0,
+            spacing: None,
+            interface_stiffness: 1.0,
+            shape_modes: None,
+            mobility_deficit: None,
+        }
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {

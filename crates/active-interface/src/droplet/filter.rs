@@ -2,8 +2,8 @@
 
 use ib_core::Vec2;
 
-use crate::geometry::{Geometry, outward};
-use crate::{CirculantTridiagonal, InterfaceError};
+use super::geometry::{Geometry, outward};
+use crate::{InterfaceError, tridiagonal::CirculantTridiagonal};
 
 /// Largest part of a wiggle that one pass takes away.
 const STRONGEST: f64 = 0.5;

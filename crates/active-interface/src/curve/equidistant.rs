@@ -3,8 +3,8 @@
 use ib_core::Vec2;
 
 use crate::InterfaceError;
+use crate::curve::polygon::edges;
 use crate::error::all_points_finite;
-use crate::polygon::edges;
 
 /// `count` points of the closed curve `point`, a function of a parameter in [0, 1], from `point(0)` on, with equal
 /// chords to 1e-12 of their length (or to the round-off of the coordinates, if that is more).

@@ -2,9 +2,9 @@
 
 use ib_core::{BodyError, FlowError, FlowReport, FlowSample, Handle, Hydrodynamics, Medium, SceneError, System, Vec2};
 
+use crate::curve::polygon::edges;
 use crate::error::{finite, positive};
-use crate::polygon::edges;
-use crate::{ActiveDroplet, InterfaceError, centroid_velocity, polygon_moments};
+use crate::{ActiveDroplet, InterfaceError, curve::polygon_moments, observables::centroid_velocity};
 
 /// The pressure drop along a channel of the length `length` (length): how much lower the pressure is at its right end
 /// (force per length in 2D), `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.

@@ -3,8 +3,8 @@
 use ib_core::Vec2;
 
 use crate::InterfaceError;
+use crate::curve::polygon::cross;
 use crate::error::{all_points_finite, enough};
-use crate::polygon::cross;
 
 /// Finds where a closed polygon crosses or touches itself, in a time proportional to the number of its points where
 /// they are about equally spaced.

@@ -2,8 +2,8 @@
 
 use ib_core::Vec2;
 
-use crate::polygon::{cross, edges};
-use crate::{CyclicTridiagonal, InterfaceError};
+use crate::curve::polygon::{cross, edges};
+use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
 
 /// The twice continuously differentiable cubic spline through the points of a closed polygon, in the length of the
 /// polygon as parameter.

@@ -4,10 +4,13 @@ use std::f64::consts::PI;
 
 use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepInfo, StepLimits, Vec2};
 
-use crate::droplet::{MINIMUM_MARKERS, finest_response};
-use crate::geometry::{equidistribute, outward, signed_area};
-use crate::redistribution::redistribute;
-use crate::{ActiveDroplet, InterfaceError, Motion, Repair, Transport, repair_positivity};
+use super::geometry::{equidistribute, outward, signed_area};
+use super::redistribution::redistribute;
+use super::{MINIMUM_MARKERS, finest_response};
+use crate::{
+    ActiveDroplet, InterfaceError, Motion,
+    concentration::{Repair, Transport, repair_positivity},
+};
 
 /// Part of all particles in one segment from which on they have collapsed.
 const COLLAPSED: f64 = 0.15;

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use ib_core::Vec2;
 
 use crate::InterfaceError;
+use crate::curve::polygon::{cross, edges};
 use crate::error::{finite, positive};
-use crate::polygon::{cross, edges};
 
 /// A concentration of particles along a closed curve, to start a run from.
 ///
@@ -17,7 +17,7 @@ use crate::polygon::{cross, edges};
 /// let markers = Curve::circle(1.0)?.markers(100)?;
 /// let numbers = InitialConcentration::polarised(100.0, 0.0)?.particle_numbers(&markers)?;
 /// // c = c0 (1 - cos theta): none at the front, twice the mean at the rear
-/// let length = active_interface::polygon_perimeter(&markers)? / 100.0;
+/// let length = active_interface::curve::polygon_perimeter(&markers)? / 100.0;
 /// assert!(numbers[0] / length < 0.2 && (numbers[50] / length - 200.0).abs() < 0.2);
 /// # Ok::<(), active_interface::InterfaceError>(())
 /// ```
@@ -114,7 +114,7 @@ impl InitialConcentration {
     /// Fewer than three markers, markers that are not finite or enclose no area; a concentration that is not finite
     /// or negative somewhere.
     pub fn particle_numbers(&self, markers: &[Vec2]) -> Result<Vec<f64>, InterfaceError> {
-        let centre = crate::polygon_moments(markers)?.centroid;
+        let centre = crate::curve::polygon_moments(markers)?.centroid;
         let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).norm()).collect();
         let perimeter: f64 = lengths.iter().sum();
         let mut concentrations = match &self.0 {

@@ -12,7 +12,7 @@ use crate::error::{enough, length};
 /// pivoting. It is accurate to round-off where the diagonal dominates its row or its column, as it does for implicit
 /// diffusion. The plan owns its scratch and allocates nothing per call.
 #[derive(Debug, Clone, Default)]
-pub struct CyclicTridiagonal {
+pub(crate) struct CyclicTridiagonal {
     ratios: Vec<f64>,
     correction: Vec<f64>,
 }
@@ -22,21 +22,9 @@ impl CyclicTridiagonal {
     ///
     /// # Errors
     /// Fewer than three unknowns.
-    pub fn new(n: usize) -> Result<Self, InterfaceError> {
+    pub(crate) fn new(n: usize) -> Result<Self, InterfaceError> {
         enough("unknowns", n, 3)?;
         Ok(Self { ratios: vec![0.0; n], correction: vec![0.0; n] })
-    }
-
-    /// Number of unknowns.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.ratios.len()
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.ratios.is_empty()
     }
 
     /// Replaces `x`, which holds the right-hand side, by the solution. `lower[0]` multiplies `x[n-1]`, `upper[n-1]`
@@ -44,7 +32,7 @@ impl CyclicTridiagonal {
     ///
     /// # Errors
     /// Slices whose length is not that of the plan, and a pivot that is zero or not finite.
-    pub fn solve(
+    pub(crate) fn solve(
         &mut self,
         lower: &[f64],
         diagonal: &[f64],
@@ -104,7 +92,7 @@ impl CyclicTridiagonal {
 /// The operator is the product of a forward and a backward recursion, each closed periodically: four multiplications
 /// an unknown, no division, no scratch, any number of unknowns. Works on numbers and on vectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CirculantTridiagonal {
+pub(crate) struct CirculantTridiagonal {
     root: f64,
     scale: f64,
 }
@@ -114,7 +102,7 @@ impl CirculantTridiagonal {
     ///
     /// # Errors
     /// Coefficients that are not finite, and a diagonal that does not dominate.
-    pub fn new(diagonal: f64, off: f64) -> Result<Self, InterfaceError> {
+    pub(crate) fn new(diagonal: f64, off: f64) -> Result<Self, InterfaceError> {
         if !(diagonal.abs() > 2.0 * off.abs() && diagonal.is_finite()) {
             return Err(InterfaceError::Singular { row: 0 });
         }
@@ -128,14 +116,14 @@ impl CirculantTridiagonal {
     ///
     /// # Errors
     /// A spacing that is not positive, a width that is not finite.
-    pub fn smoothing(width: f64, spacing: f64) -> Result<Self, InterfaceError> {
+    pub(crate) fn smoothing(width: f64, spacing: f64) -> Result<Self, InterfaceError> {
         let spacing = crate::error::positive("the marker spacing", spacing)?;
         let ratio = crate::error::finite("the smoothing width", width)? / spacing;
         Self::new(1.0 + 2.0 * ratio * ratio, -ratio * ratio)
     }
 
     /// Replaces the right-hand side by the solution.
-    pub fn solve<T>(&self, x: &mut [T])
+    pub(crate) fn solve<T>(&self, x: &mut [T])
     where
         T: Copy + Add<Output = T> + Mul<f64, Output = T>,
     {

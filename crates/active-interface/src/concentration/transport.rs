@@ -1,8 +1,8 @@
 //! Particles carried along a closed curve by a flow and by diffusion.
 
+use super::flux::{Flux, weno5};
 use crate::error::{all_finite, all_positive, enough, length, not_negative};
-use crate::face_value::{Flux, weno5};
-use crate::{CyclicTridiagonal, InterfaceError};
+use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
 
 /// Conservative transport of particles along a closed curve of M segments.
 ///

@@ -4,14 +4,17 @@ use std::error::Error;
 
 use ib_core::{Handle, Hydrodynamics, Observer, System, wall_gap};
 
-use crate::channel_flow::{droplet, gap_flow_of};
+use crate::observables::{droplet, gap_flow_of};
 use crate::{
-    ActiveDroplet, Convention, GapFlow, InterfaceError, Observables, RegimeCriteria, RegimeReport, Trajectory, observe,
+    ActiveDroplet, Convention, InterfaceError, Observables,
+    observables::GapFlow,
+    observe,
+    trajectory::{RegimeCriteria, RegimeReport, Trajectory},
 };
 
 /// What a [`TrajectoryRecorder`] saw at one time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Record {
+pub struct TrajectoryRecord {
     /// When.
     pub time: f64,
     /// All observables of the droplet.
@@ -24,7 +27,7 @@ pub struct Record {
     pub flow: Option<GapFlow>,
 }
 
-impl Record {
+impl TrajectoryRecord {
     /// Names and values, in the order of the columns of a table: `time`, the [`Observables::entries`], `gap`,
     /// `pressure_gradient`, `net_flux`, `retrograde_flow`. What does not exist is `None`.
     #[must_use]
@@ -45,7 +48,7 @@ impl Record {
 /// # fn run<H: ib_core::Hydrodynamics>(
 /// #     mut scene: ib_core::Scene<H>, droplet: ib_core::Handle<active_interface::ActiveDroplet>,
 /// # ) -> Result<(), Box<dyn std::error::Error>> {
-/// use active_interface::{RegimeCriteria, TrajectoryRecorder};
+/// use active_interface::trajectory::{RegimeCriteria, TrajectoryRecorder};
 /// use ib_core::Every;
 ///
 /// let mut recorder = TrajectoryRecorder::new(droplet);
@@ -63,7 +66,7 @@ pub struct TrajectoryRecorder {
     with_gap_flow: bool,
     centre_line: Option<f64>,
     minimum_gap: Option<f64>,
-    records: Vec<Record>,
+    records: Vec<TrajectoryRecord>,
 }
 
 impl TrajectoryRecorder {
@@ -88,7 +91,7 @@ impl TrajectoryRecorder {
         self
     }
 
-    /// The same recorder, recording also the fluxes past the droplet (see [`crate::gap_flow`]). This costs a sampling
+    /// The same recorder, recording also the fluxes past the droplet (see [`crate::observables::gap_flow`]). This costs a sampling
     /// of the flow a record, a little more than half a time step, and works in channels only.
     #[must_use]
     pub fn with_gap_flow(mut self) -> Self {
@@ -98,7 +101,7 @@ impl TrajectoryRecorder {
 
     /// The records, at increasing times.
     #[must_use]
-    pub fn records(&self) -> &[Record] {
+    pub fn records(&self) -> &[TrajectoryRecord] {
         &self.records
     }
 
@@ -114,7 +117,7 @@ impl TrajectoryRecorder {
         self.records.is_empty()
     }
 
-    /// The values of the entry `name` (see [`Record::entries`]), record by record; `None` for an unknown name or
+    /// The values of the entry `name` (see [`TrajectoryRecord::entries`]), record by record; `None` for an unknown name or
     /// without records.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<Vec<Option<f64>>> {
@@ -135,7 +138,7 @@ impl TrajectoryRecorder {
     /// # Errors
     /// None for records of a run.
     pub fn trajectory(&self) -> Result<Trajectory, InterfaceError> {
-        let list = |value: fn(&Record) -> f64| self.records.iter().map(value).collect::<Vec<f64>>();
+        let list = |value: fn(&TrajectoryRecord) -> f64| self.records.iter().map(value).collect::<Vec<f64>>();
         let mut heights = list(|record| record.observables.centroid.y);
         let origin = self.centre_line.or(heights.first().copied()).unwrap_or(0.0);
         heights.iter_mut().for_each(|y| *y -= origin);
@@ -184,7 +187,7 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
             self.minimum_gap = Some(self.minimum_gap.map_or(gap, |least| least.min(gap)));
         }
         self.centre_line = walls.map(|[bottom, top]| 0.5 * (bottom + top));
-        self.records.push(Record { time, observables, gap, pressure_gradient, flow });
+        self.records.push(TrajectoryRecord { time, observables, gap, pressure_gradient, flow });
         Ok(())
     }
 }

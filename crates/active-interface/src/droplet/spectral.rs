@@ -6,7 +6,7 @@ use fourier::ComplexTransform;
 use ib_core::Vec2;
 use num_complex::Complex;
 
-use crate::geometry::{Geometry, outward};
+use super::geometry::{Geometry, outward};
 
 /// Fourier series along a curve of a fixed number M of markers, marker k at the parameter alpha = 2 pi k / M.
 ///
@@ -123,7 +123,7 @@ impl SpectralCurve {
         }
     }
 
-    /// As [`crate::geometry::equidistribute`], with derivatives and integrals along the smooth curve.
+    /// As [`super::geometry::equidistribute`], with derivatives and integrals along the smooth curve.
     pub(crate) fn equidistribute(
         &mut self,
         geometry: &Geometry,

@@ -1,5 +1,5 @@
 use super::*;
-use crate::repair_positivity;
+use crate::concentration::repair_positivity;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 

@@ -55,3 +55,10 @@ proptest! {
         prop_assert!((weno5(v) - offset).abs() < 1e-12);
     }
 }
+
+#[test]
+fn parabolas_are_exact() {
+    // Averages of x^2 over unit cells around 0; the face is at x = 1/2.
+    let v = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|i: f64| i * i + 1.0 / 12.0);
+    assert!((weno5(v) - 0.25).abs() < 1e-14);
+}

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{Curve, polygon_perimeter};
+use crate::{Curve, curve::polygon_perimeter};
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 use std::f64::consts::PI;
