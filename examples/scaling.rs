@@ -13,7 +13,7 @@ use std::time::Duration;
 use allocation_counter::measure;
 use anyhow::{Context, Result};
 use clap::Parser;
-use motile::elastic_solids::{SpringLattice, fitted_strip};
+use motile::elastic_solids::{Solid, fitted_strip};
 use motile::ib_core::{Body, CubicQuadratic, Hydrodynamics, ImmersedBoundary, Transfer, Vec2};
 use motile::stokes_grid::{Grid, PeriodicStokes, StaggeredField, StokesSolver};
 use motile_timing::{PlainPair, Turns};
@@ -107,7 +107,7 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
     let mut forces = Vec::new();
     let mut positions = Vec::new();
     let used = measure(|| {
-        solid = SpringLattice::new(mesh, 1.0).ok();
+        solid = Solid::springs(mesh, 1.0).ok();
         if let Some(solid) = &solid {
             positions = vec![Vec2::zeros(); solid.marker_count()];
             forces = vec![Vec2::new(1.0, 0.5); solid.marker_count()];

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use anyhow::{Result, anyhow, bail};
 use motile::active_interface::{ActiveDroplet, Curve, curve::polygon_moments};
 use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
-use motile::elastic_solids::{ElasticSolid, NeoHookean, fitted_strip};
+use motile::elastic_solids::{NeoHookean, Solid, fitted_strip};
 use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, MobilityDeficit, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile::{AnyFlow, Swimmer};
@@ -113,9 +113,9 @@ const AMPLITUDE: f64 = 0.3;
 pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
     let Flow::Grid { h, ratio, .. } = settings.flow else { bail!("solids need a grid") };
     let grid = Grid::channel((LENGTH / h).round() as usize, (HEIGHT / h).round() as usize, h)?;
-    let solid = || -> Result<ElasticSolid<NeoHookean>> {
+    let solid = || -> Result<Solid> {
         let mesh = fitted_strip(Vec2::new(0.0, -0.5 * HEIGHT), [LENGTH, THICKNESS], ratio * h)?;
-        let solid = ElasticSolid::new(mesh, NeoHookean::new(SHEAR, 3.0 * SHEAR)?)
+        let solid = Solid::hyperelastic(mesh, NeoHookean::new(SHEAR, 3.0 * SHEAR)?)
             .pinned(|s| s.y < -0.5 * HEIGHT + 1e-9)?
             .deformed(|s| s + Vec2::new(AMPLITUDE * (s.y + 0.5 * HEIGHT), 0.0))?;
         Ok(if settings.corrected { solid.surface_corrected(&MobilityDeficit::new(&settings.kernel)) } else { solid })
@@ -129,7 +129,7 @@ pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
     let start = slide(&solid()?);
     let time = VISCOSITY / SHEAR;
     let (cost, end) = march(make, settings.stepper, time, |system| {
-        let body: &ElasticSolid<NeoHookean> = system.find().ok_or_else(|| anyhow!("no solid"))?;
+        let body: &Solid = system.find().ok_or_else(|| anyhow!("no solid"))?;
         Ok(slide(body))
     })?;
     let rate = -(end / start).ln();
@@ -138,7 +138,7 @@ pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
 }
 
 /// Mean displacement of the upper surface along x.
-fn slide(solid: &ElasticSolid<NeoHookean>) -> f64 {
+fn slide(solid: &Solid) -> f64 {
     let surface = solid.mesh().boundary_loops().iter().find(|boundary| boundary.periods == -1);
     let displacements: Vec<Vec2> = solid.displacements().collect();
     surface.map_or(f64::NAN, |surface| {

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use motile::active_interface::{ActiveDroplet, Curve, InitialConcentration};
-use motile::elastic_solids::{SpringLattice, fitted_strip};
+use motile::elastic_solids::{Solid, fitted_strip};
 use motile::ib_core::{Body, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile::{Swimmer, boundary_integral};
@@ -94,7 +94,7 @@ fn in_channel(kind: &'static str, swimmer: Swimmer, layers: Option<f64>) -> Resu
             let [length, width] = swimmer.lengths;
             for bottom in [-0.5 * width, 0.5 * width - thickness] {
                 let mesh = fitted_strip(Vec2::new(-0.5 * length, bottom), [length, thickness], swimmer.spacing)?;
-                let wall = SpringLattice::new(mesh, SHEAR)?.pinned(|s| s.y.abs() > 0.5 * width - 1e-9)?;
+                let wall = Solid::springs(mesh, SHEAR)?.pinned(|s| s.y.abs() > 0.5 * width - 1e-9)?;
                 case.scene.add(Watched(wall, watches.clone()));
             }
             case.dt = case.scene.system().step_limit().map_or(1e-3, |(limit, _)| 0.2 * limit.dt).min(0.01);

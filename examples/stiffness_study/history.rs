@@ -5,7 +5,7 @@ use std::error::Error;
 
 use anyhow::Result;
 use motile::active_interface::{ActiveDroplet, Convention, observe};
-use motile::elastic_solids::{AnySolid, width_between};
+use motile::elastic_solids::{Solid, width_between};
 use motile::ib_core::{Handle, Hydrodynamics, Observer, System};
 use serde_json::Value;
 use support::Summary;
@@ -95,7 +95,7 @@ impl<H: Hydrodynamics> Observer<H> for History {
         let droplet = self.droplet.index();
         let body: &ActiveDroplet = system.find().ok_or("a scene without a droplet")?;
         let seen = observe(&body.interface_state(system, droplet), Convention::FarField)?;
-        let walls: Vec<&AnySolid> = system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref()).collect();
+        let walls: Vec<&Solid> = system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref()).collect();
         let [lower, upper, ..] = walls[..] else { return Err("a channel without walls".into()) };
         let width = width_between(lower, upper)?;
         let [minimum, maximum] = [width.minimum, width.maximum].map(|width| width - 2.0 * self.set_back);

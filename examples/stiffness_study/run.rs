@@ -6,7 +6,7 @@ use motile::active_interface::{
     ActiveDroplet, Motion,
     trajectory::{RegimeCriteria, TrajectoryRecorder},
 };
-use motile::elastic_solids::{AnySolid, Channel, Constriction, Moduli, StraightChannel, width_between};
+use motile::elastic_solids::{Channel, Constriction, Moduli, Solid, StraightChannel, width_between};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
 use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, WallSurface, stokes_grid::Drive};
 use support::{Decided, Passage, Steadiness, Summary};
@@ -238,7 +238,7 @@ impl Job {
     fn measure_walls<H: Hydrodynamics>(
         &self,
         scene: &Scene<H>,
-        walls: &[Handle<AnySolid>],
+        walls: &[Handle<Solid>],
         set_back: f64,
         summary: &mut Summary,
     ) -> Result<()> {
@@ -246,7 +246,7 @@ impl Job {
         let width = width_between(lower, upper)?;
         summary.put("channel_width_min", width.minimum - 2.0 * set_back, "");
         summary.put("channel_width_max", width.maximum - 2.0 * set_back, "");
-        let largest = [lower, upper].map(AnySolid::largest_displacement);
+        let largest = [lower, upper].map(Solid::largest_displacement);
         summary.put("largest_displacement", largest[0].total.max(largest[1].total), "");
         summary.put("largest_normal_displacement", largest[0].normal.max(largest[1].normal), "");
         let jacobian = [lower, upper].map(|wall| wall.smallest_jacobian().0);

@@ -1,11 +1,11 @@
 //! The gap between a droplet and elastic solids during a run.
 
 use active_interface::ActiveDroplet;
-use elastic_solids::{AnySolid, SolidError, SurfaceGap};
+use elastic_solids::{Solid, SolidError, SurfaceGap};
 use ib_core::{Hydrodynamics, Observer, System};
 use std::any::Any;
 
-/// Measures the gap between the first droplet of a system and all its solids of type [`AnySolid`], keeps the smallest
+/// Measures the gap between the first droplet of a system and all its solids, keeps the smallest
 /// one, and ends the run where the droplet enters a solid deeper than it may.
 ///
 /// ```
@@ -89,7 +89,7 @@ impl SolidGap {
         let (mut any, mut droplet) = (false, None);
         for body in system.bodies() {
             let body: &dyn Any = body;
-            if let Some(solid) = body.downcast_ref::<AnySolid>() {
+            if let Some(solid) = body.downcast_ref::<Solid>() {
                 surfaces.add(solid)?;
                 any = true;
             }

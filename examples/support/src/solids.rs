@@ -5,20 +5,20 @@ use std::{any::Any, collections::HashMap, path::Path};
 use anyhow::Result;
 use motile::{
     SolidGap,
-    elastic_solids::{AnySolid, width_between},
+    elastic_solids::{Solid, width_between},
     ib_core::{Hydrodynamics, System},
 };
 
 use crate::{SolidShape, Summary, Vec2, VtkFile, VtkSeries};
 
 /// The solids of a system, in the order of addition.
-pub fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &AnySolid> {
+pub fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &Solid> {
     system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
 }
 
 /// A solid where it is now; of a periodic wall one period.
 #[must_use]
-pub fn solid_shape(solid: &AnySolid) -> SolidShape {
+pub fn solid_shape(solid: &Solid) -> SolidShape {
     let mesh = solid.mesh();
     let mut shape = SolidShape::default();
     // Lines around the period, to the right and to the left, with the solid on their left: one period of both.
@@ -178,7 +178,7 @@ struct Pieces {
 }
 
 impl Pieces {
-    fn add(&mut self, number: usize, solid: &AnySolid) {
+    fn add(&mut self, number: usize, solid: &Solid) {
         let (mesh, start) = (solid.mesh(), self.points.len());
         self.points.extend(solid.positions());
         self.displacement.extend(solid.displacements());
