@@ -9,10 +9,10 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile::{
-    active_interface::{Evidence, RegimeCriteria},
+    active_interface::trajectory::{Evidence, RegimeCriteria},
     ib_core::Body,
 };
-use support::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
+use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
 
 /// An active droplet swims between elastic walls.
 #[derive(Debug, Parser)]
@@ -28,7 +28,7 @@ struct Flags {
 }
 
 fn main() -> ExitCode {
-    support::run(swim)
+    motile_examples::run(swim)
 }
 
 fn swim(flags: &Flags) -> Result<()> {

@@ -9,8 +9,11 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile::Swimmer;
-use motile::active_interface::{Evidence, RegimeCriteria, net_flux};
-use support::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
+use motile::active_interface::{
+    observables::net_flux,
+    trajectory::{Evidence, RegimeCriteria},
+};
+use motile_examples::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a channel with rigid walls.
 #[derive(Debug, Parser)]
@@ -26,7 +29,7 @@ struct Flags {
 }
 
 fn main() -> ExitCode {
-    support::run(swim)
+    motile_examples::run(swim)
 }
 
 fn swim(flags: &Flags) -> Result<()> {

@@ -1,6 +1,6 @@
 //! Droplets that meet walls: nothing tunnels, nothing is lost.
 
-use motile::active_interface::polygon_area;
+use motile::active_interface::curve::polygon_area;
 use motile::prelude::*;
 
 /// Smallest distance of a droplet's markers from the walls at y = +-height.

@@ -1,7 +1,7 @@
 //! Integrators and step sizes: order, stability, accuracy, and what is reported of them.
 
-use motile::active_interface::{ActiveDroplet, Motion, centroid_velocity};
-use motile::elastic_solids::{ElasticSolid, Moduli, NeoHookean, equilateral_strip};
+use motile::active_interface::{ActiveDroplet, Motion, observables::centroid_velocity};
+use motile::elastic_solids::{Moduli, NeoHookean, Solid, equilateral_strip};
 use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
     SceneError, SpectralEstimate, StepSize, Vec2,
@@ -45,7 +45,7 @@ fn chebyshev_is_of_second_order_with_implicit_diffusion() {
 type Channel<I> = Scene<ImmersedBoundary<ChannelStokes, CubicQuadratic>, I>;
 
 /// A layer of shear modulus 1000 in fluid of viscosity 10, pinned below, its top deformed in a smooth way.
-fn block<I: Integrator>(integrator: I) -> (Channel<I>, Handle<ElasticSolid<NeoHookean>>) {
+fn block<I: Integrator>(integrator: I) -> (Channel<I>, Handle<Solid>) {
     let grid = Grid::channel(16, 16, 0.1).expect("a grid");
     let flow = ImmersedBoundary::new(ChannelStokes::new(grid, 10.0).expect("a solver"), CubicQuadratic::default());
     let mesh = equilateral_strip(Vec2::new(0.0, -0.8), 16, 8, 0.1).expect("a mesh");
@@ -53,7 +53,7 @@ fn block<I: Integrator>(integrator: I) -> (Channel<I>, Handle<ElasticSolid<NeoHo
         let wave = (std::f64::consts::TAU * s.x / 1.6).sin();
         s + 0.05 * (s.y + 0.8) * Vec2::new(1.0 + wave, wave)
     };
-    let solid = ElasticSolid::new(mesh, NeoHookean::new(1000.0, 3000.0).expect("moduli"));
+    let solid = Solid::hyperelastic(mesh, NeoHookean::new(1000.0, 3000.0).expect("moduli"));
     let solid = solid.pinned(|s| s.y < -0.79).expect("free points").deformed(deformed).expect("positions");
     let mut scene = Scene::with_integrator(flow, integrator);
     let handle = scene.add(solid);

@@ -1,4 +1,9 @@
-//! Closed curves to start an interface from.
+//! Closed curves to start an interface from, and the polygon through its markers.
+
+mod crossing;
+mod equidistant;
+pub(crate) mod polygon;
+mod spline;
 
 use std::f64::consts::{PI, TAU};
 use std::fmt;
@@ -7,11 +12,13 @@ use std::sync::Arc;
 use ib_core::Vec2;
 use nalgebra::Rotation2;
 
-use crate::equidistant::equidistant;
+use crate::InterfaceError;
 use crate::error::{all_finite, all_points_finite, enough, finite, positive};
-use crate::polygon::{raw_area, raw_perimeter};
-use crate::spline::PeriodicSpline;
-use crate::{InterfaceError, first_crossing};
+pub use crossing::{CrossingFinder, first_crossing};
+use equidistant::equidistant;
+pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
+use polygon::{edges, raw_area, raw_perimeter};
+use spline::PeriodicSpline;
 
 /// Fewest markers of an interface.
 pub(crate) const MINIMUM_MARKERS: usize = 8;
@@ -38,7 +45,7 @@ const SAMPLES: usize = 8192;
 /// let first = (markers[1] - markers[0]).norm();
 /// let other = (markers[101] - markers[100]).norm();
 /// assert!((first - other).abs() < 1e-12 * first);
-/// assert!((active_interface::polygon_area(&markers)? - std::f64::consts::PI).abs() < 1e-13);
+/// assert!((active_interface::curve::polygon_area(&markers)? - std::f64::consts::PI).abs() < 1e-13);
 /// # Ok::<(), active_interface::InterfaceError>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -198,7 +205,7 @@ impl Curve {
     pub fn polygon(points: &[Vec2]) -> Result<Self, InterfaceError> {
         check_list(points, 3)?;
         let mut length = 0.0;
-        let ends = crate::polygon::edges(points)
+        let ends = edges(points)
             .map(|(a, b)| {
                 length += (b - a).norm();
                 length
@@ -286,7 +293,7 @@ impl Curve {
         } else {
             equidistant(|t| self.point(t), count)?
         };
-        let moments = crate::polygon_moments(&markers)?;
+        let moments = polygon_moments(&markers)?;
         if moments.area <= 0.0 {
             return Err(InterfaceError::NoArea { area: moments.area, length: raw_perimeter(&markers) });
         }
@@ -324,9 +331,8 @@ pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError>
         return Err(InterfaceError::NoArea { area, length });
     }
     let range = [f64::INFINITY, 0.0];
-    let [shortest, longest] = crate::polygon::edges(points)
-        .map(|(a, b)| (b - a).norm())
-        .fold(range, |[min, max], chord| [chord.min(min), chord.max(max)]);
+    let [shortest, longest] =
+        edges(points).map(|(a, b)| (b - a).norm()).fold(range, |[min, max], chord| [chord.min(min), chord.max(max)]);
     if longest > MAXIMUM_UNEVENNESS * shortest {
         return Err(InterfaceError::UnevenSpacing { ratio: longest / shortest, bound: MAXIMUM_UNEVENNESS });
     }
@@ -340,7 +346,7 @@ pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError>
 fn check_list(points: &[Vec2], minimum: usize) -> Result<(), InterfaceError> {
     enough("points of the curve", points.len(), minimum)?;
     all_points_finite("the points of the curve", points)?;
-    if let Some(index) = crate::polygon::edges(points).position(|(a, b)| a == b) {
+    if let Some(index) = edges(points).position(|(a, b)| a == b) {
         return Err(InterfaceError::CoincidentPoints { index });
     }
     match first_crossing(points)? {

@@ -1,7 +1,12 @@
 //! The active droplet.
 
+mod body;
+mod filter;
+mod geometry;
 mod limits;
 mod observe;
+mod redistribution;
+mod spectral;
 mod warning;
 
 use std::sync::Arc;
@@ -9,11 +14,15 @@ use std::sync::Arc;
 use ib_core::{BandLimit, Medium, Vec2};
 
 use crate::error::{not_negative, positive};
-use crate::filter::WiggleFilter;
-use crate::geometry::{Geometry, signed_area};
-use crate::spectral::SpectralCurve;
-use crate::{CrossingFinder, Flux, InterfaceError, Repair, Tension, Transport, cell_peclet};
+use crate::{
+    Flux, InterfaceError, Tension,
+    concentration::{Repair, Transport, cell_peclet},
+    curve::CrossingFinder,
+};
+use filter::WiggleFilter;
+use geometry::{Geometry, signed_area};
 pub(crate) use limits::finest_response;
+use spectral::SpectralCurve;
 pub use warning::DropletWarning;
 
 /// Least number of markers of a droplet.
@@ -139,7 +148,7 @@ impl ActiveDroplet {
         diffusion: f64,
         transport: Option<Transport>,
     ) -> Result<Self, InterfaceError> {
-        let markers = crate::markers_from_points(markers)?;
+        let markers = crate::curve::markers_from_points(markers)?;
         let initial_area = signed_area(&markers);
         let mut droplet = Self {
             name: "droplet".to_owned(),

@@ -11,15 +11,15 @@
 //! [`ActiveDroplet`] is that droplet as a body of a scene ([`ib_core::Body`]). The parts it is made of, each usable by
 //! itself, work on plain slices of markers ([`Vec2`](ib_core::Vec2)) and numbers:
 //!
-//! * **Shapes**: [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
-//!   [`CrossingFinder`] tells whether an interface crosses itself; [`polygon_moments`] and its relatives are exact.
-//! * **Particles**: [`InitialConcentration`] to start from, [`Transport`] to carry them along the interface without
-//!   losing any, [`repair_positivity`], [`cell_peclet`].
-//! * **Tension**: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
-//! * **Measurements**: [`observe`] for all [`Observables`] at once, and a function for each.
-//! * **Channels**: [`TrajectoryRecorder`] for a run, [`Trajectory::regime`] for what the droplet does across the
-//!   channel, [`gap_flow`], [`net_flux`] and [`pressure_drop`] for the flow along it.
-//! * **Theory**: [`LinearTheory`] and [`SquirmerFlow`]; [`Units`] to convert to SI.
+//! * [`curve`]: a [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
+//!   crossings; area, moments and perimeter of polygons, exact.
+//! * [`concentration`]: an [`InitialConcentration`] to start from, [`concentration::Transport`] to carry particles along
+//!   the interface without losing any.
+//! * [`tension`]: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
+//! * [`observables`]: [`observe`] for all [`Observables`] at once, and a function for each; fluxes along a channel.
+//! * [`trajectory`]: a [`trajectory::TrajectoryRecorder`] for a run, [`trajectory::Trajectory::regime`] for what the
+//!   droplet does across a channel.
+//! * [`theory`]: [`theory::LinearTheory`] and [`theory::SquirmerFlow`]. [`units`]: [`Units`] to convert to SI.
 //!
 //! # Conventions
 //!
@@ -31,7 +31,9 @@
 //!
 //! How strongly does a polarised droplet push the fluid? Make it, and take the moments of its forces:
 //! ```
-//! use active_interface::*;
+//! use active_interface::observables::{Frame, force_moments};
+//! use active_interface::theory::{LinearTheory, RoundDroplet};
+//! use active_interface::{ContractileTension, Convention, Curve, InitialConcentration, InterfaceError, Tension};
 //! use ib_core::Vec2;
 //!
 //! let markers = Curve::circle(1.0)?.markers(250)?;
@@ -61,55 +63,24 @@
 //! # Ok::<(), InterfaceError>(())
 //! ```
 
-mod channel_flow;
-mod crossing;
-mod curve;
-mod cyclic;
-mod droplet;
-mod droplet_body;
-mod equidistant;
+pub mod concentration;
+pub mod curve;
+pub mod droplet;
 mod error;
-mod excluded_volume;
-mod face_value;
-mod filter;
-mod geometry;
-mod initial;
-mod observables;
-mod polygon;
-mod positivity;
-mod recorder;
-mod redistribution;
-mod spectral;
-mod spline;
-mod tension;
-mod theory;
-mod trajectory;
-mod transport;
-mod units;
+pub mod observables;
+pub mod tension;
+pub mod theory;
+pub mod trajectory;
+mod tridiagonal;
+pub mod units;
 
-pub use channel_flow::{GapFlow, gap_flow, net_flux, pressure_drop};
-pub use crossing::{CrossingFinder, first_crossing};
-pub use curve::{Curve, markers_from_points};
-pub use cyclic::{CirculantTridiagonal, CyclicTridiagonal};
-pub use droplet::{ActiveDroplet, DropletWarning, MINIMUM_MARKERS, Motion, PECLET_LIMIT};
+pub use concentration::{Flux, InitialConcentration};
+pub use curve::Curve;
+pub use droplet::{ActiveDroplet, DropletWarning, Motion};
 pub use error::InterfaceError;
-pub use excluded_volume::{ExcludedVolume, NoExcludedVolume, QuadraticExcludedVolume, StepExcludedVolume};
-pub use face_value::{Flux, weno5};
-pub use initial::InitialConcentration;
-pub use observables::{
-    ActiveRegion, ConcentrationProfile, Convention, EllipseFit, ForceMoments, FourierModes, Frame, InterfaceState,
-    Observables, SquirmerFit, VelocityFrame, active_curvature, active_region, aspect_ratio_from_moments,
-    centroid_velocity, concentration_modes, concentration_profile, fit_ellipse, fitted_curvature, force_moments,
-    observe, shape_modes, squirmer_coefficients,
+pub use observables::{Convention, Observables, observe};
+pub use tension::{
+    ConstantTension, ContractileTension, ExcludedVolume, NoExcludedVolume, QuadraticExcludedVolume, StepExcludedVolume,
+    Tension,
 };
-pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
-pub use positivity::{Repair, repair_positivity};
-pub use recorder::{Record, TrajectoryRecorder};
-pub use tension::{ConstantTension, ContractileTension, Tension, TensionWarning};
-pub use theory::{LinearTheory, ModeFlow, RoundDroplet, SquirmerFlow, equivalent_radius};
-pub use trajectory::{
-    Doubt, Estimate, Evidence, Extremum, LinearMode, LinearPair, Regime, RegimeCriteria, RegimeReport, Trajectory,
-    extrema, fit_linear_mode, fit_linear_pair,
-};
-pub use transport::{Transport, cell_peclet};
-pub use units::{Quantity, Units};
+pub use units::Units;

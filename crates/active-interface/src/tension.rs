@@ -1,10 +1,13 @@
 //! The tension of the interface as a function of the concentration on it.
 
+mod excluded_volume;
+
 use std::fmt::Debug;
 use std::sync::Arc;
 
+use crate::InterfaceError;
 use crate::error::{finite, length, not_negative};
-use crate::{ExcludedVolume, InterfaceError, StepExcludedVolume};
+pub use excluded_volume::{ExcludedVolume, NoExcludedVolume, QuadraticExcludedVolume, StepExcludedVolume};
 
 /// A tension law: the tension gamma (force; a line tension in two dimensions) as a function of the concentration c
 /// (particles per length).

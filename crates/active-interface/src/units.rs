@@ -51,7 +51,7 @@ impl Quantity {
 /// concentration = 1 / length           activity = tension length            diffusivity = tension length / viscosity
 /// ```
 /// ```
-/// use active_interface::{Quantity, Units};
+/// use active_interface::{Units, units::Quantity};
 /// let units = Units::thesis();
 /// // a speed of 0.15 is 0.15 micrometres a second
 /// assert!((units.to_si(Quantity::Speed, 0.15)? - 0.15e-6).abs() < 1e-20);

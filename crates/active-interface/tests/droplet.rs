@@ -40,7 +40,7 @@ mod tests {
             let mut droplet = ActiveDroplet::passive(&curve.markers(40).unwrap(), tension).unwrap();
             let mut forces = vec![Vec2::zeros(); 40];
             droplet.write_forces(&medium(), &mut forces).unwrap();
-            let energy = |markers: &[Vec2]| tension * active_interface::polygon_perimeter(markers).unwrap();
+            let energy = |markers: &[Vec2]| tension * active_interface::curve::polygon_perimeter(markers).unwrap();
             let step = 1e-6;
             for axis in 0..2 {
                 let shifted = |by: f64| {
@@ -106,7 +106,7 @@ mod tests {
             let after: f64 = body.particle_numbers().iter().sum();
             assert!((after / before - 1.0).abs() < 1e-12);
             assert!(body.particle_numbers().iter().all(|&n| n >= 0.0));
-            let area = active_interface::polygon_area(body.markers()).unwrap();
+            let area = active_interface::curve::polygon_area(body.markers()).unwrap();
             assert!((area / body.initial_area() - 1.0).abs() < 1e-12);
             if motion == Motion::WithFluid {
                 (0..300).for_each(|_| scene.step(0.05).unwrap());

@@ -2,7 +2,7 @@
 
 use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepLimit, StepLimits, Vec2};
 
-use crate::{ElasticForces, Solid, SolidError};
+use crate::{Solid, SolidError};
 
 impl From<SolidError> for BodyError {
     fn from(error: SolidError) -> Self {
@@ -16,7 +16,7 @@ impl From<SolidError> for BodyError {
 /// 0.012, 0.02 and 0.05 at mesh spacings of 0.5, 1, 1.5 and 2 grid spacings.
 const BULK_SHARE: f64 = 0.015;
 
-impl<F: ElasticForces> Body for Solid<F> {
+impl Body for Solid {
     fn name(&self) -> &str {
         &self.name
     }
@@ -139,7 +139,7 @@ impl<F: ElasticForces> Body for Solid<F> {
     }
 }
 
-impl<F: ElasticForces> Solid<F> {
+impl Solid {
     /// Viscosity times the fastest rate at which tethers relax (force per length), from above: all of them move
     /// together.
     ///

@@ -1,9 +1,7 @@
 //! Solids in the flow of the grid: where walls stand, stability limits, no allocation.
 
 use allocation_counter::measure;
-use elastic_solids::{
-    ElasticForces, ElasticSolid, NeoHookean, Outline, Solid, SpringLattice, TriangleMesh, fitted_strip,
-};
+use elastic_solids::{NeoHookean, Outline, Solid, TriangleMesh, fitted_strip};
 use ib_core::{Body, CubicQuadratic, FlowSample, Hydrodynamics, ImmersedBoundary, MobilityDeficit, Scene, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid};
 
@@ -38,21 +36,21 @@ fn on_the_wall(s: Vec2) -> bool {
 }
 
 /// Pinned on the lower wall.
-fn held<F: ElasticForces>(solid: Solid<F>) -> Solid<F> {
+fn held(solid: Solid) -> Solid {
     solid.pinned(on_the_wall).expect("free points")
 }
 
-fn corrected<F: ElasticForces>(solid: Solid<F>) -> Solid<F> {
+fn corrected(solid: Solid) -> Solid {
     solid.surface_corrected(&MobilityDeficit::new(&CubicQuadratic::default()))
 }
 
-fn springs(mesh: TriangleMesh) -> SpringLattice {
-    SpringLattice::new(mesh, SHEAR).expect("a modulus")
+fn springs(mesh: TriangleMesh) -> Solid {
+    Solid::springs(mesh, SHEAR).expect("a modulus")
 }
 
 /// Where stiff layers on both walls stop a flow driven by a pressure gradient, in front of their surface, in grid
 /// spacings: from the velocity in the middle, `G w^2/(8 eta)`.
-fn offset(layer: impl Fn([f64; 2], f64) -> SpringLattice, thickness: f64, h: f64) -> f64 {
+fn offset(layer: impl Fn([f64; 2], f64) -> Solid, thickness: f64, h: f64) -> f64 {
     let gradient = 0.1;
     let mut scene = driven_channel(h, gradient);
     let half = 0.5 * HEIGHT;
@@ -88,7 +86,7 @@ fn the_surface_correction_puts_the_walls_of_a_channel_in_their_place() {
 }
 
 /// The elastic or tether energy after 60 steps over that at the start; infinite after an error.
-fn growth<F: ElasticForces>(solid: Solid<F>, h: f64, steps_over_limit: f64, energy: fn(&Solid<F>) -> f64) -> f64 {
+fn growth(solid: Solid, h: f64, steps_over_limit: f64, energy: fn(&Solid) -> f64) -> f64 {
     let mut scene = channel(h);
     let handle = scene.add(solid);
     let limit = scene.body(handle).unwrap().step_limits(&scene.system().hydrodynamics().medium())[0].dt;
@@ -109,7 +107,7 @@ fn steps_are_stable_up_to_their_limit() {
         for correct in [false, true] {
             let grown = |steps_over_limit: f64| {
                 let material = NeoHookean::new(SHEAR, bulk * SHEAR).unwrap();
-                let solid = held(ElasticSolid::new(layer(1.0, spacing * h), material)).deformed(rough).unwrap();
+                let solid = held(Solid::hyperelastic(layer(1.0, spacing * h), material)).deformed(rough).unwrap();
                 let solid = if correct { corrected(solid) } else { solid };
                 growth(solid, h, steps_over_limit, |solid| solid.elastic_energy().unwrap())
             };
@@ -125,7 +123,7 @@ fn tethered_solids_are_stable_up_to_their_limit() {
     let h = 0.1;
     let held = |low: f64, high: f64, steps_over_limit: f64| {
         let mesh = fitted_strip(Vec2::new(0.0, -0.6), [LENGTH, 1.2], h).unwrap();
-        let solid = SpringLattice::new(mesh, 1e-3).unwrap().tethered(100.0, |s| s.y > low && s.y < high).unwrap();
+        let solid = Solid::springs(mesh, 1e-3).unwrap().tethered(100.0, |s| s.y > low && s.y < high).unwrap();
         growth(solid.deformed(|s| s + Vec2::new(1e-3, 0.0)).unwrap(), h, steps_over_limit, Solid::tether_energy)
     };
     for (low, high) in [(-0.06, 0.06), (-0.3, 0.3), (-0.7, 0.7)] {
@@ -137,10 +135,10 @@ fn tethered_solids_are_stable_up_to_their_limit() {
 #[test]
 fn a_step_allocates_nothing() {
     let mut scene = channel(0.1);
-    let solid = SpringLattice::new(layer(0.8, 0.1), SHEAR).unwrap().pinned(on_the_wall).unwrap();
+    let solid = Solid::springs(layer(0.8, 0.1), SHEAR).unwrap().pinned(on_the_wall).unwrap();
     scene.add(corrected(solid.tethered(1.0, |s| s.y > -0.5).unwrap()));
     let material = NeoHookean::new(SHEAR, SHEAR).unwrap();
-    scene.add(ElasticSolid::new(Outline::circle(Vec2::new(0.5, 0.4), 0.3).unwrap().mesh(0.1).unwrap(), material));
+    scene.add(Solid::hyperelastic(Outline::circle(Vec2::new(0.5, 0.4), 0.3).unwrap().mesh(0.1).unwrap(), material));
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     assert_eq!(measure(|| (0..5).for_each(|_| scene.step(0.01).unwrap())).count_total, 0);
 }

@@ -1,10 +1,10 @@
 //! The gap between a droplet and elastic solids during a run.
 
 use active_interface::ActiveDroplet;
-use elastic_solids::{AnySolid, SolidError, SurfaceGap};
+use elastic_solids::{Solid, SolidError, SurfaceGap};
 use ib_core::{Hydrodynamics, Observer, System};
 
-/// Measures the gap between the first droplet of a system and all its solids of type [`AnySolid`], keeps the smallest
+/// Measures the gap between the first droplet of a system and all its solids, keeps the smallest
 /// one, and ends the run where the droplet enters a solid deeper than it may.
 ///
 /// ```
@@ -86,7 +86,7 @@ impl SolidGap {
         let surfaces = self.surfaces.get_or_insert_with(|| SurfaceGap::new(period));
         surfaces.clear();
         let mut any = false;
-        for (_, solid) in system.bodies::<AnySolid>() {
+        for (_, solid) in system.bodies::<Solid>() {
             surfaces.add(solid)?;
             any = true;
         }

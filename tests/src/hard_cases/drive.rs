@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use motile::active_interface::{ActiveDroplet, polygon_area};
+use motile::active_interface::{ActiveDroplet, curve::polygon_area};
 use motile::ib_core::{Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, StepSize, System, Vec2};
 use motile::{AnyFlow, Method, Swimmer};
 

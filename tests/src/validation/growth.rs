@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, ContractileTension, Curve, NoExcludedVolume, polygon_moments};
+use motile::active_interface::{ActiveDroplet, ContractileTension, Curve, NoExcludedVolume, curve::polygon_moments};
 use motile::ib_core::{Handle, StepSize, Vec2};
 
 use crate::validation::StudyError;

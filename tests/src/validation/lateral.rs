@@ -1,7 +1,10 @@
 //! What becomes of a lateral offset of a swimmer in a channel.
 
 use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, LinearMode, extrema, fit_linear_mode};
+use motile::active_interface::{
+    ActiveDroplet,
+    trajectory::{LinearMode, extrema, fit_linear_mode},
+};
 use motile::ib_core::{Handle, Hydrodynamics, Scene};
 use motile::stokes_grid::Drive;
 

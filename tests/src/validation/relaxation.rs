@@ -1,6 +1,6 @@
 //! The relaxation of an ellipse under tension, against boundary-integral values.
 
-use motile::active_interface::{ActiveDroplet, Curve, polygon_moments};
+use motile::active_interface::{ActiveDroplet, Curve, curve::polygon_moments};
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, StepSize};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 

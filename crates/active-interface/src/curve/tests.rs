@@ -1,11 +1,10 @@
 use super::*;
-use crate::{polygon_area, polygon_moments, polygon_perimeter};
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 
 /// Largest relative deviation of a chord from the mean.
 fn unevenness(markers: &[Vec2]) -> f64 {
-    let chords: Vec<f64> = crate::polygon::edges(markers).map(|(a, b)| (b - a).norm()).collect();
+    let chords: Vec<f64> = edges(markers).map(|(a, b)| (b - a).norm()).collect();
     let mean = chords.iter().sum::<f64>() / chords.len() as f64;
     chords.iter().map(|chord| (chord / mean - 1.0).abs()).fold(0.0, f64::max)
 }

@@ -2,7 +2,8 @@
 
 use ib_core::{BodyError, BodyFlow, Handle, Hydrodynamics, Medium, Observe, SceneError, System};
 
-use crate::{ActiveDroplet, Convention, InterfaceState, Observables, observe};
+use crate::observables::InterfaceState;
+use crate::{ActiveDroplet, Convention, Observables, observe};
 
 impl Observe for ActiveDroplet {
     type Observables = Observables;

@@ -1,7 +1,7 @@
 //! What a droplet warns of.
 
 use super::PECLET_LIMIT;
-use crate::TensionWarning;
+use crate::tension::TensionWarning;
 
 /// What a user should know of a run, though it can go on.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

@@ -4,8 +4,8 @@ use ib_core::Vec2;
 
 use super::circle_fit::weighted_curvature;
 use crate::InterfaceError;
+use crate::curve::polygon::edges;
 use crate::error::{all_finite, all_points_finite, all_positive, enough, length};
-use crate::polygon::edges;
 
 /// The active region: the part of the interface from the steepest rise of the concentration to its steepest fall, in
 /// counter-clockwise order (thesis, section 2.3.4).

@@ -4,8 +4,8 @@ use ib_core::Vec2;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::InterfaceError;
+use crate::curve::polygon::cross;
 use crate::error::{all_points_finite, enough};
-use crate::polygon::cross;
 
 /// Signed curvature (1/length) of the circle with the least sum of squared distances from the points of an open arc, in
 /// their order: positive where the arc turns to the left, as a convex interface in counter-clockwise order does,

@@ -4,7 +4,7 @@ use ib_core::Vec2;
 use nalgebra::{Matrix4, Vector4};
 
 use super::frame::{Frame, aspect_ratio_of, half_chords};
-use crate::{InterfaceError, polygon_moments};
+use crate::{InterfaceError, curve::polygon_moments};
 
 /// An ellipse with its axes along those of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -6,9 +6,9 @@ use ib_core::Vec2;
 
 use super::frame::Frame;
 use super::squirmer::polar_weights;
+use crate::curve::polygon::{cross, edges};
 use crate::error::{all_finite, length};
-use crate::polygon::{cross, edges};
-use crate::{InterfaceError, polygon_moments};
+use crate::{InterfaceError, curve::polygon_moments};
 
 /// Coefficients of f(theta) = mean + sum over k >= 1 of cosines[k-1] cos k theta + sines[k-1] sin k theta.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -2,9 +2,9 @@
 
 use ib_core::Vec2;
 
+use crate::curve::polygon::{AreaMoments, cross};
 use crate::error::{all_points_finite, finite, length};
-use crate::polygon::{AreaMoments, cross};
-use crate::{InterfaceError, polygon_moments};
+use crate::{InterfaceError, curve::polygon_moments};
 
 /// Axes with their origin at a droplet's centroid and their first axis along its motion.
 #[derive(Debug, Clone, Copy, PartialEq)]

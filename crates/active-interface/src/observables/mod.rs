@@ -1,6 +1,7 @@
 //! What is measured on a droplet. Every function works on plain slices.
 
 mod active_region;
+mod channel_flow;
 mod circle_fit;
 mod ellipse_fit;
 mod fourier;
@@ -11,6 +12,7 @@ mod record;
 mod squirmer;
 
 pub use active_region::{ActiveRegion, active_curvature, active_region};
+pub use channel_flow::{GapFlow, gap_flow, net_flux, pressure_drop};
 pub use circle_fit::fitted_curvature;
 pub use ellipse_fit::{EllipseFit, fit_ellipse};
 pub use fourier::{FourierModes, concentration_modes, shape_modes};

@@ -3,9 +3,9 @@
 use ib_core::Vec2;
 
 use super::frame::Frame;
+use crate::curve::polygon::edges;
 use crate::error::{all_finite, length};
-use crate::polygon::edges;
-use crate::{InterfaceError, polygon_moments};
+use crate::{InterfaceError, curve::polygon_moments};
 
 /// The concentration as a function of the arc length from the front of the droplet.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -8,9 +8,9 @@ use super::{
     ActiveRegion, Convention, EllipseFit, ForceMoments, FourierModes, Frame, SquirmerFit, VelocityFrame,
     active_curvature, active_region, fit_ellipse, force_moments, squirmer_coefficients,
 };
+use crate::curve::polygon::{edges, raw_perimeter};
 use crate::error::{all_finite, all_points_finite, length};
-use crate::polygon::{edges, raw_perimeter};
-use crate::{InterfaceError, polygon_moments};
+use crate::{InterfaceError, curve::polygon_moments};
 
 /// What the observables are computed from: lists of M values, marker by marker or segment by segment.
 #[derive(Debug, Clone, Copy)]

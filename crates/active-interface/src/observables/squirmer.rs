@@ -5,9 +5,9 @@ use std::f64::consts::PI;
 use ib_core::Vec2;
 
 use super::frame::{Frame, raw_centroid_velocity};
+use crate::curve::polygon::cross;
 use crate::error::{all_points_finite, length};
-use crate::polygon::cross;
-use crate::{InterfaceError, polygon_moments};
+use crate::{InterfaceError, curve::polygon_moments};
 
 /// The frame of reference in which the velocity along the interface is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

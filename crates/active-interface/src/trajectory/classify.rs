@@ -27,7 +27,7 @@ impl Trajectory {
     ///    Drifting, if the height about which it oscillates moves to one side by more than the swings, or if the
     ///    oscillation decays towards a height off the centre line. Undecided, if the amplitude goes up and down by more
     ///    than a fifth and less than half of the swings belong to the tail.
-    /// 4. Fewer turning points: growing or decaying, if a [`LinearMode`](crate::LinearMode) fits
+    /// 4. Fewer turning points: growing or decaying, if a [`LinearMode`](crate::trajectory::LinearMode) fits
     ///    ([`RegimeCriteria::linear`]), its rate differs from zero by three standard errors, and the record contains at
     ///    least half of its period, or without oscillation a change by a factor of e. Drifting, if the droplet leaves
     ///    the centre line or stays away from it and there is no sign that it oscillates. Undecided otherwise; a steady

@@ -58,7 +58,7 @@ const BETTER: f64 = 0.95;
 /// bias the result, as it does where slopes are taken from differences.
 ///
 /// ```
-/// use active_interface::fit_linear_mode;
+/// use active_interface::trajectory::fit_linear_mode;
 /// let times: Vec<f64> = (0..200).map(f64::from).collect();
 /// let y: Vec<f64> = times.iter().map(|t| 1e-3 * (0.002 * t).exp() * (0.05 * t).cos()).collect();
 /// let mode = fit_linear_mode(&times, &y, None)?;

@@ -30,7 +30,7 @@ pub struct LinearPair {
 ///
 /// By linear least squares from the integrated equation `(y, q) - (y, q)(0) = M INT (y, q) dt`, which needs no
 /// differences of samples; the integrals are of fourth order in the intervals, so that 30 samples a period give the
-/// eigenvalues to 1e-3. Of the two, [`fit_linear_mode`](crate::fit_linear_mode) is the more accurate one; this one
+/// eigenvalues to 1e-3. Of the two, [`fit_linear_mode`](crate::trajectory::fit_linear_mode) is the more accurate one; this one
 /// shows how the swimmer turns: `M[1][0]` is the turning rate for a displacement of one, `M[1][1]` that for a heading
 /// of one.
 ///

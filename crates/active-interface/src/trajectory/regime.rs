@@ -78,7 +78,7 @@ impl fmt::Display for Doubt {
     }
 }
 
-/// What counts as how much for [`Trajectory::regime`](crate::Trajectory::regime).
+/// What counts as how much for [`Trajectory::regime`](crate::trajectory::Trajectory::regime).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RegimeCriteria {
     /// Part of the record, from its beginning, that is left out (no dimension, at least 0 and below 1).

@@ -1,6 +1,9 @@
 //! A droplet ten times as viscous as its surroundings, against tables.
 
-use motile::active_interface::{Convention, Frame, force_moments};
+use motile::active_interface::{
+    Convention,
+    observables::{Frame, force_moments},
+};
 use motile::ib_core::{CubicQuadratic, FlowSample, Hydrodynamics, Vec2};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 

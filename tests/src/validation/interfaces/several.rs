@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, Curve, InitialConcentration, polygon_moments};
+use motile::active_interface::{ActiveDroplet, Curve, InitialConcentration, curve::polygon_moments};
 use motile::boundary_integral::{BoundaryIntegral, FluidDomain, FreeSpace, PeriodicBox, Settings};
 use motile::ib_core::{Handle, Scene, Vec2};
 

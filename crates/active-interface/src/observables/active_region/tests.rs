@@ -78,7 +78,7 @@ fn the_polarised_state_is_half_active() {
 #[test]
 fn a_dent_has_negative_curvature() {
     let markers = Curve::fourier(1.0, &[0.0, 0.25, 0.0], &[]).unwrap().markers(200).unwrap();
-    let perimeter = crate::polygon_perimeter(&markers).unwrap();
+    let perimeter = crate::curve::polygon_perimeter(&markers).unwrap();
     let region = |middle: f64| ActiveRegion {
         start: (middle - 0.04) * perimeter,
         end: (middle + 0.04) * perimeter,

@@ -1,5 +1,9 @@
 use super::*;
-use crate::{Curve, LinearTheory, RoundDroplet, polygon_moments};
+use crate::{
+    Curve,
+    curve::polygon_moments,
+    theory::{LinearTheory, RoundDroplet},
+};
 use proptest::prelude::*;
 
 /// Forces on the fluid: differences of the tension times the direction of the segments.

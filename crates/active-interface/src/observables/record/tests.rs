@@ -1,5 +1,5 @@
 use super::*;
-use crate::{ContractileTension, Curve, InitialConcentration, SquirmerFlow, StepExcludedVolume, Tension};
+use crate::{ContractileTension, Curve, InitialConcentration, StepExcludedVolume, Tension, theory::SquirmerFlow};
 use approx::assert_relative_eq;
 use std::collections::HashSet;
 

@@ -1,0 +1,11 @@
+//! Particles along a closed curve: where they start, how flow and diffusion carry them, how none is lost.
+
+mod flux;
+mod initial;
+mod positivity;
+mod transport;
+
+pub use flux::Flux;
+pub use initial::InitialConcentration;
+pub use positivity::{Repair, repair_positivity};
+pub use transport::{Transport, cell_peclet};

@@ -1,0 +1,218 @@
+//! Concentrations to start from.
+
+use std::f64::consts::TAU;
+use std::fmt;
+use std::sync::Arc;
+
+use ib_core::Vec2;
+
+use crate::InterfaceError;
+use crate::curve::polygon::{cross, edges};
+use crate::error::{finite, positive};
+
+/// A concentration of particles along a closed curve, to start a run from.
+///
+/// ```
+/// use active_interface::{Curve, InitialConcentration};
+/// let markers = Curve::circle(1.0)?.markers(100)?;
+/// let numbers = InitialConcentration::polarised(100.0, 0.0)?.particle_numbers(&markers)?;
+/// // c = c0 (1 - cos theta): none at the front, twice the mean at the rear
+/// let length = active_interface::curve::polygon_perimeter(&markers)? / 100.0;
+/// assert!(numbers[0] / length < 0.2 && (numbers[50] / length - 200.0).abs() < 0.2);
+/// # Ok::<(), active_interface::InterfaceError>(())
+/// ```
+#[derive(Clone)]
+pub struct InitialConcentration(Kind);
+
+#[derive(Clone)]
+enum Kind {
+    Polarised { mean: f64, heading: f64 },
+    Perturbed { mean: f64, amplitude: f64, seed: u64 },
+    PolarAngle(Arc<dyn Fn(f64) -> f64 + Send + Sync>),
+    ArcFraction(Arc<dyn Fn(f64) -> f64 + Send + Sync>),
+}
+
+impl fmt::Debug for InitialConcentration {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.0 {
+            Kind::Polarised { mean, heading } => {
+                f.debug_struct("Polarised").field("mean", mean).field("heading", heading).finish()
+            }
+            Kind::Perturbed { mean, amplitude, seed } => f
+                .debug_struct("Perturbed")
+                .field("mean", mean)
+                .field("amplitude", amplitude)
+                .field("seed", seed)
+                .finish(),
+            Kind::PolarAngle(_) => f.write_str("PolarAngle"),
+            Kind::ArcFraction(_) => f.write_str("ArcFraction"),
+        }
+    }
+}
+
+/// Fourier modes of a seeded perturbation.
+const MODES: usize = 8;
+
+impl InitialConcentration {
+    /// The polarised state of the thesis, eq. (2.46): c = c0 (1 - cos(theta - heading)), with theta the polar angle
+    /// about the centroid. The concentration is highest at the rear, so that a contractile droplet swims in the
+    /// direction `heading` (radians); `mean` is c0 (particles per length).
+    ///
+    /// The particle number of a segment is the integral over its polar angles; all numbers are then scaled by one
+    /// factor so that their total is c0 times the perimeter of the polygon (on a circle with equidistant markers the
+    /// factor is 1 but for round-off).
+    ///
+    /// # Errors
+    /// A mean that is not positive, a heading that is not finite.
+    pub fn polarised(mean: f64, heading: f64) -> Result<Self, InterfaceError> {
+        let mean = positive("the mean concentration", mean)?;
+        Ok(Self(Kind::Polarised { mean, heading: finite("the heading", heading)? }))
+    }
+
+    /// The uniform state with a small perturbation, c = c0 (1 + amplitude p(s)), where p is a sum of the first eight
+    /// Fourier modes in the arc length with random weights and phases, |p| <= 1 and of mean zero. `mean` is c0
+    /// (particles per length), `amplitude` lies in [0, 1).
+    ///
+    /// The same seed gives the same function of the arc length on every machine and at every number of markers. The
+    /// total is c0 times the perimeter of the polygon.
+    ///
+    /// # Errors
+    /// A mean that is not positive, an amplitude outside [0, 1).
+    pub fn perturbed(mean: f64, amplitude: f64, seed: u64) -> Result<Self, InterfaceError> {
+        let mean = positive("the mean concentration", mean)?;
+        if !(0.0..1.0).contains(&amplitude) {
+            let name = "the amplitude of the perturbation";
+            return Err(InterfaceError::OutOfRange { name, value: amplitude, minimum: 0.0, maximum: 1.0 });
+        }
+        Ok(Self(Kind::Perturbed { mean, amplitude, seed }))
+    }
+
+    /// The uniform state with the mean concentration c0 (particles per length).
+    ///
+    /// # Errors
+    /// A mean that is not positive.
+    pub fn uniform(mean: f64) -> Result<Self, InterfaceError> {
+        Self::perturbed(mean, 0.0, 0)
+    }
+
+    /// A concentration (particles per length) as a function of the polar angle about the centroid, from -pi to pi, for
+    /// curves on which it is single-valued. Averaged over each segment by Simpson's rule and not scaled.
+    pub fn by_polar_angle(concentration: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+        Self(Kind::PolarAngle(Arc::new(concentration)))
+    }
+
+    /// A concentration (particles per length) as a function of the arc length from the first marker over the
+    /// perimeter, from 0 to 1. Averaged over each segment by Simpson's rule and not scaled.
+    pub fn by_arc_fraction(concentration: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
+        Self(Kind::ArcFraction(Arc::new(concentration)))
+    }
+
+    /// The particle numbers of the segments of the closed polygon through `markers` (counter-clockwise), segment k from
+    /// marker k to the next.
+    ///
+    /// # Errors
+    /// Fewer than three markers, markers that are not finite or enclose no area; a concentration that is not finite
+    /// or negative somewhere.
+    pub fn particle_numbers(&self, markers: &[Vec2]) -> Result<Vec<f64>, InterfaceError> {
+        let centre = crate::curve::polygon_moments(markers)?.centroid;
+        let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).norm()).collect();
+        let perimeter: f64 = lengths.iter().sum();
+        let mut concentrations = match &self.0 {
+            Kind::Polarised { heading, .. } => polarised(markers, centre, *heading),
+            Kind::Perturbed { amplitude, seed, .. } => perturbed(&lengths, perimeter, *amplitude, *seed),
+            Kind::PolarAngle(f) => edges(markers)
+                .map(|(a, b)| {
+                    simpson(f.as_ref(), [a, (a + b) * 0.5, b].map(|p| (p.y - centre.y).atan2(p.x - centre.x)))
+                })
+                .collect(),
+            Kind::ArcFraction(f) => {
+                let mut end = 0.0;
+                lengths
+                    .iter()
+                    .map(|length| {
+                        let start = end;
+                        end += length / perimeter;
+                        simpson(f.as_ref(), [start, 0.5 * (start + end), end.min(1.0)])
+                    })
+                    .collect()
+            }
+        };
+        if let Some(index) = concentrations.iter().position(|c| !(*c >= 0.0 && c.is_finite())) {
+            let name = "the initial concentration";
+            return Err(match concentrations[index] {
+                value if value.is_finite() => InterfaceError::Negative { name, value },
+                value => InterfaceError::EntryNotFinite { name, index, value },
+            });
+        }
+        for (c, length) in concentrations.iter_mut().zip(&lengths) {
+            *c *= length;
+        }
+        if let Kind::Polarised { mean, .. } | Kind::Perturbed { mean, .. } = self.0 {
+            let factor = mean * perimeter / concentrations.iter().sum::<f64>();
+            concentrations.iter_mut().for_each(|number| *number *= factor);
+        }
+        Ok(concentrations)
+    }
+}
+
+fn simpson(f: &(dyn Fn(f64) -> f64 + Send + Sync), [a, middle, b]: [f64; 3]) -> f64 {
+    (f(a) + 4.0 * f(middle) + f(b)) / 6.0
+}
+
+/// Means of 1 - cos(theta - heading) over the polar angles of the segments.
+fn polarised(markers: &[Vec2], centre: Vec2, heading: f64) -> Vec<f64> {
+    edges(markers)
+        .map(|(a, b)| {
+            let (a, b) = (a - centre, b - centre);
+            let width = cross(a, b).atan2(a.dot(&b));
+            let middle = a.y.atan2(a.x) + 0.5 * width - heading;
+            // mean of cos over the interval = cos(middle) sin(width/2)/(width/2)
+            let half = 0.5 * width;
+            let damping = if half == 0.0 { 1.0 } else { half.sin() / half };
+            (1.0 - middle.cos() * damping).max(0.0)
+        })
+        .collect()
+}
+
+/// Means of 1 + amplitude p over the segments.
+fn perturbed(lengths: &[f64], perimeter: f64, amplitude: f64, seed: u64) -> Vec<f64> {
+    let mut random = SplitMix64(seed);
+    let weights: [f64; MODES] = std::array::from_fn(|_| random.next());
+    let phases: [f64; MODES] = std::array::from_fn(|_| TAU * random.next());
+    let total: f64 = weights.iter().sum();
+    let mut end = 0.0;
+    lengths
+        .iter()
+        .map(|length| {
+            let width = TAU * length / perimeter;
+            let middle = end + 0.5 * width;
+            end += width;
+            let wave: f64 = (1u32..)
+                .zip(weights.iter().zip(&phases))
+                .map(|(k, (weight, phase))| {
+                    let half = 0.5 * f64::from(k) * width;
+                    weight * (f64::from(k) * middle + phase).cos() * half.sin() / half
+                })
+                .sum();
+            1.0 + amplitude * wave / total
+        })
+        .collect()
+}
+
+/// The generator splitmix64 (Steele, Lea and Flood 2014): every seed is good, and the numbers are the same everywhere.
+struct SplitMix64(u64);
+
+impl SplitMix64 {
+    /// A number in (0, 1], a multiple of 2^-53.
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^= z >> 31;
+        ((z >> 11) + 1) as f64 / (1u64 << 53) as f64
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,246 @@
+//! Particles carried along a closed curve by a flow and by diffusion.
+
+use super::flux::{Flux, weno5};
+use crate::error::{all_finite, all_positive, enough, length, not_negative};
+use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
+
+/// Conservative transport of particles along a closed curve of M segments.
+///
+/// Segment k reaches from marker k to marker k+1 (indices modulo M), has the length l_k and carries n_k particles, so
+/// that its concentration is c_k = n_k / l_k (particles per length). Marker k is the face between segments k-1 and k.
+/// Particles only ever pass from a segment to its neighbour:
+/// ```text
+/// dn_k/dt = Phi_k - Phi_{k+1},   Phi_k = (face value of c) (V_t - W)_k - D_k (c_k - c_{k-1}) / ds_k,   ds_k = (l_{k-1} + l_k)/2
+/// ```
+/// (thesis, eq. 2.3, in finite volumes), with V_t the tangential velocity of the fluid at marker k, W that of the
+/// marker itself and D_k the diffusivity there (length squared per time). The first part is for explicit, the second,
+/// linear in n, for implicit time stepping. Every change is a difference of fluxes, so the total number is kept to
+/// round-off.
+///
+/// All velocities, fluxes and diffusivities are lists of M values, one a marker; numbers and lengths are lists of M
+/// values, one a segment. Nothing is allocated after construction.
+#[derive(Debug, Clone)]
+pub struct Transport {
+    flux: Flux,
+    concentrations: Vec<f64>,
+    fluxes: Vec<f64>,
+    lower: Vec<f64>,
+    diagonal: Vec<f64>,
+    upper: Vec<f64>,
+    solver: CyclicTridiagonal,
+}
+
+/// Fewest segments that a five-segment reconstruction makes sense on.
+const MINIMUM: usize = 6;
+
+/// What a number, length or velocity that is not finite shows up in.
+const FLUXES: &str = "the fluxes of particles";
+
+impl Transport {
+    /// A plan for `segments` segments.
+    ///
+    /// # Errors
+    /// Fewer than six segments.
+    pub fn new(segments: usize, flux: Flux) -> Result<Self, InterfaceError> {
+        enough("segments", segments, MINIMUM)?;
+        let zeros = || vec![0.0; segments];
+        Ok(Self {
+            flux,
+            concentrations: zeros(),
+            fluxes: zeros(),
+            lower: zeros(),
+            diagonal: zeros(),
+            upper: zeros(),
+            solver: CyclicTridiagonal::new(segments)?,
+        })
+    }
+
+    /// Number of segments.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.concentrations.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.concentrations.is_empty()
+    }
+
+    /// The flux in use.
+    #[must_use]
+    pub fn flux(&self) -> Flux {
+        self.flux
+    }
+
+    fn check(&self, lists: [(&'static str, usize); 3]) -> Result<(), InterfaceError> {
+        lists.into_iter().try_for_each(|(name, found)| length(name, self.len(), found))
+    }
+
+    /// Writes the concentrations c_k = n_k / l_k (particles per length) of the segments.
+    ///
+    /// # Errors
+    /// Slices of the wrong length.
+    pub fn concentrations(&self, numbers: &[f64], lengths: &[f64], out: &mut [f64]) -> Result<(), InterfaceError> {
+        self.check([("numbers", numbers.len()), ("lengths", lengths.len()), ("concentrations", out.len())])?;
+        write_concentrations(numbers, lengths, out);
+        Ok(())
+    }
+
+    /// Adds the advective part of dn_k/dt to `rate` (particles per time), for the velocities V_t - W of the fluid
+    /// relative to the markers (length per time; positive towards higher marker numbers).
+    ///
+    /// Face values are not allowed to be negative: where a reconstruction undershoots zero nothing flows.
+    ///
+    /// # Errors
+    /// Slices of the wrong length; fluxes that are not finite (`rate` is then as it was).
+    pub fn add_advection(
+        &mut self,
+        numbers: &[f64],
+        lengths: &[f64],
+        relative_velocities: &[f64],
+        rate: &mut [f64],
+    ) -> Result<(), InterfaceError> {
+        self.check([("numbers", numbers.len()), ("lengths", lengths.len()), ("rate", rate.len())])?;
+        length("relative_velocities", self.len(), relative_velocities.len())?;
+        write_concentrations(numbers, lengths, &mut self.concentrations);
+        let c = &self.concentrations;
+        let m = c.len();
+        for (k, (flux, &velocity)) in self.fluxes.iter_mut().zip(relative_velocities).enumerate() {
+            let face = match self.flux {
+                Flux::Upwind => c[if velocity > 0.0 { before(k, 1, m) } else { k }],
+                Flux::Weno5 => {
+                    let (a, b, d) = (before(k, 2, m), before(k, 1, m), after(k, 1, m));
+                    if velocity > 0.0 {
+                        weno5([c[before(k, 3, m)], c[a], c[b], c[k], c[d]])
+                    } else {
+                        weno5([c[after(k, 2, m)], c[d], c[k], c[b], c[a]])
+                    }
+                    .max(0.0)
+                }
+            };
+            *flux = face * velocity;
+        }
+        all_finite(FLUXES, &self.fluxes)?;
+        add_flux_differences(&self.fluxes, 1.0, rate);
+        Ok(())
+    }
+
+    /// Adds `factor` times the diffusive part of dn_k/dt to `out`, for the diffusivities D_k at the markers (length
+    /// squared per time).
+    ///
+    /// # Errors
+    /// Slices of the wrong length; fluxes that are not finite (`out` is then as it was).
+    pub fn add_diffusion(
+        &mut self,
+        lengths: &[f64],
+        diffusivities: &[f64],
+        numbers: &[f64],
+        factor: f64,
+        out: &mut [f64],
+    ) -> Result<(), InterfaceError> {
+        self.check([("numbers", numbers.len()), ("lengths", lengths.len()), ("out", out.len())])?;
+        length("diffusivities", self.len(), diffusivities.len())?;
+        write_concentrations(numbers, lengths, &mut self.concentrations);
+        self.diffuse(lengths, diffusivities)?;
+        add_flux_differences(&self.fluxes, factor, out);
+        Ok(())
+    }
+
+    /// Replaces the particle numbers n by the solution y of y - `factor` L y = n, where L is the operator of
+    /// [`Transport::add_diffusion`] and `factor` (time) and the diffusivities are not negative.
+    ///
+    /// The result is n plus a difference of fluxes, so that the total is kept to round-off; where all n are positive,
+    /// so are all y, but for round-off.
+    ///
+    /// # Errors
+    /// Slices of the wrong length, lengths that are not positive, a negative factor, a singular system (negative
+    /// diffusivities), fluxes that are not finite (`numbers` is then as it was).
+    pub fn solve_diffusion(
+        &mut self,
+        lengths: &[f64],
+        diffusivities: &[f64],
+        factor: f64,
+        numbers: &mut [f64],
+    ) -> Result<(), InterfaceError> {
+        self.check([("numbers", numbers.len()), ("lengths", lengths.len()), ("diffusivities", diffusivities.len())])?;
+        not_negative("the factor of the implicit diffusion", factor)?;
+        all_positive("the segment lengths", lengths)?;
+        let m = self.len();
+        // Unknowns are the concentrations: l_k c_k - factor (g_{k+1} (c_{k+1} - c_k) - g_k (c_k - c_{k-1})) = n_k, a
+        // symmetric matrix whose diagonal dominates.
+        for (k, diffusivity) in diffusivities.iter().enumerate() {
+            let conductance = factor * diffusivity / spacing_at(lengths, k);
+            self.lower[k] = -conductance;
+            self.upper[before(k, 1, m)] = -conductance;
+        }
+        for (k, length) in lengths.iter().enumerate() {
+            self.diagonal[k] = length - self.lower[k] - self.upper[k];
+        }
+        self.concentrations.copy_from_slice(numbers);
+        self.solver.solve(&self.lower, &self.diagonal, &self.upper, &mut self.concentrations)?;
+        self.diffuse(lengths, diffusivities)?;
+        add_flux_differences(&self.fluxes, factor, numbers);
+        Ok(())
+    }
+
+    /// Diffusive fluxes of the concentrations in the scratch.
+    fn diffuse(&mut self, lengths: &[f64], diffusivities: &[f64]) -> Result<(), InterfaceError> {
+        let (c, m) = (&self.concentrations, self.concentrations.len());
+        for (k, (flux, diffusivity)) in self.fluxes.iter_mut().zip(diffusivities).enumerate() {
+            *flux = -diffusivity * (c[k] - c[before(k, 1, m)]) / spacing_at(lengths, k);
+        }
+        all_finite(FLUXES, &self.fluxes)
+    }
+}
+
+fn write_concentrations(numbers: &[f64], lengths: &[f64], out: &mut [f64]) {
+    for ((out, number), length) in out.iter_mut().zip(numbers).zip(lengths) {
+        *out = number / length;
+    }
+}
+
+/// Adds `factor` (Phi_k - Phi_{k+1}).
+fn add_flux_differences(fluxes: &[f64], factor: f64, out: &mut [f64]) {
+    let m = fluxes.len();
+    for (k, out) in out.iter_mut().enumerate() {
+        *out += factor * (fluxes[k] - fluxes[after(k, 1, m)]);
+    }
+}
+
+/// Distance of the midpoints of the segments on both sides of marker k.
+fn spacing_at(lengths: &[f64], k: usize) -> f64 {
+    0.5 * (lengths[k] + lengths[before(k, 1, lengths.len())])
+}
+
+#[inline]
+fn before(k: usize, distance: usize, m: usize) -> usize {
+    if k >= distance { k - distance } else { k + m - distance }
+}
+
+#[inline]
+fn after(k: usize, distance: usize, m: usize) -> usize {
+    let next = k + distance;
+    if next >= m { next - m } else { next }
+}
+
+/// The largest cell Peclet number max |V_t - W| ds / D of the interface (no dimension), for relative velocities at the
+/// markers, segment lengths and the diffusivity D; infinite for D = 0 where anything moves.
+///
+/// Above 0.5 the edge of the concentration is not resolved: use a smaller marker spacing.
+///
+/// # Errors
+/// Slices of different length, a negative diffusivity.
+pub fn cell_peclet(relative_velocities: &[f64], lengths: &[f64], diffusivity: f64) -> Result<f64, InterfaceError> {
+    length("lengths", relative_velocities.len(), lengths.len())?;
+    not_negative("the diffusivity", diffusivity)?;
+    let largest = relative_velocities
+        .iter()
+        .enumerate()
+        .map(|(k, velocity)| velocity.abs() * spacing_at(lengths, k))
+        .fold(0.0, f64::max);
+    Ok(if largest == 0.0 { 0.0 } else { largest / diffusivity })
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,156 @@
+use super::*;
+use crate::concentration::repair_positivity;
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// One third-order Runge-Kutta step (Shu and Osher) of advection at unit speed.
+fn advect(transport: &mut Transport, lengths: &[f64], velocities: &[f64], dt: f64, numbers: &mut [f64]) {
+    let start = numbers.to_vec();
+    let mut rate = vec![0.0; numbers.len()];
+    for (keep, weight) in [(0.0, 1.0), (0.75, 0.25), (1.0 / 3.0, 2.0 / 3.0)] {
+        rate.fill(0.0);
+        transport.add_advection(numbers, lengths, velocities, &mut rate).unwrap();
+        for k in 0..numbers.len() {
+            numbers[k] = keep * start[k] + weight * (numbers[k] + dt * rate[k]);
+        }
+    }
+}
+
+/// Error of the numbers after a quarter turn of 1 + sin(x)/2 on a circle of length 2 pi.
+fn quarter_turn(m: usize, flux: Flux, forward: bool) -> f64 {
+    let h = TAU / m as f64;
+    let average = |k: usize, shift: f64| {
+        let (a, b) = (k as f64 * h - shift, (k + 1) as f64 * h - shift);
+        h - 0.5 * (b.cos() - a.cos())
+    };
+    let sign = if forward { 1.0 } else { -1.0 };
+    let mut numbers: Vec<f64> = (0..m).map(|k| average(k, 0.0)).collect();
+    let mut transport = Transport::new(m, flux).unwrap();
+    // The time error must stay below that of the fluxes: dt ~ h^(5/3).
+    let steps = (0.25 * TAU / (0.4 * h.powf(5.0 / 3.0))).ceil() as usize;
+    let dt = 0.25 * TAU / steps as f64;
+    for _ in 0..steps {
+        advect(&mut transport, &vec![h; m], &vec![sign; m], dt, &mut numbers);
+    }
+    (0..m).map(|k| (numbers[k] - average(k, sign * 0.25 * TAU)).abs() / h).fold(0.0, f64::max)
+}
+
+#[test]
+fn orders_of_the_fluxes() {
+    for forward in [true, false] {
+        let weno = [20, 40, 80].map(|m| quarter_turn(m, Flux::Weno5, forward));
+        assert!((weno[1] / weno[2]).log2() > 4.8, "{weno:?}");
+        assert!(weno[2] < 1e-6, "{weno:?}");
+        let upwind = [80, 160].map(|m| quarter_turn(m, Flux::Upwind, forward));
+        let order = (upwind[0] / upwind[1]).log2();
+        assert!((0.9..1.1).contains(&order), "{upwind:?}");
+    }
+}
+
+#[test]
+fn a_plateau_turns_once_without_overshoot() {
+    let m = 200;
+    let h = TAU / m as f64;
+    let start: Vec<f64> = (0..m).map(|k| if (50..110).contains(&k) { h } else { 0.0 }).collect();
+    let mut numbers = start.clone();
+    let mut transport = Transport::new(m, Flux::Weno5).unwrap();
+    let steps = 2 * m;
+    let mut repaired = 0.0;
+    for _ in 0..steps {
+        advect(&mut transport, &vec![h; m], &vec![1.0; m], TAU / steps as f64, &mut numbers);
+        repaired += repair_positivity(&mut numbers).unwrap().moved;
+    }
+    let highest = numbers.iter().fold(0.0f64, |a, &b| a.max(b)) / h;
+    assert!(highest < 1.0 + 1e-6, "overshoot {}", highest - 1.0);
+    assert!(repaired < 1e-12, "{repaired}");
+    // the edges stay within a few segments
+    let distance: f64 = numbers.iter().zip(&start).map(|(a, b)| (a - b).abs()).sum::<f64>() / h;
+    assert!(distance < 8.0, "{distance} segments");
+    assert!((numbers.iter().sum::<f64>() - start.iter().sum::<f64>()).abs() < 1e-13);
+}
+
+#[test]
+fn a_mode_decays_as_the_discrete_laplacian_says() {
+    let m = 64;
+    let h = 0.1;
+    let mode = 3.0 * TAU / m as f64;
+    let (diffusivity, factor) = (0.2, 1.7);
+    let start: Vec<f64> = (0..m).map(|k| h * (1.0 + 0.3 * (mode * k as f64).cos())).collect();
+    let mut transport = Transport::new(m, Flux::Weno5).unwrap();
+    let mut numbers = start.clone();
+    transport.solve_diffusion(&vec![h; m], &vec![diffusivity; m], factor, &mut numbers).unwrap();
+    let eigenvalue = -diffusivity * (2.0 * (0.5 * mode).sin() / h).powi(2);
+    let mut explicit = start.clone();
+    transport.add_diffusion(&vec![h; m], &vec![diffusivity; m], &start, factor, &mut explicit).unwrap();
+    for k in 0..m {
+        let wave = 0.3 * h * (mode * k as f64).cos();
+        assert!((numbers[k] - h - wave / (1.0 - factor * eigenvalue)).abs() < 1e-14);
+        assert!((explicit[k] - h - wave * (1.0 + factor * eigenvalue)).abs() < 1e-14);
+    }
+}
+
+#[test]
+fn peclet_number_and_errors() {
+    assert_eq!(cell_peclet(&[0.5, -2.0, 1.0], &[0.1; 3], 0.1).unwrap(), 2.0);
+    assert_eq!(cell_peclet(&[0.0; 3], &[0.1; 3], 0.0).unwrap(), 0.0);
+    assert!(cell_peclet(&[0.0; 3], &[0.1; 2], 0.0).is_err());
+    assert!(cell_peclet(&[0.0; 3], &[0.1; 3], -1.0).is_err());
+    assert!(Transport::new(5, Flux::Upwind).is_err());
+    let mut transport = Transport::new(8, Flux::Upwind).unwrap();
+    assert!(transport.add_advection(&[1.0; 8], &[1.0; 8], &[1.0; 8], &mut [0.0; 7]).is_err());
+    let mut rate = [0.5; 8];
+    let nothing = transport.add_advection(&[f64::NAN; 8], &[1.0; 8], &[1.0; 8], &mut rate);
+    assert!(matches!(nothing, Err(InterfaceError::EntryNotFinite { .. })) && rate == [0.5; 8]);
+    assert!(transport.add_diffusion(&[1.0; 8], &[1.0; 3], &[1.0; 8], 1.0, &mut [0.0; 8]).is_err());
+    assert!(transport.solve_diffusion(&[0.0; 8], &[1.0; 8], 1.0, &mut [1.0; 8]).is_err());
+    assert!(transport.solve_diffusion(&[1.0; 8], &[1.0; 8], -1.0, &mut [1.0; 8]).is_err());
+}
+
+#[test]
+fn particles_are_kept_over_many_steps() {
+    let m = 60;
+    let lengths: Vec<f64> = (0..m).map(|k| 0.1 + 0.02 * (k as f64).sin()).collect();
+    let velocities: Vec<f64> = (0..m).map(|k| (TAU * k as f64 / m as f64).sin()).collect();
+    let diffusivities: Vec<f64> = (0..m).map(|k| 0.1 + 0.05 * (k as f64).cos()).collect();
+    let mut numbers: Vec<f64> = (0..m).map(|k| 10.0 * (1.0 - (TAU * k as f64 / m as f64).cos())).collect();
+    let total: f64 = numbers.iter().sum();
+    let mut transport = Transport::new(m, Flux::Weno5).unwrap();
+    let mut rate = vec![0.0; m];
+    for _ in 0..20_000 {
+        rate.fill(0.0);
+        transport.add_advection(&numbers, &lengths, &velocities, &mut rate).unwrap();
+        numbers.iter_mut().zip(&rate).for_each(|(n, r)| *n += 0.01 * r);
+        transport.solve_diffusion(&lengths, &diffusivities, 0.01, &mut numbers).unwrap();
+        repair_positivity(&mut numbers).unwrap();
+    }
+    let change = numbers.iter().sum::<f64>() / total - 1.0;
+    assert!(change.abs() < 1e-12, "{change:e}");
+}
+
+proptest! {
+    #[test]
+    fn implicit_solution_solves_conserves_and_stays_positive(
+        m in 6usize..50,
+        seed in proptest::collection::vec((0.0..5.0f64, 0.05..0.3f64, 0.0..1.0f64), 50),
+        factor in 0.0..0.3f64,
+    ) {
+        let mut numbers: Vec<f64> = seed[..m].iter().map(|s| s.0).collect();
+        let lengths: Vec<f64> = seed[..m].iter().map(|s| s.1).collect();
+        let diffusivities: Vec<f64> = seed[..m].iter().map(|s| s.2).collect();
+        let before = numbers.clone();
+        let mut transport = Transport::new(m, Flux::Weno5).unwrap();
+        transport.solve_diffusion(&lengths, &diffusivities, factor, &mut numbers).unwrap();
+        let mut residual = numbers.clone();
+        transport.add_diffusion(&lengths, &diffusivities, &numbers, -factor, &mut residual).unwrap();
+        // Round-off of the fluxes: conductance times concentration.
+        let largest = |values: &[f64]| values.iter().fold(0.0f64, |a, &b| a.max(b));
+        let shortest = lengths.iter().fold(1.0f64, |a, &b| a.min(b));
+        let stiffness = 1.0 + factor * largest(&diffusivities) / (shortest * shortest);
+        let tolerance = 50.0 * f64::EPSILON * stiffness * largest(&before);
+        for k in 0..m {
+            prop_assert!((residual[k] - before[k]).abs() <= tolerance * stiffness, "{} {}", residual[k], before[k]);
+            prop_assert!(numbers[k] >= -tolerance);
+        }
+        prop_assert!((numbers.iter().sum::<f64>() - before.iter().sum::<f64>()).abs() <= tolerance);
+    }
+}

@@ -1,0 +1,63 @@
+//! Points at equal distances along a closed curve.
+
+use ib_core::Vec2;
+
+use crate::InterfaceError;
+use crate::curve::polygon::edges;
+use crate::error::all_points_finite;
+
+/// `count` points of the closed curve `point`, a function of a parameter in [0, 1], from `point(0)` on, with equal
+/// chords to 1e-12 of their length (or to the round-off of the coordinates, if that is more).
+///
+/// The first guess is equal arc length in a table; then each parameter is moved by the deficit of the chords before it
+/// over the local speed, which converges by a factor of about (curvature times spacing)^2 a sweep.
+pub(crate) fn equidistant(point: impl Fn(f64) -> Vec2, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
+    let fine = (16 * count).max(4096);
+    let samples: Vec<Vec2> = (0..fine).map(|i| point(i as f64 / fine as f64)).collect();
+    all_points_finite("the points of the curve", &samples)?;
+    let mut arc = vec![0.0; fine + 1];
+    for (i, (a, b)) in edges(&samples).enumerate() {
+        arc[i + 1] = arc[i] + (b - a).norm();
+    }
+    let mut parameters: Vec<f64> = (0..count)
+        .map(|k| {
+            let target = arc[fine] * k as f64 / count as f64;
+            let i = arc[1..fine].partition_point(|&s| s <= target);
+            let step = arc[i + 1] - arc[i];
+            (i as f64 + if step > 0.0 { (target - arc[i]) / step } else { 0.0 }) / fine as f64
+        })
+        .collect();
+
+    let mut points: Vec<Vec2> = parameters.iter().map(|&t| point(t)).collect();
+    let extent = points.iter().map(Vec2::amax).fold(0.0, f64::max);
+    let mut best = f64::INFINITY;
+    for _ in 0..200 {
+        all_points_finite("the points of the curve", &points)?;
+        let chords: Vec<f64> = edges(&points).map(|(a, b)| (b - a).norm()).collect();
+        let mean = chords.iter().sum::<f64>() / count as f64;
+        let residual = chords.iter().map(|chord| (chord / mean - 1.0).abs()).fold(0.0, f64::max);
+        let tolerance = 1e-12f64.max(8.0 * f64::EPSILON * extent / mean);
+        if residual <= tolerance {
+            return Ok(points);
+        }
+        best = residual.min(best);
+        let old = parameters.clone();
+        let mut deficit = 0.0;
+        for k in 1..count {
+            deficit += mean - chords[k - 1];
+            let next = if k + 1 == count { 1.0 } else { old[k + 1] };
+            let width = next - old[k - 1];
+            let length = chords[k - 1] + chords[k];
+            let move_by = if length > 0.0 { deficit * width / length } else { 0.0 };
+            // Never past a neighbour.
+            parameters[k] = old[k] + move_by.clamp(0.45 * (old[k - 1] - old[k]), 0.45 * (next - old[k]));
+            points[k] = point(parameters[k]);
+        }
+    }
+    Err(InterfaceError::NoConvergence {
+        what: "the search for equidistant markers",
+        residual: best,
+        tolerance: 1e-12,
+        remedy: "use more markers or a curve with less sharp corners",
+    })
+}

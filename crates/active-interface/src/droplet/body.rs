@@ -1,0 +1,342 @@
+//! The droplet as a body of a scene.
+
+use std::f64::consts::PI;
+
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepInfo, StepLimits, Vec2};
+
+use super::geometry::{equidistribute, outward, signed_area};
+use super::redistribution::redistribute;
+use super::{MINIMUM_MARKERS, finest_response};
+use crate::{
+    ActiveDroplet, InterfaceError, Motion,
+    concentration::{Repair, Transport, repair_positivity},
+};
+
+/// Part of all particles in one segment from which on they have collapsed.
+const COLLAPSED: f64 = 0.15;
+
+impl From<InterfaceError> for BodyError {
+    fn from(error: InterfaceError) -> Self {
+        Self::Other(Box::new(error))
+    }
+}
+
+impl Body for ActiveDroplet {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn kind(&self) -> MarkerKind {
+        let viscosity_inside = self.viscosity_inside;
+        match self.motion {
+            Motion::Equidistributed { .. } => MarkerKind::Interface { viscosity_inside },
+            Motion::WithFluid => MarkerKind::UnevenInterface { viscosity_inside },
+        }
+    }
+
+    fn marker_count(&self) -> usize {
+        self.markers.len()
+    }
+
+    fn write_markers(&self, positions: &mut [Vec2]) {
+        positions.copy_from_slice(&self.markers);
+    }
+
+    fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        self.fit(medium)?;
+        let count = self.markers.len();
+        let mut before = self.tensions[count - 1] * self.geometry.directions[count - 1];
+        for (k, force) in forces.iter_mut().enumerate() {
+            let here = self.tensions[k] * self.geometry.directions[k];
+            *force = here - before;
+            before = here;
+        }
+        if let Some(spectral) = self.spectral.as_mut() {
+            spectral.sharpen(forces);
+        }
+        Ok(())
+    }
+
+    fn state_len(&self) -> usize {
+        2 * self.markers.len() + self.numbers.len()
+    }
+
+    fn write_state(&self, state: &mut [f64]) {
+        let (positions, numbers) = state.split_at_mut(2 * self.markers.len());
+        for (pair, marker) in positions.chunks_exact_mut(2).zip(&self.markers) {
+            pair.copy_from_slice(marker.as_slice());
+        }
+        numbers.copy_from_slice(&self.numbers);
+    }
+
+    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
+        // The count differs from the present one only where a step with insertion is taken back.
+        let count = if self.transport.is_some() { state.len() / 3 } else { state.len() / 2 };
+        if let Some(index) = state.iter().position(|value| !value.is_finite()) {
+            let what = if index < 2 * count { "marker coordinate" } else { "particle number" };
+            return Err(BodyError::NonFinite { what, index, value: state[index] });
+        }
+        let (positions, numbers) = state.split_at(2 * count);
+        self.resize(count)?;
+        for (marker, pair) in self.markers.iter_mut().zip(positions.chunks_exact(2)) {
+            *marker = Vec2::new(pair[0], pair[1]);
+        }
+        self.numbers.copy_from_slice(numbers);
+        Ok(self.update()?)
+    }
+
+    fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
+        let count = self.markers.len();
+        self.motions.resize(count, Vec2::zeros());
+        self.slip.resize(count, 0.0);
+        match self.motion {
+            Motion::Equidistributed { relaxation, .. } => {
+                let (motions, slip) = (&mut self.motions, &mut self.slip);
+                match self.spectral.as_mut() {
+                    Some(curve) => curve.equidistribute(&self.geometry, velocities, relaxation, motions, slip),
+                    None => equidistribute(&self.geometry, velocities, relaxation, motions, slip),
+                }
+            }
+            Motion::WithFluid => {
+                self.motions.copy_from_slice(velocities);
+                self.slip.fill(0.0);
+            }
+        }
+        if let Some(band) = self.band.as_mut() {
+            band.apply(&mut self.motions);
+        }
+        let (positions, numbers) = rate.split_at_mut(2 * count);
+        for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {
+            pair.copy_from_slice(motion.as_slice());
+        }
+        numbers.fill(0.0);
+        if let Some(transport) = self.transport.as_mut() {
+            // What the stabiliser adds implicitly is taken off here.
+            let lengths = &self.geometry.lengths;
+            let advected = transport.add_advection(&self.numbers, lengths, &self.slip, numbers);
+            let stabilised = if self.stabiliser.len() == count {
+                transport.add_diffusion(lengths, &self.stabiliser, &self.numbers, -1.0, numbers)
+            } else {
+                Ok(())
+            };
+            // Fluxes that are not finite: the state that this leads to is refused when it is read.
+            if advected.is_err() || stabilised.is_err() {
+                numbers.fill(f64::NAN);
+            }
+        }
+    }
+
+    fn write_boundary(&self, boundary: &mut Boundary) {
+        boundary.push_loop(&self.markers);
+    }
+
+    fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
+        let count = self.markers.len();
+        self.fit(medium)?;
+        self.diffusivities.resize(count, 0.0);
+        self.diffusivities.fill(self.diffusion);
+        self.stabiliser.clear();
+        if self.transport.is_none() || !(self.stabilised && step.stabilised) {
+            return Ok(());
+        }
+        self.stabiliser.resize(count, 0.0);
+        let scale = 0.25 * finest_response(medium) / self.mean_viscosity(medium);
+        let stiffness = |c: f64| scale * c * (-self.tension.slope(c)).max(0.0);
+        let mut before = stiffness(self.concentrations[count - 1]);
+        for ((face, all), &c) in self.stabiliser.iter_mut().zip(&mut self.diffusivities).zip(&self.concentrations) {
+            let here = stiffness(c);
+            *face = 0.5 * (before + here);
+            *all += *face;
+            before = here;
+        }
+        Ok(())
+    }
+
+    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        self.read_other(state);
+        let split = 2 * self.markers.len();
+        if let Some(transport) = self.transport.as_mut() {
+            let lengths = &self.other_geometry.lengths;
+            let added =
+                transport.add_diffusion(lengths, &self.diffusivities, &state[split..], factor, &mut out[split..]);
+            if added.is_err() {
+                out[split..].fill(f64::NAN);
+            }
+        }
+    }
+
+    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        self.read_other(state);
+        let split = 2 * self.markers.len();
+        if let Some(transport) = self.transport.as_mut() {
+            let lengths = &self.other_geometry.lengths;
+            // A state that is not finite or has collapsed segments is refused when it is read.
+            let solved = transport.solve_diffusion(lengths, &self.diffusivities, factor, &mut state[split..]);
+            if solved.is_err() {
+                state[split..].fill(f64::NAN);
+            }
+        }
+    }
+
+    fn end_step(&mut self, medium: &Medium, dt: f64) -> Result<(), BodyError> {
+        match self.motion {
+            Motion::Equidistributed { filter: true, .. } => {
+                if let Some(spacing) = medium.spacing {
+                    let rate = 0.5 * dt / (self.mean_viscosity(medium) * spacing);
+                    let (tensions, count) = (&self.tensions, self.tensions.len());
+                    let strength =
+                        |k: usize| 0.5 * rate * (tensions[k] + tensions[if k == 0 { count - 1 } else { k - 1 }]);
+                    self.filter.apply(&mut self.markers, &self.geometry, spacing, strength)?;
+                    self.update()?;
+                }
+            }
+            Motion::Equidistributed { .. } => {}
+            Motion::WithFluid => {
+                let (inserted, removed) =
+                    redistribute(&mut self.markers, &mut self.numbers, self.target_spacing, MINIMUM_MARKERS);
+                self.last_redistributed = (inserted, removed);
+                if inserted + removed > 0 {
+                    self.resize(self.markers.len())?;
+                    self.update()?;
+                }
+            }
+        }
+        if self.keeps_area {
+            self.restore_area()?;
+        }
+        if self.transport.is_some() {
+            self.last_repair = repair_positivity(&mut self.numbers)?;
+            if self.last_repair.segments > 0 {
+                self.update()?;
+            }
+        }
+        if let Some((first, second)) = self.crossing.first_crossing(&self.markers)? {
+            let place = self.markers[first];
+            return Err(BodyError::SelfCrossing { x: place.x, y: place.y, first, second });
+        }
+        self.check_bounds()
+    }
+
+    fn keep_step(&mut self) {
+        let (inserted, removed) = std::mem::take(&mut self.last_redistributed);
+        self.redistributed.0 += inserted;
+        self.redistributed.1 += removed;
+        self.repair.accumulate(std::mem::take(&mut self.last_repair));
+    }
+
+    fn step_limits(&self, medium: &Medium) -> StepLimits {
+        self.limits(medium)
+    }
+
+    /// The radius of a circle of the same area for positions, the mean for particle numbers.
+    fn write_scales(&self, scales: &mut [f64]) {
+        let (positions, numbers) = scales.split_at_mut(2 * self.markers.len());
+        positions.fill((self.initial_area / PI).sqrt());
+        let mean = self.numbers.iter().sum::<f64>() / self.numbers.len().max(1) as f64;
+        numbers.fill(if mean > 0.0 { mean } else { 1.0 });
+    }
+
+    fn save(&self) -> Record {
+        let Self { target_spacing, initial_area, initial_number, repair, redistributed, .. } = self;
+        let mut reals = vec![0.0; self.state_len()];
+        self.write_state(&mut reals);
+        reals.extend_from_slice(&self.slip);
+        reals.extend([*target_spacing, *initial_area, *initial_number, repair.moved]);
+        let counts = [self.markers.len(), repair.segments, repair.furthest, redistributed.0, redistributed.1];
+        Record { reals, counts: counts.map(|count| count as u64).to_vec() }
+    }
+
+    fn load(&mut self, medium: &Medium, record: &Record) -> Result<(), BodyError> {
+        let [count, segments, furthest, inserted, removed] = record.counts_of("an active droplet")?;
+        let per_marker = if self.transport.is_some() { 4 } else { 3 };
+        let found = record.reals.len();
+        let count = usize::try_from(count).unwrap_or(usize::MAX).min(found);
+        let expected = per_marker * count + 4;
+        if count < MINIMUM_MARKERS || expected != found {
+            return Err(BodyError::ForeignRecord { expected, found });
+        }
+        if let Some(index) = record.reals.iter().position(|value| !value.is_finite()) {
+            return Err(BodyError::NonFinite { what: "entry of the record", index, value: record.reals[index] });
+        }
+        let (state, rest) = record.reals.split_at((per_marker - 1) * count);
+        let (slip, numbers) = rest.split_at(count);
+        self.resize(count)?;
+        self.read_state(state)?;
+        self.fit(medium)?;
+        self.slip.copy_from_slice(slip);
+        (self.target_spacing, self.initial_area, self.initial_number) = (numbers[0], numbers[1], numbers[2]);
+        self.repair = Repair { segments: segments as usize, moved: numbers[3], furthest: furthest as usize };
+        self.redistributed = (inserted as usize, removed as usize);
+        Ok(())
+    }
+}
+
+impl ActiveDroplet {
+    /// Area and particles are what they were, and no tension law without a plateau has gathered the particles in a
+    /// point.
+    fn check_bounds(&self) -> Result<(), BodyError> {
+        let total: f64 = self.numbers.iter().sum();
+        let changes = [
+            ("the area", signed_area(&self.markers) / self.initial_area - 1.0),
+            ("the number of particles", if total > 0.0 { total / self.initial_number - 1.0 } else { 0.0 }),
+        ];
+        for ((what, change), bound) in changes.into_iter().zip(self.bounds) {
+            if change.is_nan() || change.abs() > bound {
+                return Err(BodyError::NotConserved { what, change, bound });
+            }
+        }
+        if self.collapsible && total > 0.0 {
+            let most = self.numbers.iter().fold(0.0_f64, |a, &b| a.max(b));
+            if most > COLLAPSED * total {
+                return Err(InterfaceError::Collapse { part: most / total }.into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes all lists fit `count` markers.
+    fn resize(&mut self, count: usize) -> Result<(), InterfaceError> {
+        self.markers.resize(count, Vec2::zeros());
+        if let Some(transport) = &self.transport {
+            self.numbers.resize(count, 0.0);
+            if transport.len() != count {
+                self.transport = Some(Transport::new(count, transport.flux())?);
+            }
+        }
+        if self.diffusivities.len() != count {
+            self.diffusivities.resize(count, self.diffusion);
+        }
+        if self.slip.len() != count {
+            self.slip.resize(count, 0.0);
+        }
+        Ok(())
+    }
+
+    /// The geometry of a state of the present length that is not the droplet's own.
+    fn read_other(&mut self, state: &[f64]) {
+        if self.transport.is_none() {
+            return;
+        }
+        self.other_markers.clear();
+        self.other_markers
+            .extend(state[..2 * self.markers.len()].chunks_exact(2).map(|pair| Vec2::new(pair[0], pair[1])));
+        self.other_geometry.update(&self.other_markers);
+        if let Some(spectral) = self.spectral.as_mut() {
+            spectral.refine(&self.other_markers, &mut self.other_geometry);
+        }
+    }
+
+    /// Moves all markers along their normals by the same distance so that the area is the initial one (twice, the
+    /// second time for the quadratic part).
+    fn restore_area(&mut self) -> Result<(), InterfaceError> {
+        for _ in 0..2 {
+            let missing = self.initial_area - signed_area(&self.markers);
+            let total: f64 = self.geometry.weights.iter().sum();
+            for (marker, tau) in self.markers.iter_mut().zip(&self.geometry.tangents) {
+                *marker += missing / total * outward(*tau);
+            }
+            self.update()?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,207 @@
+//! Pressure drop and fluxes in a channel with a droplet.
+
+use ib_core::{BodyError, FlowError, FlowReport, FlowSample, Handle, Hydrodynamics, Medium, SceneError, System, Vec2};
+
+use crate::curve::polygon::edges;
+use crate::error::{finite, positive};
+use crate::{
+    ActiveDroplet, InterfaceError,
+    curve::polygon_moments,
+    observables::{InterfaceState, centroid_velocity},
+};
+
+/// The pressure drop along a channel of the length `length` (length): how much lower the pressure is at its right end
+/// (force per length in 2D), `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.
+///
+/// Positive where pressure drives the fluid to the right. Zero where the pressure is periodic, as in the thesis'
+/// channel; in a closed channel (no net flux) it is what a swimmer has to push against.
+///
+/// # Errors
+/// A length that is not positive and finite, a report whose gradient is not finite.
+pub fn pressure_drop(report: &FlowReport, length: f64) -> Result<f64, InterfaceError> {
+    let gradient = finite("the mean pressure gradient", report.mean_pressure_gradient[0])?;
+    Ok(-gradient * positive("the length of the channel", length)?)
+}
+
+/// The net flux through a channel (area per time): the integral of u from wall to wall at `x`, which is the same at
+/// every x and time but for the error of the quadrature.
+///
+/// u is integrated exactly as it is sampled where there is a grid (linearly between the rows of the grid; the error is
+/// of second order in h), by 64 Gauss points where there is none.
+///
+/// # Errors
+/// A fluid without walls, those of an evaluation and of sampling.
+pub fn net_flux<H: Hydrodynamics>(system: &mut System<H>, x: f64) -> Result<f64, SceneError> {
+    let (medium, time) = (system.hydrodynamics().medium(), system.time());
+    let [bottom, top] = walls(&medium, time)?;
+    let line = Line::new(&medium, &[bottom, top]);
+    let [flux] = line.integrals(system, x)?;
+    Ok(flux)
+}
+
+/// The fluxes along a channel through the cross-section at the centroid of a droplet, by [`gap_flow`].
+///
+/// "Inside" is between the lowest and the highest point of the interface on the cross-section, "gaps" are what is left
+/// below and above it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapFlow {
+    /// The droplet's velocity along the channel (length per time).
+    pub velocity: f64,
+    /// Flux through the gap below and the one above, in the frame of the walls (area per time).
+    pub gaps: [f64; 2],
+    /// Flux inside the droplet, in the frame of the walls (area per time).
+    pub inside: f64,
+    /// Heights of the gaps (length).
+    pub gap_heights: [f64; 2],
+    /// Height of the droplet between them (length).
+    pub droplet_height: f64,
+}
+
+impl GapFlow {
+    /// The net flux along the channel (area per time), that of gaps and droplet together.
+    #[must_use]
+    pub fn net(&self) -> f64 {
+        self.gaps[0] + self.inside + self.gaps[1]
+    }
+
+    /// Fluxes through the gaps in the frame of the droplet (area per time): `q - V d` with the flux q in the frame of
+    /// the walls, the velocity V of the droplet and the height d of the gap.
+    #[must_use]
+    pub fn relative_gaps(&self) -> [f64; 2] {
+        [0, 1].map(|i| self.gaps[i] - self.velocity * self.gap_heights[i])
+    }
+
+    /// The retrograde flow: how much fluid passes the droplet backwards through both gaps, seen from the droplet (area
+    /// per time; to the left of a droplet that moves to the right; negative for a droplet that is overtaken by the
+    /// fluid).
+    ///
+    /// In a steady state it is the same at every cross-section, `|V| w - Q` with the width w of the channel and the net
+    /// flux Q in the droplet's direction.
+    #[must_use]
+    pub fn retrograde(&self) -> f64 {
+        -self.velocity.signum() * self.relative_gaps().iter().sum::<f64>()
+    }
+}
+
+/// The fluxes along a channel through the vertical line at the centroid of a droplet: u integrated below, inside and
+/// above it.
+///
+/// The line is close to the widest cross-section of a swimmer on the centre line. A gap that is closed has the height
+/// zero. Other bodies on the line count as fluid. u is integrated as by [`net_flux`]; the error is of second order in h
+/// as long as the gaps are some cells wide.
+///
+/// # Errors
+/// A fluid without walls, a handle of another scene, those of an evaluation and of sampling.
+pub fn gap_flow<H: Hydrodynamics>(
+    system: &mut System<H>,
+    droplet: Handle<ActiveDroplet>,
+) -> Result<GapFlow, SceneError> {
+    let (medium, time) = (system.hydrodynamics().medium(), system.time());
+    let [bottom, top] = walls(&medium, time)?;
+    system.evaluate()?;
+    let state = InterfaceState::of(system, droplet)?;
+    let markers = state.markers;
+    let moving = polygon_moments(markers).and_then(|area| {
+        let velocity = centroid_velocity(markers, state.velocities)?;
+        Ok((area.centroid.x, velocity.x))
+    });
+    let (x, velocity) = moving.map_err(|source| named(system, droplet, source))?;
+    let [low, high] = crossings(markers, x).map(|y| y.clamp(bottom, top));
+    let line = Line::new(&medium, &[bottom, low, high, top]);
+    let [below, inside, above] = line.integrals(system, x)?;
+    Ok(GapFlow {
+        velocity,
+        gaps: [below, above],
+        inside,
+        gap_heights: [low - bottom, top - high],
+        droplet_height: high - low,
+    })
+}
+
+fn named<H: Hydrodynamics>(system: &System<H>, droplet: Handle<ActiveDroplet>, source: InterfaceError) -> SceneError {
+    match system.any_body(droplet) {
+        Ok(body) => {
+            let body = body.name().to_owned();
+            SceneError::Body { time: system.time(), body, source: BodyError::from(source) }
+        }
+        Err(error) => error,
+    }
+}
+
+fn walls(medium: &Medium, time: f64) -> Result<[f64; 2], SceneError> {
+    let source = FlowError::Unsupported {
+        what: "the flux through a cross-section",
+        remedy: "put the droplet into a channel with walls",
+    };
+    medium.domain.walls.ok_or(SceneError::Flow { time, source })
+}
+
+/// Lowest and highest point of the polygon at `x`; crossed over without one.
+fn crossings(markers: &[Vec2], x: f64) -> [f64; 2] {
+    edges(markers)
+        .filter(|(a, b)| (a.x < x) != (b.x < x))
+        .map(|(a, b)| a.y + (b.y - a.y) * (x - a.x) / (b.x - a.x))
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], y| [low.min(y), high.max(y)])
+}
+
+/// Panels of a section where there is no grid.
+const PANELS: usize = 32;
+
+/// Points on a vertical line, and their weights, section by section.
+#[derive(Debug, Clone, PartialEq)]
+struct Line {
+    /// Height, weight, section.
+    points: Vec<(f64, f64, usize)>,
+}
+
+impl Line {
+    /// Two Gauss points in each panel of the sections between the heights `ends`; panels end where the sampled velocity
+    /// has kinks.
+    fn new(medium: &Medium, ends: &[f64]) -> Self {
+        let mut points = Vec::new();
+        let root = 1.0 / 3.0_f64.sqrt();
+        for (section, pair) in ends.windows(2).enumerate() {
+            let (from, to) = (pair[0], pair[1]);
+            let mut kinks = match medium.spacing {
+                Some(h) => {
+                    // Rows of u, half a cell off the walls.
+                    let row = |j: f64| ends[0] + (j + 0.5) * h;
+                    let first = ((from - row(0.0)) / h).ceil();
+                    let count = ((to - row(first)) / h).ceil().max(0.0);
+                    (0..count as usize).map(|j| row(first + j as f64)).filter(|&y| from < y && y < to).collect()
+                }
+                None => Vec::new(),
+            };
+            if medium.spacing.is_none() {
+                kinks.extend((1..PANELS).map(|j| from + (to - from) * j as f64 / PANELS as f64));
+            }
+            kinks.push(to);
+            let mut start = from;
+            for end in kinks {
+                let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
+                points.extend([-root, root].map(|at| (middle + at * half, half, section)));
+                start = end;
+            }
+        }
+        Self { points }
+    }
+
+    /// The integrals of u over the N sections, at `x`.
+    fn integrals<const N: usize, H: Hydrodynamics>(
+        &self,
+        system: &mut System<H>,
+        x: f64,
+    ) -> Result<[f64; N], SceneError> {
+        let positions: Vec<Vec2> = self.points.iter().map(|&(y, _, _)| Vec2::new(x, y)).collect();
+        let mut samples = vec![FlowSample::default(); positions.len()];
+        system.sample(&positions, &mut samples)?;
+        let mut integrals = [0.0; N];
+        for (&(_, weight, section), sample) in self.points.iter().zip(&samples) {
+            integrals[section] += weight * sample.velocity.x;
+        }
+        Ok(integrals)
+    }
+}
+
+#[cfg(test)]
+mod tests;

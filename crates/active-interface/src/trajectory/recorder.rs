@@ -1,0 +1,189 @@
+//! Records of a droplet over a run.
+
+use std::error::Error;
+
+use ib_core::{Handle, Hydrodynamics, Observer, System, wall_gap};
+
+use crate::{
+    ActiveDroplet, Convention, InterfaceError, Observables,
+    observables::{GapFlow, InterfaceState, gap_flow},
+    observe,
+    trajectory::{RegimeCriteria, RegimeReport, Trajectory},
+};
+
+/// What a [`TrajectoryRecorder`] saw at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrajectoryRecord {
+    /// When.
+    pub time: f64,
+    /// All observables of the droplet.
+    pub observables: Observables,
+    /// Distance of the droplet's nearest marker from a wall (length, see [`wall_gap`]); `None` without walls.
+    pub gap: Option<f64>,
+    /// Mean pressure gradient dp/dx (force per volume).
+    pub pressure_gradient: f64,
+    /// Fluxes past the droplet; `None` unless asked for by [`TrajectoryRecorder::with_gap_flow`].
+    pub flow: Option<GapFlow>,
+}
+
+impl TrajectoryRecord {
+    /// Names and values, in the order of the columns of a table: `time`, the [`Observables::entries`], `gap`,
+    /// `pressure_gradient`, `net_flux`, `retrograde_flow`. What does not exist is `None`.
+    #[must_use]
+    pub fn entries(&self) -> Vec<(&'static str, Option<f64>)> {
+        let mut entries = vec![("time", Some(self.time))];
+        entries.extend(self.observables.entries());
+        entries.push(("gap", self.gap));
+        entries.push(("pressure_gradient", Some(self.pressure_gradient)));
+        entries.push(("net_flux", self.flow.map(|flow| flow.net())));
+        entries.push(("retrograde_flow", self.flow.map(|flow| flow.retrograde())));
+        entries
+    }
+}
+
+/// Watches one droplet of a scene during its runs and keeps all that it sees.
+///
+/// ```no_run
+/// # fn run<H: ib_core::Hydrodynamics>(
+/// #     mut scene: ib_core::Scene<H>, droplet: ib_core::Handle<active_interface::ActiveDroplet>,
+/// # ) -> Result<(), Box<dyn std::error::Error>> {
+/// use active_interface::trajectory::{RegimeCriteria, TrajectoryRecorder};
+/// use ib_core::Every;
+///
+/// let mut recorder = TrajectoryRecorder::new(droplet);
+/// scene.run(500.0).observe(Every::Time(0.5), &mut recorder).go()?;
+/// let report = recorder.regime(&RegimeCriteria::default())?;
+/// println!("{}, amplitude {}", report.regime, report.evidence.amplitude);
+/// println!("closest to a wall: {:?}", recorder.minimum_gap());
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrajectoryRecorder {
+    droplet: Handle<ActiveDroplet>,
+    convention: Convention,
+    with_gap_flow: bool,
+    centre_line: Option<f64>,
+    minimum_gap: Option<f64>,
+    records: Vec<TrajectoryRecord>,
+}
+
+impl TrajectoryRecorder {
+    /// A recorder of a droplet, with force moments in the far-field convention.
+    #[must_use]
+    pub fn new(droplet: Handle<ActiveDroplet>) -> Self {
+        let convention = Convention::FarField;
+        let records = Vec::new();
+        Self { droplet, convention, with_gap_flow: false, centre_line: None, minimum_gap: None, records }
+    }
+
+    /// The same recorder with force moments in another convention.
+    #[must_use]
+    pub fn with_convention(mut self, convention: Convention) -> Self {
+        self.convention = convention;
+        self
+    }
+
+    /// The same recorder, recording also the fluxes past the droplet (see [`crate::observables::gap_flow`]). This costs a sampling
+    /// of the flow a record, a little more than half a time step, and works in channels only.
+    #[must_use]
+    pub fn with_gap_flow(mut self) -> Self {
+        self.with_gap_flow = true;
+        self
+    }
+
+    /// The records, at increasing times.
+    #[must_use]
+    pub fn records(&self) -> &[TrajectoryRecord] {
+        &self.records
+    }
+
+    /// Number of records.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.records.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.records.is_empty()
+    }
+
+    /// The values of the entry `name` (see [`TrajectoryRecord::entries`]), record by record; `None` for an unknown name or
+    /// without records.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<Vec<Option<f64>>> {
+        let place = self.records.first()?.entries().iter().position(|entry| entry.0 == name)?;
+        Some(self.records.iter().map(|record| record.entries()[place].1).collect())
+    }
+
+    /// The smallest gap to the walls of all records (length); `None` without walls or records. The scene keeps that
+    /// of all its steps and bodies ([`System::minimum_wall_gap`]).
+    #[must_use]
+    pub fn minimum_gap(&self) -> Option<f64> {
+        self.minimum_gap
+    }
+
+    /// The trajectory across the channel, heights being measured from the centre line; without walls from the height of
+    /// the first record.
+    ///
+    /// # Errors
+    /// None for records of a run.
+    pub fn trajectory(&self) -> Result<Trajectory, InterfaceError> {
+        let list = |value: fn(&TrajectoryRecord) -> f64| self.records.iter().map(value).collect::<Vec<f64>>();
+        let mut heights = list(|record| record.observables.centroid.y);
+        let origin = self.centre_line.or(heights.first().copied()).unwrap_or(0.0);
+        heights.iter_mut().for_each(|y| *y -= origin);
+        Trajectory::new(list(|record| record.time), heights, list(|record| record.observables.speed()))?
+            .with_lateral_velocities(list(|record| record.observables.velocity.y))
+    }
+
+    /// What the droplet does in the long run; see [`Trajectory::regime`].
+    ///
+    /// # Errors
+    /// No records, criteria out of their ranges.
+    pub fn regime(&self, criteria: &RegimeCriteria) -> Result<RegimeReport, InterfaceError> {
+        self.trajectory()?.regime(criteria)
+    }
+}
+
+impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
+    /// Evaluates the present state and records it. A record at the time of the last one takes its place, so that a run
+    /// can be continued.
+    ///
+    /// # Errors
+    /// A handle of another scene, a time before that of the last record, those of an evaluation.
+    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn Error + Send + Sync>> {
+        let time = system.time();
+        system.body(self.droplet)?;
+        match self.records.last() {
+            Some(last) if last.time > time => {
+                let index = self.records.len();
+                return Err(
+                    InterfaceError::NotIncreasing { name: "the times of the records", index, value: time }.into()
+                );
+            }
+            Some(last) if last.time == time => {
+                self.records.pop();
+            }
+            _ => {}
+        }
+        system.evaluate()?;
+        let pressure_gradient = system.report().mean_pressure_gradient[0];
+        let flow = self.with_gap_flow.then(|| gap_flow(system, self.droplet)).transpose()?;
+        let state = InterfaceState::of(system, self.droplet)?;
+        let observables = observe(&state, self.convention)?;
+        let walls = system.hydrodynamics().medium().domain.walls;
+        let gap = walls.map(|walls| wall_gap(state.markers, walls));
+        if let Some(gap) = gap {
+            self.minimum_gap = Some(self.minimum_gap.map_or(gap, |least| least.min(gap)));
+        }
+        self.centre_line = walls.map(|[bottom, top]| 0.5 * (bottom + top));
+        self.records.push(TrajectoryRecord { time, observables, gap, pressure_gradient, flow });
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests;

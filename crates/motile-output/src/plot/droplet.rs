@@ -1,0 +1,62 @@
+//! Plots of what was measured on a droplet.
+
+use anyhow::Result;
+use motile::active_interface::observables::ConcentrationProfile;
+
+use crate::{AxisScale, Figure, Plot, Series, Trajectory};
+
+/// Speed, shape and the character of the flow over time; between walls also the height and the gap.
+///
+/// # Errors
+/// A trajectory without these columns.
+pub fn time_series(trajectory: &Trajectory) -> Result<Figure> {
+    let plot = |title: &str, label: &str| {
+        Plot::new(title).x_axis("time t", AxisScale::Linear).y_axis(label, AxisScale::Linear)
+    };
+    let line =
+        |label: &str, column: &str| Ok::<_, anyhow::Error>(Series::line(label, trajectory.curve("time", column)?));
+    let figure = Figure::new(2)
+        .panel(plot("Speed", "|v| (R_{0} per time)").series(line("", "speed")?))
+        .panel(
+            plot("Shape", "aspect ratio a/b")
+                .series(line("area moments", "aspect_ratio_moments")?)
+                .series(line("fitted ellipse", "aspect_ratio_ellipse")?.dashed())
+                .horizontal(1.0, ""),
+        )
+        .panel(
+            plot("Stresslet along the motion", "S_{xx}")
+                .series(line("", "stresslet_xx")?)
+                .horizontal(0.0, "pushers above, pullers below"),
+        )
+        .panel(plot("Squirmer parameter", "β = B_{2}/|B_{1}|").series(line("", "beta")?).horizontal(0.0, "neutral"));
+    if trajectory.column("gap").is_err() {
+        return Ok(figure);
+    }
+    Ok(figure
+        .panel(plot("Height of the centroid", "y (R_{0})").series(line("", "y")?).horizontal(0.0, ""))
+        .panel(plot("Gap to the walls", "gap (R_{0})").series(line("", "gap")?).horizontal(0.0, "")))
+}
+
+/// The concentration along the interface, from the front and counter-clockwise, at the start and at `time`.
+///
+/// # Errors
+/// None for profiles that were measured.
+pub fn concentration_plot(
+    start: &ConcentrationProfile,
+    end: &ConcentrationProfile,
+    time: f64,
+    mean_concentration: f64,
+) -> Result<Figure> {
+    let line = |label: &str, profile: &ConcentrationProfile| {
+        let arc = profile.arc.iter().map(|s| s / profile.perimeter);
+        Series::line(label, arc.zip(profile.concentration.iter().map(|c| c / mean_concentration)).collect::<Vec<_>>())
+    };
+    let plot = Plot::new("Concentration along the interface")
+        .x_axis("arc length from the front, in perimeters (rear: 0.5)", AxisScale::Linear)
+        .x_range(0.0, 1.0)
+        .y_axis("c/c_{0}", AxisScale::Linear)
+        .series(line(&format!("t = {time:.1}"), end))
+        .series(line("t = 0", start).dashed())
+        .horizontal(1.0, "mean at the start");
+    Ok(Figure::new(1).panel(plot))
+}
