@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
+use fourier::{ComplexTransform, RealTransform};
 use num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner};
 
 use crate::mobility::{MobilityDeficit, normal_taper};
 use crate::{FlowError, Vec2};
@@ -38,44 +37,25 @@ use crate::{FlowError, Vec2};
 #[derive(Debug)]
 pub(crate) struct MobilityCorrection {
     deficit: Arc<MobilityDeficit>,
-    planner: Planner,
     plan: Option<Plan>,
 }
 
-/// The planner does not implement Debug.
-struct Planner(RealFftPlanner<f64>);
-
-impl std::fmt::Debug for Planner {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("RealFftPlanner")
-    }
-}
-
 /// Transforms and scratch for one number of markers.
+#[derive(Debug)]
 struct Plan {
-    forward: Arc<dyn RealToComplex<f64>>,
-    inverse: Arc<dyn ComplexToReal<f64>>,
+    real: RealTransform,
+    complex: ComplexTransform,
     places: Vec<Place>,
     /// Tangential and normal force per length.
     forces: [Vec<f64>; 2],
     spectra: [Vec<Complex<f64>>; 2],
     /// What the mean deficits give along the tangent and the normal (length per time).
     parts: [Vec<f64>; 2],
-    scratch: Vec<Complex<f64>>,
-    complex_forward: Arc<dyn Fft<f64>>,
-    complex_inverse: Arc<dyn Fft<f64>>,
     /// Factors of a mode, `MODULATED` and one more; see [`Plan::transform`].
     factors: Vec<[f64; 5]>,
     /// For each modulated force, one after the other: the factor before and after the multiplication of its modes.
     phases: Vec<Complex<f64>>,
     modulated: Vec<Complex<f64>>,
-    complex_scratch: Vec<Complex<f64>>,
-}
-
-impl std::fmt::Debug for Plan {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Plan").field("markers", &self.places.len()).finish_non_exhaustive()
-    }
 }
 
 /// Forces that are multiplied by a phase before and after their modes are multiplied by factors: with e^{2i theta} the
@@ -109,7 +89,7 @@ pub(crate) struct Setting {
 
 impl MobilityCorrection {
     pub(crate) fn new(deficit: Arc<MobilityDeficit>) -> Self {
-        Self { deficit, planner: Planner(RealFftPlanner::new()), plan: None }
+        Self { deficit, plan: None }
     }
 
     /// Adds the correction of one equally spaced closed interface to `velocities`; `gaps` are the distances of its
@@ -127,7 +107,7 @@ impl MobilityCorrection {
             return Ok(());
         }
         if self.plan.as_ref().is_none_or(|plan| plan.places.len() != count) {
-            self.plan = Some(Plan::new(&mut self.planner.0, count));
+            self.plan = Some(Plan::new(count));
         }
         let Some(plan) = self.plan.as_mut() else { return Ok(()) };
         let perimeter = plan.place(setting, gaps, positions, forces);
@@ -169,28 +149,18 @@ fn erfc(x: f64) -> f64 {
 }
 
 impl Plan {
-    fn new(planner: &mut RealFftPlanner<f64>, count: usize) -> Self {
-        let (forward, inverse) = (planner.plan_fft_forward(count), planner.plan_fft_inverse(count));
-        let scratch = vec![Complex::default(); forward.get_scratch_len().max(inverse.get_scratch_len())];
-        let (real, spectrum) = (vec![0.0; count], vec![Complex::default(); count / 2 + 1]);
-        let mut complex_planner = FftPlanner::new();
-        let (complex_forward, complex_inverse) =
-            (complex_planner.plan_fft_forward(count), complex_planner.plan_fft_inverse(count));
-        let needed = complex_forward.get_inplace_scratch_len().max(complex_inverse.get_inplace_scratch_len());
+    fn new(count: usize) -> Self {
+        let (values, spectrum) = (vec![0.0; count], vec![Complex::default(); count / 2 + 1]);
         Self {
-            complex_forward,
-            complex_inverse,
+            real: RealTransform::new(count),
+            complex: ComplexTransform::new(count),
             factors: vec![[0.0; 5]; spectrum.len()],
             phases: vec![Complex::default(); MODULATED * count],
             modulated: vec![Complex::default(); MODULATED * count],
-            complex_scratch: vec![Complex::default(); needed],
-            forward,
-            inverse,
             places: vec![Place::default(); count],
-            forces: std::array::from_fn(|_| real.clone()),
+            forces: std::array::from_fn(|_| values.clone()),
             spectra: std::array::from_fn(|_| spectrum.clone()),
-            parts: std::array::from_fn(|_| real.clone()),
-            scratch,
+            parts: std::array::from_fn(|_| values.clone()),
         }
     }
 
@@ -254,7 +224,7 @@ impl Plan {
         let step = 2.0 * std::f64::consts::PI * setting.spacing / perimeter;
         let scale = setting.spacing / setting.viscosity / count as f64;
         for (force, spectrum) in self.forces.iter_mut().zip(&mut self.spectra) {
-            self.forward.process_with_scratch(force, spectrum, &mut self.scratch).map_err(lengths)?;
+            self.real.forward(force, spectrum)?;
         }
         let [tangential, normal] = &mut self.spectra;
         for (m, factors) in self.factors.iter_mut().enumerate() {
@@ -274,14 +244,9 @@ impl Plan {
             .map(|factor| scale * factor);
         }
         for (spectrum, part) in self.spectra.iter_mut().zip(&mut self.parts) {
-            // Purely real by definition; round-off would make the transform refuse them.
-            spectrum[0].im = 0.0;
-            if count.is_multiple_of(2) {
-                spectrum[count / 2].im = 0.0;
-            }
-            self.inverse.process_with_scratch(spectrum, part, &mut self.scratch).map_err(lengths)?;
+            self.real.inverse(spectrum, part)?;
         }
-        self.complex_forward.process_with_scratch(&mut self.modulated, &mut self.complex_scratch);
+        self.complex.forward(&mut self.modulated)?;
         for m in 0..count {
             let [tangential, normal, curvature, harmonic, cross] = self.factors[m.min(count - m)];
             let [along, across] = [0, 1].map(|which| self.modulated[which * count + m]);
@@ -293,7 +258,7 @@ impl Plan {
             self.modulated[3 * count + m] *= harmonic;
             self.modulated[4 * count + m] *= harmonic;
         }
-        self.complex_inverse.process_with_scratch(&mut self.modulated, &mut self.complex_scratch);
+        self.complex.inverse(&mut self.modulated)?;
         Ok(())
     }
 
@@ -330,9 +295,4 @@ impl Plan {
             }
         }
     }
-}
-
-/// The plans are made for the lengths they are used with, so this is not met in practice.
-fn lengths(_: realfft::FftError) -> FlowError {
-    FlowError::Unsupported { what: "a transform along an interface of this length", remedy: "report this as a defect" }
 }

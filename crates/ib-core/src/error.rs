@@ -11,6 +11,9 @@ pub enum FlowError {
     /// The grid solver refused.
     #[error(transparent)]
     Stokes(#[from] StokesError),
+    /// A transform of another length than planned for.
+    #[error(transparent)]
+    Transform(#[from] fourier::FourierError),
     /// A marker position or force is not a finite number.
     #[error("{what} of marker {marker} of body {body} is ({x}, {y}): the run has gone wrong, use a smaller time step")]
     NonFinite {

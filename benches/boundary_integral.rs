@@ -1,16 +1,16 @@
 //! Time of one evaluation of the velocities, in units of a pair of two-dimensional real transforms, which is what a
 //! solver on a grid spends at least.
 //!
-//! `cargo bench -p boundary-integral` prints a table. All rows and the transforms are timed in turns, and the fastest
-//! of many turns counts, so that other work of the machine does not matter much.
+//! `cargo bench --bench boundary_integral` prints a table. All rows and the transforms are timed in turns, and the
+//! fastest of many turns counts, so that other work of the machine does not matter much.
 
 use std::{cell::Cell, f64::consts::TAU, hint::black_box, rc::Rc, time::Instant};
 
-use boundary_integral::{
+use motile::boundary_integral::{
     BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, PeriodicCalculus, Settings, TensionPlacement,
 };
-use ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
-use realfft::RealFftPlanner;
+use motile::ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
+use motile_timing::PlainPair;
 
 /// How often each row is timed.
 const TURNS: usize = 200;
@@ -103,42 +103,10 @@ fn samples<D: FluidDomain + 'static>(name: &str, domain: D) -> Row {
     })
 }
 
-/// Forward and inverse real transform of a square grid, rows and columns, with the transposes.
+/// A forward and an inverse real transform of a square grid.
 fn transform_pair(n: usize) -> Row {
-    let mut real = RealFftPlanner::<f64>::new();
-    let (forward, inverse) = (real.plan_fft_forward(n), real.plan_fft_inverse(n));
-    let mut complex = rustfft::FftPlanner::<f64>::new();
-    let (down, up) = (complex.plan_fft_forward(n), complex.plan_fft_inverse(n));
-    let half = n / 2 + 1;
-    let mut grid: Vec<f64> = (0..n * n).map(|i| (i as f64).sin()).collect();
-    let zero = num_complex::Complex64::default();
-    let (mut spectrum, mut turned) = (vec![zero; half * n], vec![zero; half * n]);
-    let mut scratch = vec![zero; 8 * n];
-    let transpose =
-        |from: &[num_complex::Complex64], to: &mut [num_complex::Complex64], rows: usize, columns: usize| {
-            for row in 0..rows {
-                for column in 0..columns {
-                    to[column * rows + row] = from[row * columns + column];
-                }
-            }
-        };
-    Row::new(format!("transforms, {n} x {n} | | | "), Rc::default(), move || {
-        for (row, out) in grid.chunks_exact_mut(n).zip(spectrum.chunks_exact_mut(half)) {
-            forward.process_with_scratch(row, out, &mut scratch).expect("a valid scene");
-        }
-        transpose(&spectrum, &mut turned, n, half);
-        down.process_with_scratch(&mut turned, &mut scratch);
-        up.process_with_scratch(&mut turned, &mut scratch);
-        transpose(&turned, &mut spectrum, half, n);
-        let factor = 1.0 / (n * n) as f64;
-        for (row, out) in spectrum.chunks_exact_mut(half).zip(grid.chunks_exact_mut(n)) {
-            row[0].im = 0.0;
-            row[half - 1].im = 0.0;
-            inverse.process_with_scratch(row, out, &mut scratch).expect("a valid scene");
-            out.iter_mut().for_each(|value| *value *= factor);
-        }
-        black_box(&grid);
-    })
+    let mut pair = PlainPair::new(n, n);
+    Row::new(format!("transforms, {n} x {n} | | | "), Rc::default(), move || pair.run())
 }
 
 fn main() {

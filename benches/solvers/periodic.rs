@@ -1,17 +1,17 @@
-//! Solvers of a periodic box, in units of one real transform there and back of the same size in the same run.
+//! Solvers of a periodic box, in units of one forward and one inverse real transform of the same size in the same run.
 
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion};
+use motile::stokes_grid::{Grid, PeriodicStokes, ProjectionStokes, RealFft2};
 use motile_timing::{PlainPair, print_ratios};
 use num_complex::Complex64;
-use stokes_grid::{Grid, PeriodicStokes, ProjectionStokes, RealFft2};
 
 use crate::solve;
 
 const SIZES: [usize; 7] = [120, 128, 240, 256, 480, 512, 1024];
 
-/// This crate's transform there and back, with the spectrum as a whole in between.
+/// This crate's forward and inverse transform, with the spectrum as a whole in between.
 fn own_pair(n: usize) -> impl FnMut() {
     let mut transform = RealFft2::new(n, n).expect("a size");
     let mut space: Vec<f64> = (0..n * n).map(|i| ((i * i) as f64).sin()).collect();

@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use stokes_grid::{Grid, StaggeredField, StokesSolver};
+use motile::stokes_grid::{Grid, StaggeredField, StokesSolver};
 
 /// A force with all wave numbers in it.
 fn random_force(grid: Grid) -> StaggeredField {

@@ -1,8 +1,9 @@
-//! Solvers of a channel, in units of one pass of real transforms in x there and back of the same size in the same run.
+//! Solvers of a channel, in units of one pass of real transforms in x, forward and inverse, of the same size in the
+//! same run.
 
 use criterion::{BenchmarkId, Criterion};
+use motile::stokes_grid::{ChannelStokes, Grid, ProjectionStokes};
 use motile_timing::{PlainPair, print_ratios};
-use stokes_grid::{ChannelStokes, Grid, ProjectionStokes};
 
 use crate::solve;
 
