@@ -2,6 +2,7 @@
 
 use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepLimit, StepLimits, Vec2};
 
+use crate::surface_correction::SurfaceCorrection;
 use crate::{Solid, SolidError};
 
 impl From<SolidError> for BodyError {
@@ -37,9 +38,12 @@ impl Body for Solid {
 
     fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.compute_forces()?;
-        if let Some(surface) = &mut self.surface {
-            surface.prepare(&self.mesh, &self.free, medium.spacing);
-            surface.update(&self.mesh, &self.free, medium, &self.positions, &self.forces);
+        if self.corrected {
+            let surface = match self.surface.take() {
+                Some(surface) if surface.suits(medium) => surface,
+                _ => SurfaceCorrection::new(&self.mesh, &self.free, medium)?,
+            };
+            self.surface.insert(surface).update(&self.mesh, &self.free, medium, &self.positions, &self.forces);
         }
         for (force, &point) in forces.iter_mut().zip(&self.free) {
             *force = self.forces[point];

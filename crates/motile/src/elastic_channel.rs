@@ -207,10 +207,9 @@ impl ElasticChannel {
         let set_back = self.set_back();
         let widened = if set_back > 0.0 { shape.widened(2.0 * set_back)? } else { shape.clone() };
         let ChannelWalls { lower, upper, islands } = widened.walls(-half, half, &mesher)?;
-        let deficit = MobilityDeficit::new(&self.swimmer.kernel);
         let finished = |solid: Solid| {
             let solid = if self.may_invert { solid.allow_inversion() } else { solid };
-            if self.surface == WallSurface::Corrected { solid.surface_corrected(&deficit) } else { solid }
+            if self.surface == WallSurface::Corrected { solid.surface_corrected() } else { solid }
         };
         let mut solids = Vec::new();
         for (name, mesh) in [("lower wall", lower), ("upper wall", upper)] {

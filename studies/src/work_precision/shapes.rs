@@ -6,7 +6,7 @@ use anyhow::{Result, anyhow, bail};
 use motile::active_interface::{ActiveDroplet, Curve, curve::polygon_moments};
 use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
 use motile::elastic_solids::{NeoHookean, Solid, fitted_strip};
-use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, MobilityDeficit, Scene, Vec2};
+use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile::{AnyFlow, Swimmer};
 use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes};
@@ -118,7 +118,7 @@ pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
         let solid = Solid::hyperelastic(mesh, NeoHookean::new(SHEAR, 3.0 * SHEAR)?)
             .pinned(|s| s.y < -0.5 * HEIGHT + 1e-9)?
             .deformed(|s| s + Vec2::new(AMPLITUDE * (s.y + 0.5 * HEIGHT), 0.0))?;
-        Ok(if settings.corrected { solid.surface_corrected(&MobilityDeficit::new(&settings.kernel)) } else { solid })
+        Ok(if settings.corrected { solid.surface_corrected() } else { solid })
     };
     let make = || {
         let flow = ImmersedBoundary::new(ChannelStokes::new(grid, VISCOSITY)?, settings.kernel);

@@ -5,7 +5,7 @@ use motile::elastic_solids::{
     Mesher, MooneyRivlin, NeoHookean, Outline, Region, SaintVenantKirchhoff, Solid, SolidError, Springs, TriangleMesh,
     equilateral_block, equilateral_strip, fitted_strip, force_balance, measured_moduli, patch_residual, stress_error,
 };
-use motile::ib_core::{CubicQuadratic, ImmersedBoundary, MobilityDeficit, Scene, Vec2};
+use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid};
 
 use crate::validation::StudyError;
@@ -195,8 +195,7 @@ impl Layer {
         let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
         let above = |s: Vec2| s.y + 0.5 * HEIGHT;
         let solid = solid.pinned(|s| above(s) < 1e-9)?.deformed(|s| s + Vec2::new(shear * above(s), 0.0))?;
-        let deficit = MobilityDeficit::new(&CubicQuadratic::default());
-        let handle = scene.add(if self.corrected { solid.surface_corrected(&deficit) } else { solid });
+        let handle = scene.add(if self.corrected { solid.surface_corrected() } else { solid });
         let start = slide(scene.body(handle)?);
         let time = VISCOSITY / LAYER_SHEAR;
         for _ in 0..50 {
