@@ -128,11 +128,11 @@ pub enum BodyError {
         /// What is allowed.
         bound: f64,
     },
-    /// A record of another body, or of one made otherwise.
+    /// The state of another body, or of one made otherwise.
     #[error(
-        "a record of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
+        "a saved state of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
     )]
-    ForeignRecord {
+    ForeignState {
         /// Numbers needed.
         expected: usize,
         /// Numbers found.

@@ -1,14 +1,19 @@
 //! Scenes: bodies in a fluid, advanced in time.
 
 mod handle;
+mod run;
+mod step_control;
+mod system;
 
 pub use handle::Handle;
 pub(crate) use handle::SceneId;
+pub use run::{Every, Observer, Run};
+pub(crate) use step_control::StepControl;
+pub use step_control::{Limiting, StepReport, StepSize};
+pub use system::{BodyFlow, System};
 
-use crate::step_control::StepControl;
 use crate::{
-    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Observe, Record, Repulsion, Run, SceneError, StepInfo,
-    StepReport, StepSize, System,
+    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Observe, Repulsion, SavedState, SceneError, StepInfo,
 };
 
 /// Bodies coupled by a fluid, and the integrator that advances them.
@@ -247,8 +252,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         self.integrator.work()
     }
 
-    pub(crate) fn load_integrator(&mut self, record: &Record) -> Result<(), SceneError> {
-        self.integrator.load(record)
+    pub(crate) fn load_integrator(&mut self, saved: &SavedState) -> Result<(), SceneError> {
+        self.integrator.load(saved)
     }
 
     /// The integrator.

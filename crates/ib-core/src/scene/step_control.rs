@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::Record;
+use crate::SavedState;
 
 /// How long the steps of a run are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,13 +129,13 @@ impl StepControl {
         self.retreated = true;
     }
 
-    pub(crate) fn save(&self, record: &mut Record) {
-        record.reals.extend([self.next, self.last[0], self.last[1]]);
-        record.counts.push(u64::from(self.retreated));
+    pub(crate) fn save(&self, saved: &mut SavedState) {
+        saved.reals.extend([self.next, self.last[0], self.last[1]]);
+        saved.counts.push(u64::from(self.retreated));
     }
 
-    pub(crate) fn load(record: &Record) -> Option<Self> {
-        match (record.reals.as_slice(), record.counts.as_slice()) {
+    pub(crate) fn load(saved: &SavedState) -> Option<Self> {
+        match (saved.reals.as_slice(), saved.counts.as_slice()) {
             (&[next, dt, error], &[retreated]) => Some(Self { next, last: [dt, error], retreated: retreated == 1 }),
             _ => None,
         }
