@@ -78,7 +78,7 @@ fn swim(flags: &Flags) -> Result<()> {
     };
     let (mut scene, droplet, solids) = channel.build_in(&shape)?;
     for solid in &solids {
-        say(format_args!("{}", scene.body(*solid).mesh().quality()));
+        say(format_args!("{}", scene.body(*solid)?.mesh().quality()));
     }
 
     // The run and its results.

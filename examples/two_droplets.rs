@@ -12,7 +12,11 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
-use motile::active_interface::{ActiveDroplet, curve::polygon_moments, observables::centroid_velocity};
+use motile::active_interface::{
+    ActiveDroplet,
+    curve::polygon_moments,
+    observables::{InterfaceState, centroid_velocity},
+};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
 use motile::{AnyFlow, Swimmer};
 use motile_examples::{DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say};
@@ -133,7 +137,7 @@ fn meet(flags: &Flags) -> Result<()> {
     summary.put("minimum_gap", scene.system().minimum_gap(), "between the interfaces, over the run (R0)");
     summary.put("repulsion", flags.repulsion.map(|values| values.to_vec()), "strength and range, if there was one");
     for (name, droplet) in ["first_area_change", "second_area_change"].into_iter().zip(droplets) {
-        let body = scene.body(droplet);
+        let body = scene.body(droplet)?;
         summary.put(
             name,
             polygon_moments(body.markers())?.area / body.initial_area() - 1.0,
@@ -161,8 +165,8 @@ fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> R
     let time = system.time();
     system.evaluate()?;
     let mut seen = [(Vec2::zeros(), 0.0); 2];
-    for ((place, speed), (body, droplet)) in seen.iter_mut().zip(motile_output::droplets(system).zip(droplets)) {
-        let state = body.interface_state(system, droplet.index());
+    for ((place, speed), droplet) in seen.iter_mut().zip(droplets) {
+        let state = InterfaceState::of(system, droplet)?;
         *place = polygon_moments(state.markers)?.centroid;
         *speed = centroid_velocity(state.markers, state.velocities)?.norm();
     }

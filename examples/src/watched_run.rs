@@ -93,7 +93,7 @@ impl WatchedRun {
         // The time step may change on the way.
         let description = format!("{name}: {:?}", Swimmer { step: StepSize::default(), ..swimmer.clone() });
         output.checkpoints.resume(scene, &description, end)?;
-        let body = scene.body(droplet);
+        let body = scene.body(droplet)?;
         let frame = Frame::new(Vec2::new(swimmer.offset[0], swimmer.offset[1]), swimmer.angle)?;
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
         let domain = scene.system().hydrodynamics().medium().domain;
@@ -233,7 +233,7 @@ impl WatchedRun {
         let (Some((film, _)), Some(last)) = (&self.pictures, self.recorder.last()) else { return Ok(()) };
         let (directory, trajectory) = (&self.directory, self.recorder.table());
         time_series(trajectory)?.write(directory, "time_series")?;
-        let body = scene.body(self.droplet);
+        let body = scene.body(self.droplet)?;
         let frame = Frame::of_motion(last.observables.centroid, last.observables.velocity)?;
         let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
         concentration_plot(&self.start, &profile, self.cost.time, self.swimmer.mean_concentration)?

@@ -1,8 +1,24 @@
 //! What a body is: markers that put forces on the fluid and move with it.
 
+mod marker_body;
+
+pub use marker_body::MarkerBody;
+
 use std::any::Any;
 
-use crate::{BodyError, Boundary, MarkerKind, Medium, Record, StepLimits, Vec2};
+use crate::{BodyError, BodyFlow, Boundary, MarkerKind, Medium, Record, StepLimits, Vec2};
+
+/// What can be seen of a body beyond its markers: the speed of a droplet, say.
+pub trait Observe: Body {
+    /// All that is seen of it at one time.
+    type Observables;
+
+    /// What is seen of it in its present state, from the flow at its markers in that state.
+    ///
+    /// # Errors
+    /// A state in which it cannot be computed.
+    fn observables(&self, medium: &Medium, flow: &BodyFlow<'_>) -> Result<Self::Observables, BodyError>;
+}
 
 /// A step that is about to be taken.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -132,7 +132,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             minimum_wall_gap: system.minimum_wall_gap(),
             minimum_gap: system.minimum_gap(),
             region: system.hydrodynamics().medium().domain.into(),
-            bodies: system.bodies().map(|body| part(body.name(), kind(body.kind()), body.save())).collect(),
+            bodies: system.all_bodies().map(|(_, body)| part(body.name(), kind(body.kind()), body.save())).collect(),
             flow: system.hydrodynamics().save(),
             known: system
                 .is_evaluated()
@@ -168,11 +168,11 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             };
             return foreign(format!("its domain has {}, this one {}", describe(checkpoint.region), describe(region)));
         }
-        let (expected, found) = (system.bodies().count(), checkpoint.bodies.len());
+        let (expected, found) = (system.all_bodies().len(), checkpoint.bodies.len());
         if expected != found {
             return foreign(format!("it has {found} bodies, this scene {expected}"));
         }
-        for (index, (body, part)) in system.bodies().zip(&checkpoint.bodies).enumerate() {
+        for (index, ((_, body), part)) in system.all_bodies().zip(&checkpoint.bodies).enumerate() {
             if body.name() != part.name || kind(body.kind()) != part.kind {
                 let (here, there) = (body.name(), &part.name);
                 return foreign(format!(

@@ -272,6 +272,15 @@ pub enum SceneError {
         /// How it differs.
         problem: String,
     },
+    /// A handle of another scene.
+    #[error("the handle is of a body of another scene: use the one that this scene gave when the body was added")]
+    ForeignHandle,
+    /// The flow of the present state is asked for before it has been computed.
+    #[error("the flow at {body} is not known in the present state: call `evaluate` first, or `observe`, which does")]
+    NotEvaluated {
+        /// The body's name.
+        body: String,
+    },
     /// An observer failed.
     #[error("an observer failed at time {time}")]
     Observer {

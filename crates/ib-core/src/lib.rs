@@ -71,7 +71,7 @@ mod transfer;
 mod wall_gap;
 
 pub use band_limit::BandLimit;
-pub use body::{Body, StepInfo};
+pub use body::{Body, MarkerBody, Observe, StepInfo};
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use contact::{Boundary, Repulsion};
 pub use error::{BodyError, FlowError, SceneError};
@@ -89,6 +89,6 @@ pub use scene::{Handle, Scene};
 pub use smeared_contrast::SmearedContrast;
 pub use step_control::{Limiting, StepReport, StepSize};
 pub use step_limit::{StepCause, StepLimit, StepLimits};
-pub use system::System;
+pub use system::{BodyFlow, System};
 pub use transfer::Transfer;
 pub use wall_gap::wall_gap;

@@ -1,14 +1,16 @@
 //! Bodies in a fluid: the system of equations that an integrator advances.
 
+mod bodies;
 mod forces;
 mod gaps;
 mod state;
 
-use std::any::Any;
+pub use bodies::BodyFlow;
 
 use crate::contact::{ContactFinder, Gap};
+use crate::scene::SceneId;
 use crate::{
-    Body, BodyError, FlowReport, FlowSample, Hydrodynamics, Markers, Record, Repulsion, SceneError, StepInfo,
+    Body, BodyError, FlowReport, FlowSample, Handle, Hydrodynamics, Markers, Record, Repulsion, SceneError, StepInfo,
     StepLimit, Vec2,
 };
 use forces::write_forces;
@@ -18,6 +20,7 @@ use forces::write_forces;
 /// Integrators advance it, observers look at it.
 #[derive(Debug)]
 pub struct System<H> {
+    id: SceneId,
     hydrodynamics: H,
     bodies: Vec<Box<dyn Body>>,
     markers: Markers,
@@ -40,6 +43,7 @@ pub struct System<H> {
 impl<H: Hydrodynamics> System<H> {
     pub(crate) fn new(hydrodynamics: H) -> Self {
         Self {
+            id: SceneId::unique(),
             hydrodynamics,
             bodies: Vec::new(),
             markers: Markers::new(),
@@ -57,12 +61,12 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
-    pub(crate) fn push(&mut self, body: Box<dyn Body>) -> usize {
+    pub(crate) fn push<B: Body>(&mut self, body: B) -> Handle<B> {
         self.markers.push_group(body.marker_count(), body.kind());
-        self.bodies.push(body);
+        self.bodies.push(Box::new(body));
         self.current = false;
         self.record_wall_gap();
-        self.bodies.len() - 1
+        Handle::new(self.id, self.bodies.len() - 1)
     }
 
     /// Time since the start (time).
@@ -92,27 +96,6 @@ impl<H: Hydrodynamics> System<H> {
     #[must_use]
     pub fn hydrodynamics(&self) -> &H {
         &self.hydrodynamics
-    }
-
-    /// The bodies, in the order in which they were added.
-    pub fn bodies(&self) -> impl Iterator<Item = &dyn Body> {
-        self.bodies.iter().map(AsRef::as_ref)
-    }
-
-    /// The first body of type B, if there is one.
-    #[must_use]
-    pub fn find<B: Body>(&self) -> Option<&B> {
-        self.bodies.iter().find_map(|body| (body.as_ref() as &dyn Any).downcast_ref())
-    }
-
-    pub(crate) fn body_at(&self, index: usize) -> &dyn Any {
-        self.bodies[index].as_ref()
-    }
-
-    pub(crate) fn body_at_mut(&mut self, index: usize) -> &mut dyn Any {
-        // Whoever holds the body mutably may change it.
-        self.current = false;
-        self.bodies[index].as_mut()
     }
 
     /// Positions, forces and velocities of all markers as of the last evaluation; [`System::evaluate`] makes them those

@@ -2,11 +2,11 @@
 
 use std::{mem::discriminant, path::Path};
 
-use anyhow::{Context, Result, anyhow};
+use anyhow::{Result, anyhow};
 use motile::{
     active_interface::{
         ActiveDroplet, DropletWarning,
-        observables::centroid_velocity,
+        observables::{InterfaceState, centroid_velocity},
         trajectory::{TrajectoryRecord, TrajectoryRecorder},
     },
     ib_core::{Handle, Hydrodynamics, Observer, System},
@@ -161,14 +161,14 @@ impl Dial {
     fn look<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<()> {
         // The flow at the end of a step is that at the start of the next, so that this costs nothing.
         system.evaluate()?;
-        let body: &ActiveDroplet = system.find().context("a scene without a droplet")?;
+        let body = system.body(self.droplet)?;
         for warning in body.warnings() {
             if !self.warned.iter().any(|known| discriminant(known) == discriminant(&warning)) {
                 self.progress.note(&format!("warning: at t = {:.3}, {warning}", system.time()));
                 self.warned.push(warning);
             }
         }
-        let state = body.interface_state(system, self.droplet.index());
+        let state = InterfaceState::of(system, self.droplet)?;
         let speed = centroid_velocity(state.markers, state.velocities)?.norm();
         self.progress.update(system.time(), system.steps(), speed);
         Ok(())

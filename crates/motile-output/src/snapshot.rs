@@ -59,7 +59,8 @@ impl Snapshot {
     pub fn take<H: Hydrodynamics>(system: &mut System<H>, raster: Raster) -> Result<Self> {
         let mut flow = vec![FlowSample::default(); raster.len()];
         system.sample(&raster.points(), &mut flow)?;
-        let droplet: &ActiveDroplet = system.find().context("a scene without a droplet cannot be drawn")?;
+        let droplets = system.bodies::<ActiveDroplet>().next();
+        let (_, droplet) = droplets.context("a scene without a droplet cannot be drawn")?;
         Ok(Self {
             time: system.time(),
             raster,

@@ -1,6 +1,6 @@
 //! What is seen of the elastic solids of a scene.
 
-use std::{any::Any, collections::HashMap, path::Path};
+use std::{collections::HashMap, path::Path};
 
 use anyhow::Result;
 use motile::elastic_solids::{Solid, channel::width_between};
@@ -10,7 +10,7 @@ use crate::{SolidShape, Vec2, VtkFile, VtkSeries};
 
 /// The solids of a system, in the order of addition.
 pub fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &Solid> {
-    system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
+    system.bodies().map(|(_, solid)| solid)
 }
 
 /// A solid where it is now; of a periodic wall one period.

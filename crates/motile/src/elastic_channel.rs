@@ -61,8 +61,8 @@ pub enum WallSurface {
 /// let (mut scene, droplet, walls) = channel.build()?;
 /// scene.run(1.0).go()?;
 ///
-/// let width = width_between(scene.body(walls[0]), scene.body(walls[1]))?;
-/// println!("width from {:.3} to {:.3}, {} markers", width.minimum, width.maximum, scene.body(droplet).markers().len());
+/// let width = width_between(scene.body(walls[0])?, scene.body(walls[1])?)?;
+/// println!("width from {:.3} to {:.3}, {} markers", width.minimum, width.maximum, scene.body(droplet)?.markers().len());
 /// assert!(width.minimum < 2.0 && width.maximum > 2.1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

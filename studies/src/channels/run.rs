@@ -144,7 +144,7 @@ impl Job {
         summary.put("stresslet_xx", seen.get("stresslet_xx"), "");
         summary.put("beta", seen.get("beta"), "");
         summary.put("gap", last.gap, "");
-        summary.put("area_relative_change", seen.area / scene.body(droplet).initial_area() - 1.0, "");
+        summary.put("area_relative_change", seen.area / scene.body(droplet)?.initial_area() - 1.0, "");
         summary.put("steps", scene.steps(), "");
         Ok(summary)
     }

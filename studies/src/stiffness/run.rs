@@ -245,7 +245,7 @@ impl Job {
         set_back: f64,
         summary: &mut Summary,
     ) -> Result<()> {
-        let [lower, upper] = [scene.body(walls[0]), scene.body(walls[1])];
+        let [lower, upper] = [scene.body(walls[0])?, scene.body(walls[1])?];
         let width = width_between(lower, upper)?;
         summary.put("channel_width_min", width.minimum - 2.0 * set_back, "");
         summary.put("channel_width_max", width.maximum - 2.0 * set_back, "");

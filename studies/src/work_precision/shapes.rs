@@ -92,7 +92,7 @@ pub(crate) fn relaxation(settings: &Settings) -> Result<(f64, Cost)> {
         Ok(scene)
     };
     let (cost, ratio) = march(make, settings.stepper, 2.0, |system| {
-        let body: &ActiveDroplet = system.find().ok_or_else(|| anyhow!("no droplet"))?;
+        let (_, body) = system.bodies::<ActiveDroplet>().next().ok_or_else(|| anyhow!("no droplet"))?;
         let moments = polygon_moments(body.markers())?;
         Ok((moments.xx / moments.yy).sqrt())
     })?;
@@ -129,8 +129,8 @@ pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
     let start = slide(&solid()?);
     let time = VISCOSITY / SHEAR;
     let (cost, end) = march(make, settings.stepper, time, |system| {
-        let body: &Solid = system.find().ok_or_else(|| anyhow!("no solid"))?;
-        Ok(slide(body))
+        let (_, layer) = system.bodies::<Solid>().next().ok_or_else(|| anyhow!("no solid"))?;
+        Ok(slide(layer))
     })?;
     let rate = -(end / start).ln();
     let per_time = Cost { seconds: cost.seconds * time, pairs: cost.pairs * time, steps: cost.steps * time, ..cost };

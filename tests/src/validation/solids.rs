@@ -198,12 +198,12 @@ impl Layer {
         let above = |s: Vec2| s.y + 0.5 * HEIGHT;
         let solid = solid.pinned(|s| above(s) < 1e-9)?.deformed(|s| s + Vec2::new(shear * above(s), 0.0))?;
         let handle = scene.add(if self.corrected { solid.surface_corrected() } else { solid });
-        let start = slide(scene.body(handle));
+        let start = slide(scene.body(handle)?);
         let time = VISCOSITY / LAYER_SHEAR;
         for _ in 0..50 {
             scene.step(time / 50.0)?;
         }
-        let rate = -(slide(scene.body(handle)) / start).ln();
+        let rate = -(slide(scene.body(handle)?) / start).ln();
         Ok(rate / (1.0 - THICKNESS / HEIGHT) - 1.0)
     }
 }

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use motile::{
-    active_interface::ActiveDroplet,
+    active_interface::{ActiveDroplet, observables::InterfaceState},
     ib_core::{Handle, Hydrodynamics, Observer, System},
 };
 
@@ -42,8 +42,8 @@ impl VtkOutput {
             .cell_scalars("vorticity", &vorticity);
         self.fields.push(seen.time, &file)?;
 
-        let droplet: &ActiveDroplet = system.find().context("a scene without a droplet cannot be written")?;
-        let state = droplet.interface_state(system, self.droplet.index());
+        let droplet = system.body(self.droplet)?;
+        let state = InterfaceState::of(system, self.droplet)?;
         let tension = at_markers(droplet.tensions());
         let file = VtkFile::closed_line(state.markers)
             .point_scalars("concentration", &seen.concentration)

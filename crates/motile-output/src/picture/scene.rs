@@ -20,7 +20,7 @@ const STREAMLINES: f64 = 0.05;
 
 /// All droplets of a system, bodies of other kinds left out.
 pub fn droplets<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &ActiveDroplet> {
-    system.bodies().filter_map(|body| (body as &dyn std::any::Any).downcast_ref())
+    system.bodies().map(|(_, droplet)| droplet)
 }
 
 /// Draws pressure, streamlines, all droplets coloured by their concentrations (in units of `concentration`, particles
