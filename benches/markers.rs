@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use motile::Swimmer;
-use motile::elastic_solids::{ElasticSolid, NeoHookean, SpringLattice, fitted_strip};
+use motile::elastic_solids::{NeoHookean, Solid, fitted_strip};
 use motile::ib_core::{AnyKernel, Body, Hydrodynamics, ImmersedBoundary, Transfer, Vec2};
 use motile::stokes_grid::{Grid, PeriodicStokes, StaggeredField};
 use motile_timing::{PlainPair, print_ratios};
@@ -56,8 +56,8 @@ fn markers(c: &mut Criterion) {
         let swimmer = Swimmer { spacing, ..Swimmer::default() };
         body(c, "droplet", n, swimmer.droplet().expect("a good droplet"));
         let mesh = || fitted_strip(Vec2::new(-3.0, -1.0), [6.0, 2.0], spacing).expect("a good mesh");
-        body(c, "springs", n, SpringLattice::new(mesh(), 1.0).expect("a good modulus"));
-        body(c, "neo-Hookean", n, ElasticSolid::new(mesh(), NeoHookean::new(1.0, 3.0).expect("good moduli")));
+        body(c, "springs", n, Solid::springs(mesh(), 1.0).expect("a good modulus"));
+        body(c, "neo-Hookean", n, Solid::hyperelastic(mesh(), NeoHookean::new(1.0, 3.0).expect("good moduli")));
     }
 }
 

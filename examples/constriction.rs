@@ -11,7 +11,7 @@ use std::process::ExitCode;
 use anyhow::{Result, ensure};
 use clap::Parser;
 use motile::elastic_solids::Constriction;
-use support::{
+use motile_examples::{
     DropletFlags, ElasticFlags, MethodFlags, OutputFlags, Passage, Preset, SurfaceRule, WatchedRun, caption, positive,
     say, wall_caption,
 };
@@ -42,7 +42,7 @@ struct Flags {
 }
 
 fn main() -> ExitCode {
-    support::run(meet)
+    motile_examples::run(meet)
 }
 
 fn meet(flags: &Flags) -> Result<()> {

@@ -11,7 +11,7 @@ use anyhow::Result;
 use clap::{Parser, ValueEnum};
 use motile::ElasticChannel;
 use motile::elastic_solids::{BranchingChannel, Channel, Ratchet, SolidError};
-use support::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
+use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
 
 /// A channel whose walls are functions of x: bumps below, and a step to a narrower part above.
 fn closure(period: f64, width: f64) -> Result<Channel, SolidError> {
@@ -61,7 +61,7 @@ struct Flags {
 }
 
 fn main() -> ExitCode {
-    support::run(swim)
+    motile_examples::run(swim)
 }
 
 fn swim(flags: &Flags) -> Result<()> {
@@ -75,7 +75,7 @@ fn swim(flags: &Flags) -> Result<()> {
     };
     let (mut scene, droplet, solids) = channel.build_in(&shape)?;
     for solid in &solids {
-        say(format_args!("{}", scene.body(*solid).mesh().quality()));
+        say(format_args!("{}", scene.body(*solid)?.mesh().quality()));
     }
 
     // The run and its results.

@@ -12,7 +12,7 @@ use motile::{
     active_interface::trajectory::{Evidence, RegimeCriteria},
     ib_core::Body,
 };
-use support::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
+use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
 
 /// An active droplet swims between elastic walls.
 #[derive(Debug, Parser)]
@@ -28,7 +28,7 @@ struct Flags {
 }
 
 fn main() -> ExitCode {
-    support::run(swim)
+    motile_examples::run(swim)
 }
 
 fn swim(flags: &Flags) -> Result<()> {
@@ -37,7 +37,7 @@ fn swim(flags: &Flags) -> Result<()> {
     let swimmer = &channel.swimmer;
     let (mut scene, droplet, walls) = channel.build()?;
     for wall in &walls {
-        say(format_args!("{}: {}", scene.body(*wall).name(), scene.body(*wall).mesh().quality()));
+        say(format_args!("{}: {}", scene.body(*wall)?.name(), scene.body(*wall)?.mesh().quality()));
     }
 
     // The run, with all that watches it.

@@ -13,7 +13,7 @@ use motile::active_interface::{
     observables::net_flux,
     trajectory::{Evidence, RegimeCriteria},
 };
-use support::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
+use motile_examples::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a channel with rigid walls.
 #[derive(Debug, Parser)]
@@ -29,7 +29,7 @@ struct Flags {
 }
 
 fn main() -> ExitCode {
-    support::run(swim)
+    motile_examples::run(swim)
 }
 
 fn swim(flags: &Flags) -> Result<()> {

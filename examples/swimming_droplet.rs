@@ -15,7 +15,7 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile::Swimmer;
-use support::{BoxFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
+use motile_examples::{BoxFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a periodic box.
 #[derive(Debug, Parser)]
@@ -31,7 +31,7 @@ struct Flags {
 }
 
 fn main() -> ExitCode {
-    support::run(swim)
+    motile_examples::run(swim)
 }
 
 fn swim(flags: &Flags) -> Result<()> {

@@ -12,13 +12,15 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
-use motile::active_interface::{ActiveDroplet, curve::polygon_moments, observables::centroid_velocity};
+use motile::active_interface::{
+    ActiveDroplet,
+    curve::polygon_moments,
+    observables::{InterfaceState, centroid_velocity},
+};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
 use motile::{AnyFlow, Swimmer};
-use support::{
-    DropletFlags, MethodFlags, OutputFlags, Progress, Summary, Trajectory, check_run, pair, positive, say,
-    write_scene_picture,
-};
+use motile_examples::{DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say};
+use motile_output::{Progress, Trajectory, write_scene_picture};
 
 /// How the droplets start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -44,7 +46,7 @@ struct Flags {
     #[arg(long = "box", value_name = "X,Y", default_value = "12,6", value_parser = pair, allow_hyphen_values = true)]
     sides: [f64; 2],
     /// Activity of the second droplet; without it that of the first
-    #[arg(long, value_parser = support::activity, allow_hyphen_values = true)]
+    #[arg(long, value_parser = motile_examples::activity, allow_hyphen_values = true)]
     second_activity: Option<f64>,
     /// Viscosity of the second droplet; without it that of the first
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
@@ -64,7 +66,7 @@ struct Flags {
 const ROWS: f64 = 1000.0;
 
 fn main() -> ExitCode {
-    support::run(meet)
+    motile_examples::run(meet)
 }
 
 fn meet(flags: &Flags) -> Result<()> {
@@ -135,7 +137,7 @@ fn meet(flags: &Flags) -> Result<()> {
     summary.put("minimum_gap", scene.system().minimum_gap(), "between the interfaces, over the run (R0)");
     summary.put("repulsion", flags.repulsion.map(|values| values.to_vec()), "strength and range, if there was one");
     for (name, droplet) in ["first_area_change", "second_area_change"].into_iter().zip(droplets) {
-        let body = scene.body(droplet);
+        let body = scene.body(droplet)?;
         summary.put(
             name,
             polygon_moments(body.markers())?.area / body.initial_area() - 1.0,
@@ -163,8 +165,8 @@ fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> R
     let time = system.time();
     system.evaluate()?;
     let mut seen = [(Vec2::zeros(), 0.0); 2];
-    for ((place, speed), (body, droplet)) in seen.iter_mut().zip(support::droplets(system).zip(droplets)) {
-        let state = body.interface_state(system, droplet.index());
+    for ((place, speed), droplet) in seen.iter_mut().zip(droplets) {
+        let state = InterfaceState::of(system, droplet)?;
         *place = polygon_moments(state.markers)?.centroid;
         *speed = centroid_velocity(state.markers, state.velocities)?.norm();
     }

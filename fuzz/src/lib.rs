@@ -6,7 +6,7 @@ use clap::Parser;
 use elastic_solids::GmshMesh;
 use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
 use stokes_grid::{Grid, PeriodicStokes};
-use support::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, OutputFlags};
+use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, OutputFlags};
 
 type Small = Scene<ImmersedBoundary<PeriodicStokes, CubicQuadratic>>;
 

@@ -1,7 +1,7 @@
 //! Integrators and step sizes: order, stability, accuracy, and what is reported of them.
 
 use motile::active_interface::{ActiveDroplet, Motion, observables::centroid_velocity};
-use motile::elastic_solids::{ElasticSolid, Moduli, NeoHookean, equilateral_strip};
+use motile::elastic_solids::{Moduli, NeoHookean, Solid, equilateral_strip};
 use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
     SceneError, SpectralEstimate, StepSize, Vec2,
@@ -11,7 +11,7 @@ use motile::{ElasticChannel, Swimmer};
 use motile_tests::validation::order;
 
 fn state<B: Body, H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>, body: Handle<B>) -> Vec<f64> {
-    let body = scene.body(body);
+    let body = scene.body(body).unwrap();
     let mut state = vec![0.0; body.state_len()];
     body.write_state(&mut state);
     state
@@ -45,7 +45,7 @@ fn chebyshev_is_of_second_order_with_implicit_diffusion() {
 type Channel<I> = Scene<ImmersedBoundary<ChannelStokes, CubicQuadratic>, I>;
 
 /// A layer of shear modulus 1000 in fluid of viscosity 10, pinned below, its top deformed in a smooth way.
-fn block<I: Integrator>(integrator: I) -> (Channel<I>, Handle<ElasticSolid<NeoHookean>>) {
+fn block<I: Integrator>(integrator: I) -> (Channel<I>, Handle<Solid>) {
     let grid = Grid::channel(16, 16, 0.1).expect("a grid");
     let flow = ImmersedBoundary::new(ChannelStokes::new(grid, 10.0).expect("a solver"), CubicQuadratic::default());
     let mesh = equilateral_strip(Vec2::new(0.0, -0.8), 16, 8, 0.1).expect("a mesh");
@@ -53,7 +53,7 @@ fn block<I: Integrator>(integrator: I) -> (Channel<I>, Handle<ElasticSolid<NeoHo
         let wave = (std::f64::consts::TAU * s.x / 1.6).sin();
         s + 0.05 * (s.y + 0.8) * Vec2::new(1.0 + wave, wave)
     };
-    let solid = ElasticSolid::new(mesh, NeoHookean::new(1000.0, 3000.0).expect("moduli"));
+    let solid = Solid::hyperelastic(mesh, NeoHookean::new(1000.0, 3000.0).expect("moduli"));
     let solid = solid.pinned(|s| s.y < -0.79).expect("free points").deformed(deformed).expect("positions");
     let mut scene = Scene::with_integrator(flow, integrator);
     let handle = scene.add(solid);
@@ -116,13 +116,13 @@ fn the_predicted_step_between_stiff_walls_is_stable() {
     for stages in [5, 8] {
         let (scene, droplet, _) = channel.build().expect("a scene");
         let mut scene = scene.advanced_by(RungeKuttaChebyshev::new().with_most_stages(stages));
-        let start = scene.body(droplet).markers().to_vec();
+        let start = scene.body(droplet).unwrap().markers().to_vec();
         let (limit, reason, _) = scene.step_limit().expect("a limit");
         assert_eq!(reason, "the elastic moduli");
         // Of fewer stages, whose number follows the step, the least are just enough.
         for part in [0.7, 0.99] {
             (0..30).for_each(|_| scene.step(part * limit).expect("a stable step"));
-            let moved = scene.body(droplet).markers().iter().zip(&start).map(|(a, b)| (a - b).norm());
+            let moved = scene.body(droplet).unwrap().markers().iter().zip(&start).map(|(a, b)| (a - b).norm());
             assert!(moved.fold(0.0, f64::max) < 0.2, "{stages} stages, {part} of the limit");
         }
     }
@@ -160,7 +160,7 @@ fn adaptive<I: Integrator>(integrator: I, tolerance: f64) -> (Scene<motile::Peri
 fn adaptive_steps_keep_the_error_they_are_asked_for() {
     let (scene, droplet) = adaptive(Midpoint::default(), 1e-7);
     let exact = state(&scene, droplet);
-    let positions = 2 * scene.body(droplet).marker_count();
+    let positions = 2 * scene.body(droplet).unwrap().marker_count();
     let mut last = (f64::INFINITY, 0);
     for tolerance in [1e-4, 1e-5, 1e-6] {
         let (scene, droplet) = adaptive(Midpoint::default(), tolerance);
@@ -181,7 +181,7 @@ fn both_integrators_come_to_the_same() {
     let (scene, droplet) = adaptive(Midpoint::default(), 1e-6);
     let (other, same) = adaptive(RungeKuttaChebyshev::new(), 1e-6);
     let (a, b) = (state(&scene, droplet), state(&other, same));
-    let positions = 2 * scene.body(droplet).marker_count();
+    let positions = 2 * scene.body(droplet).unwrap().marker_count();
     assert!(distance(&a[..positions], &b[..positions]) < 3e-4, "{:e}", distance(&a[..positions], &b[..positions]));
 }
 

@@ -8,8 +8,8 @@ use motile::active_interface::{
 };
 use motile::boundary_integral::{BoundaryIntegral, Channel, FreeSpace, PeriodicBox, Settings};
 use motile::elastic_solids::{
-    Constriction, Mesher, Moduli, MooneyRivlin, NeoHookean, Outline, SaintVenantKirchhoff, SinusoidalChannel,
-    SpringLattice, StraightChannel, Valve, equilateral_block, equilateral_strip, fitted_strip,
+    Constriction, Mesher, Moduli, MooneyRivlin, NeoHookean, Outline, SaintVenantKirchhoff, SinusoidalChannel, Solid,
+    StraightChannel, Valve, equilateral_block, equilateral_strip, fitted_strip,
 };
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Repulsion, Scene, SmearedContrast, StepSize, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, TwoPhaseStokes, WallMotion};
@@ -164,9 +164,9 @@ fn makers() -> Vec<Maker> {
         maker("NeoHookean", &[1.0, 2.0], "++", |v| NeoHookean::new(v[0], v[1]).is_ok()),
         maker("SaintVenantKirchhoff", &[1.0, 2.0], "++", |v| SaintVenantKirchhoff::new(v[0], v[1]).is_ok()),
         maker("MooneyRivlin", &[1.0, 2.0, 0.5], "++0", |v| MooneyRivlin::new(v[0], v[1], v[2]).is_ok()),
-        maker("SpringLattice", &[1.0], "+", |v| {
+        maker("Solid::springs", &[1.0], "+", |v| {
             let mesh = equilateral_block(Vec2::zeros(), 3, 3, 0.5).expect("a mesh");
-            SpringLattice::new(mesh, v[0]).is_ok()
+            Solid::springs(mesh, v[0]).is_ok()
         }),
         maker("equilateral_strip", &[0.0, 0.0, 0.5], "--+", |v| {
             equilateral_strip(Vec2::new(v[0], v[1]), 4, 3, v[2]).is_ok()

@@ -1,4 +1,4 @@
-//! The quick version of all hard cases. `cargo run --release --example hard_cases` runs the long one.
+//! The quick version of all hard cases. `cargo run --release -p studies -- hard_cases` runs the long one.
 
 use motile_tests::hard_cases::{Ending, Extent, Trial, cases};
 

@@ -1,46 +1,33 @@
 //! Fourier transforms of periodic samples of one length.
 
-use std::{fmt, sync::Arc};
-
+use fourier::ComplexTransform;
 use num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
 
 /// Forward and inverse transforms of one length with their scratch. The forward one carries the factor 1/length, so
 /// that it gives Fourier coefficients.
-pub(crate) struct Transform {
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
-    scratch: Vec<Complex64>,
-}
-
-impl fmt::Debug for Transform {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Transform").field("len", &self.len()).finish_non_exhaustive()
-    }
-}
+#[derive(Debug)]
+pub(crate) struct Transform(ComplexTransform);
 
 impl Transform {
     pub(crate) fn new(len: usize) -> Self {
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(len), planner.plan_fft_inverse(len));
-        let scratch = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
-        Self { forward, inverse, scratch: vec![Complex64::default(); scratch] }
+        Self(ComplexTransform::new(len))
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.forward.len()
+        self.0.len()
     }
 
     /// Samples to Fourier coefficients, in place.
     pub(crate) fn forward(&mut self, buffer: &mut [Complex64]) {
-        self.forward.process_with_scratch(buffer, &mut self.scratch);
+        // The lengths are this plan's own, so that the call cannot fail.
+        let _ = self.0.forward(buffer);
         let factor = 1.0 / buffer.len() as f64;
         buffer.iter_mut().for_each(|value| *value *= factor);
     }
 
     /// Fourier coefficients to samples, in place.
     pub(crate) fn inverse(&mut self, buffer: &mut [Complex64]) {
-        self.inverse.process_with_scratch(buffer, &mut self.scratch);
+        let _ = self.0.inverse(buffer);
     }
 }
 

@@ -158,15 +158,45 @@ impl Channel {
     /// # Errors
     /// Those of [`Mesher::mesh`].
     pub fn walls(&self, bottom: f64, top: f64, mesher: &Mesher) -> Result<ChannelWalls, SolidError> {
-        let start = |line: &Outline| line.start().x;
-        let outer = |line: &Outline, height: f64| Outline::flat(start(line), self.period, height);
-        let lower = Region::new([outer(&self.lower, bottom)?, self.lower.clone()])?;
-        let upper = Region::new([self.upper.clone(), outer(&self.upper, top)?])?;
-        let islands = self.islands.iter().map(|island| mesher.mesh(&Region::new([island.clone()])?));
         Ok(ChannelWalls {
-            lower: mesher.mesh(&lower)?,
-            upper: mesher.mesh(&upper)?,
-            islands: islands.collect::<Result<_, _>>()?,
+            lower: self.lower_wall(bottom, mesher)?,
+            upper: self.upper_wall(top, mesher)?,
+            islands: (0..self.islands.len()).map(|number| self.island(number, mesher)).collect::<Result<_, _>>()?,
         })
+    }
+
+    /// The mesh of the wall from y = `bottom` (length) up to the lower line alone.
+    ///
+    /// # Errors
+    /// Those of [`Mesher::mesh`].
+    pub fn lower_wall(&self, bottom: f64, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
+        mesher.mesh(&Region::new([self.level(&self.lower, bottom)?, self.lower.clone()])?)
+    }
+
+    /// The mesh of the wall from the upper line up to y = `top` (length) alone.
+    ///
+    /// # Errors
+    /// Those of [`Mesher::mesh`].
+    pub fn upper_wall(&self, top: f64, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
+        mesher.mesh(&Region::new([self.upper.clone(), self.level(&self.upper, top)?])?)
+    }
+
+    /// The mesh of one island alone, by its number in [`Channel::islands`].
+    ///
+    /// # Errors
+    /// An island beyond the last; those of [`Mesher::mesh`].
+    pub fn island(&self, number: usize, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
+        let found = self.islands.len();
+        let island = self.islands.get(number).ok_or(SolidError::TooFew {
+            name: "islands",
+            found,
+            minimum: number.saturating_add(1),
+        })?;
+        mesher.mesh(&Region::new([island.clone()])?)
+    }
+
+    /// The flat outer surface of the wall at a side of the channel.
+    fn level(&self, side: &Outline, height: f64) -> Result<Outline, SolidError> {
+        Outline::flat(side.start().x, self.period, height)
     }
 }

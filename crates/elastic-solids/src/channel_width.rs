@@ -3,7 +3,7 @@
 use ib_core::Vec2;
 
 use crate::error::{all_points_finite, at_least, positive};
-use crate::{ElasticForces, Solid, SolidError};
+use crate::{Solid, SolidError};
 
 /// The narrowest and the widest place of a channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,10 +22,7 @@ pub struct ChannelWidth {
 ///
 /// # Errors
 /// Walls that are not periodic in x, or with different periods.
-pub fn width_between<F: ElasticForces, G: ElasticForces>(
-    lower: &Solid<F>,
-    upper: &Solid<G>,
-) -> Result<ChannelWidth, SolidError> {
+pub fn width_between(lower: &Solid, upper: &Solid) -> Result<ChannelWidth, SolidError> {
     let (first, second) = (lower.mesh().period().unwrap_or(0.0), upper.mesh().period().unwrap_or(0.0));
     let (Some(below), Some(above), true) = (lower.upper_surface(), upper.lower_surface(), first == second) else {
         return Err(SolidError::DifferentPeriods { first, second });

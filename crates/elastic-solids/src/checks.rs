@@ -50,7 +50,7 @@ pub struct ForceBalance {
 ///
 /// # Errors
 /// Positions that are not finite; those of [`ElasticForces::add_forces`].
-pub fn force_balance<F: ElasticForces + ?Sized>(law: &F, positions: &[Vec2]) -> Result<ForceBalance, SolidError> {
+pub fn force_balance(law: &dyn ElasticForces, positions: &[Vec2]) -> Result<ForceBalance, SolidError> {
     all_points_finite("the positions", positions)?;
     let mut forces = vec![Vec2::zeros(); positions.len()];
     law.add_forces(positions, &mut forces)?;
@@ -65,11 +65,7 @@ pub fn force_balance<F: ElasticForces + ?Sized>(law: &F, positions: &[Vec2]) -> 
 ///
 /// # Errors
 /// Forces made for another mesh; a deformation that is not finite; those of [`ElasticForces::add_forces`].
-pub fn patch_residual<F: ElasticForces + ?Sized>(
-    mesh: &TriangleMesh,
-    law: &F,
-    deformation: Mat2,
-) -> Result<f64, SolidError> {
+pub fn patch_residual(mesh: &TriangleMesh, law: &dyn ElasticForces, deformation: Mat2) -> Result<f64, SolidError> {
     fits("the mesh of the forces", law.point_count(), mesh.points().len())?;
     let positions: Vec<Vec2> = mesh.points().iter().map(|s| deformation * s).collect();
     all_points_finite("the deformed points", &positions)?;

@@ -6,7 +6,7 @@ use crate::{DeformationGradient, Mat2, Moduli};
 ///
 /// W is zero and least for a rotation, and does not change when the deformed material is turned. Implement it for a
 /// material of your own: a solid needs nothing else.
-pub trait EnergyDensity: std::fmt::Debug + Send + 'static {
+pub trait EnergyDensity: std::fmt::Debug + Send + Sync + 'static {
     /// Energy density W(A) per reference area (energy per area = force per length in 2D).
     fn energy(&self, gradient: &DeformationGradient) -> f64;
 

@@ -8,7 +8,7 @@ use crate::{Mat2, Moduli, SolidError, TriangleMesh};
 /// or [`Springs`](crate::Springs).
 ///
 /// Forces sum to zero and give no torque to round-off, whatever the deformation.
-pub trait ElasticForces: std::fmt::Debug + Send + 'static {
+pub trait ElasticForces: std::fmt::Debug + Send + Sync + 'static {
     /// Number of points of the mesh.
     fn point_count(&self) -> usize;
 
@@ -33,28 +33,6 @@ pub trait ElasticForces: std::fmt::Debug + Send + 'static {
 
     /// The largest shear and the largest bulk modulus of small strains (force per length).
     fn stiffest(&self) -> Moduli;
-}
-
-impl ElasticForces for Box<dyn ElasticForces> {
-    fn point_count(&self) -> usize {
-        self.as_ref().point_count()
-    }
-
-    fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError> {
-        self.as_ref().add_forces(positions, forces)
-    }
-
-    fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError> {
-        self.as_ref().energy(positions)
-    }
-
-    fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2> {
-        self.as_ref().stress(triangle, gradient)
-    }
-
-    fn stiffest(&self) -> Moduli {
-        self.as_ref().stiffest()
-    }
 }
 
 /// A triangle with what its deformation gradient needs: `A = [X1 - X0, X2 - X0] [s1 - s0, s2 - s0]^-1` (4.10).

@@ -1,8 +1,8 @@
 //! Elastic solids in the plane, for channels with soft walls and any other geometry.
 //!
 //! A solid is a triangle mesh of its reference state and a law for its forces (thesis chapter 4): springs along the
-//! edges ([`SpringLattice`]) or a hyperelastic material ([`ElasticSolid`]). Both are bodies of a scene
-//! ([`ib_core::Body`]): their points put the forces on the fluid and move with it. The parts, each usable by itself:
+//! edges or a hyperelastic material. Every [`Solid`] is a body of a scene ([`ib_core::Body`]): its points put the forces on
+//! the fluid and move with it. The parts, each usable by itself:
 //!
 //! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with fillets; [`Region`] for what
 //!   lies between them; [`Channel`] for two walls, and ready ones: [`StraightChannel`], [`Constriction`] (thesis figure
@@ -33,8 +33,8 @@
 //! let walls = Constriction::thesis().channel()?.walls(-2.5, 2.5, &Mesher::new(0.1)?)?;
 //! let moduli = Moduli::from_thesis_spring_constant(1e4)?;
 //! let squeezed = |s: Vec2| Vec2::new(s.x, 0.95 * s.y);
-//! let lower = SpringLattice::new(walls.lower, moduli.shear())?.deformed(squeezed)?;
-//! let upper = ElasticSolid::new(walls.upper, NeoHookean::from(moduli)).deformed(squeezed)?;
+//! let lower = Solid::springs(walls.lower, moduli.shear())?.deformed(squeezed)?;
+//! let upper = Solid::hyperelastic(walls.upper, NeoHookean::from(moduli)).deformed(squeezed)?;
 //!
 //! println!("{}", lower.mesh().quality());
 //! let width = width_between(&lower, &upper)?;
@@ -103,6 +103,6 @@ pub use outline::Outline;
 pub use quality::MeshQuality;
 pub use region::Region;
 pub use saint_venant_kirchhoff::SaintVenantKirchhoff;
-pub use solid::{AnySolid, ElasticSolid, Solid, SpringLattice, Tether};
+pub use solid::{Solid, Tether};
 pub use springs::Springs;
 pub use surface_gap::SurfaceGap;

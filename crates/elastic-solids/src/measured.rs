@@ -47,9 +47,9 @@ pub enum InnerPoints {
 /// # Errors
 /// Forces made for another mesh; a strain out of its range; a relaxation that does not converge, which only an unstable
 /// material has.
-pub fn measured_moduli<F: ElasticForces + ?Sized>(
+pub fn measured_moduli(
     mesh: &TriangleMesh,
-    law: &F,
+    law: &dyn ElasticForces,
     strain: f64,
     inner: InnerPoints,
 ) -> Result<MeasuredModuli, SolidError> {
@@ -81,11 +81,7 @@ const TOLERANCE: f64 = 1e-6;
 
 /// Moves the points that are not on the boundary until the forces on them vanish, by nonlinear conjugate gradients
 /// (Polak and Ribiere) with one secant step along each direction, which is exact for small strains.
-fn relax_inner<F: ElasticForces + ?Sized>(
-    mesh: &TriangleMesh,
-    law: &F,
-    positions: &mut [Vec2],
-) -> Result<(), SolidError> {
+fn relax_inner(mesh: &TriangleMesh, law: &dyn ElasticForces, positions: &mut [Vec2]) -> Result<(), SolidError> {
     let mut inner = vec![true; positions.len()];
     for &point in mesh.boundary_loops().iter().flat_map(|boundary| &boundary.points) {
         inner[point] = false;

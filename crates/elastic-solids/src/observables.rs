@@ -2,7 +2,7 @@
 
 use ib_core::Vec2;
 
-use crate::{ElasticForces, Mat2, Solid, SolidError};
+use crate::{Mat2, Solid, SolidError};
 
 /// The largest displacements of a solid from its reference state.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ pub struct LargestDisplacement {
     pub normal: f64,
 }
 
-impl<F: ElasticForces> Solid<F> {
+impl Solid {
     /// Displacement of each point from the reference state (length).
     pub fn displacements(&self) -> impl Iterator<Item = Vec2> {
         self.positions.iter().zip(self.mesh.points()).map(|(now, reference)| now - reference)

@@ -1,6 +1,8 @@
 //! An elastic solid: a mesh, its forces, and where its points are now.
 
-use ib_core::{MobilityDeficit, Vec2};
+use std::sync::Arc;
+
+use ib_core::Vec2;
 
 use crate::error::{all_points_finite, at_least, positive};
 use crate::forces::fits;
@@ -8,15 +10,32 @@ use crate::surface_correction::SurfaceCorrection;
 use crate::{ElasticForces, EnergyDensity, Hyperelastic, SolidError, Springs, TriangleMesh};
 
 /// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid
-/// and move with it. Use it as [`ElasticSolid`] or [`SpringLattice`].
+/// and move with it. It is made of springs along the edges of its mesh (thesis section 4.1), of a hyperelastic material
+/// (thesis section 4.2), or has forces of your own.
 ///
 /// Points may be pinned, that is, stay where they are and put no force on the fluid, or tethered to where they are in
 /// the reference state.
+///
+/// ```
+/// use elastic_solids::*;
+/// use ib_core::Vec2;
+///
+/// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest row pinned.
+/// let channel = StraightChannel { period: 12.0, width: 2.0 }.channel()?;
+/// let mesh = channel.lower_wall(-2.5, &Mesher::new(0.1)?)?;
+/// let shear = |s: Vec2| if s.x < 0.0 { 100.0 } else { 1000.0 };
+/// let wall = Solid::hyperelastic_graded(mesh, |s| NeoHookean::new(shear(s), 2.0 * shear(s)))?
+///     .named("lower wall")
+///     .pinned(|s| s.y < -2.49)?;
+/// println!("{} points, {} of them free", wall.mesh().points().len(), wall.free_points().len()); // 2124 and 2006
+/// assert_eq!(wall.free_points().len(), 2006);
+/// # Ok::<(), SolidError>(())
+/// ```
 #[derive(Debug, Clone)]
-pub struct Solid<F> {
+pub struct Solid {
     pub(crate) name: String,
     pub(crate) mesh: TriangleMesh,
-    pub(crate) law: F,
+    pub(crate) law: Arc<dyn ElasticForces>,
     /// Of all points, pinned ones among them.
     pub(crate) positions: Vec<Vec2>,
     /// Points that are not pinned, which are the markers.
@@ -27,55 +46,10 @@ pub struct Solid<F> {
     /// Mean edge of the mesh.
     pub(crate) spacing: f64,
     pub(crate) may_invert: bool,
+    pub(crate) corrected: bool,
+    /// Made at the first evaluation, when the kernel is known.
     pub(crate) surface: Option<SurfaceCorrection>,
 }
-
-/// A solid of hyperelastic material E (thesis section 4.2).
-///
-/// ```
-/// use elastic_solids::*;
-/// use ib_core::Vec2;
-///
-/// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest row pinned.
-/// let walls = StraightChannel { period: 12.0, width: 2.0 }.channel()?.walls(-2.5, 2.5, &Mesher::new(0.1)?)?;
-/// let shear = |s: Vec2| if s.x < 0.0 { 100.0 } else { 1000.0 };
-/// let wall = ElasticSolid::graded(walls.lower, |s| NeoHookean::new(shear(s), 2.0 * shear(s)))?
-///     .named("lower wall")
-///     .pinned(|s| s.y < -2.49)?;
-/// println!("{} points, {} of them free", wall.mesh().points().len(), wall.free_points().len()); // 2124 and 2006
-/// assert_eq!(wall.free_points().len(), 2006);
-/// # Ok::<(), SolidError>(())
-/// ```
-pub type ElasticSolid<E> = Solid<Hyperelastic<E>>;
-
-/// A solid of springs along the edges of its mesh (thesis section 4.1).
-///
-/// ```
-/// use elastic_solids::*;
-/// use ib_core::Vec2;
-///
-/// let mesh = equilateral_strip(Vec2::new(-6.0, -2.5), 120, 17, 0.1)?;
-/// let moduli = Moduli::from_thesis_spring_constant(1e4)?;
-/// let wall = SpringLattice::new(mesh, moduli.shear())?;
-/// println!("energy at rest {}", wall.elastic_energy()?); // 0, to round-off
-/// assert!(wall.elastic_energy()? < 1e-20);
-/// # Ok::<(), SolidError>(())
-/// ```
-pub type SpringLattice = Solid<Springs>;
-
-/// A solid whose law is chosen at run time, for scenes that treat solids of different kinds alike.
-///
-/// ```
-/// use elastic_solids::*;
-/// use ib_core::Vec2;
-///
-/// let mesh = equilateral_strip(Vec2::zeros(), 20, 10, 0.1)?;
-/// let law: Box<dyn ElasticForces> = Box::new(Springs::new(&mesh, 100.0)?);
-/// let wall: AnySolid = Solid::with_forces(mesh, law)?.named("wall");
-/// assert!(wall.elastic_energy()? < 1e-20);
-/// # Ok::<(), SolidError>(())
-/// ```
-pub type AnySolid = Solid<Box<dyn ElasticForces>>;
 
 /// A spring from a point to a fixed place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -88,72 +62,85 @@ pub struct Tether {
     pub stiffness: f64,
 }
 
-impl<E: EnergyDensity> ElasticSolid<E> {
-    /// A solid of one material everywhere, in its reference state.
+impl Solid {
+    /// A solid of springs with one shear modulus everywhere (force per length), in its reference state.
+    ///
+    /// ```
+    /// use elastic_solids::*;
+    /// use ib_core::Vec2;
+    ///
+    /// let mesh = equilateral_strip(Vec2::new(-6.0, -2.5), 120, 17, 0.1)?;
+    /// let moduli = Moduli::from_thesis_spring_constant(1e4)?;
+    /// let wall = Solid::springs(mesh, moduli.shear())?;
+    /// println!("energy at rest {}", wall.elastic_energy()?); // 0, to round-off
+    /// assert!(wall.elastic_energy()? < 1e-20);
+    /// # Ok::<(), SolidError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A shear modulus that is not positive and finite.
+    pub fn springs(mesh: TriangleMesh, shear: f64) -> Result<Self, SolidError> {
+        Self::springs_graded(mesh, |_| shear)
+    }
+
+    /// A solid of springs whose shear modulus (force per length) is a function of the reference position (length),
+    /// taken at the centroid of each triangle.
+    ///
+    /// # Errors
+    /// A shear modulus that is not positive and finite.
+    pub fn springs_graded(mesh: TriangleMesh, shear: impl FnMut(Vec2) -> f64) -> Result<Self, SolidError> {
+        let law = Springs::graded(&mesh, shear)?;
+        Ok(Self::at_rest(mesh, law))
+    }
+
+    /// A solid of one hyperelastic material everywhere, in its reference state.
     #[must_use]
-    pub fn new(mesh: TriangleMesh, material: E) -> Self {
+    pub fn hyperelastic(mesh: TriangleMesh, material: impl EnergyDensity) -> Self {
         let law = Hyperelastic::new(&mesh, material);
         Self::at_rest(mesh, law)
     }
 
-    /// A solid whose material is a function of the reference position (length), taken at the centroid of each triangle.
+    /// A solid whose hyperelastic material is a function of the reference position (length), taken at the centroid of
+    /// each triangle.
     ///
     /// # Errors
     /// Those of the function.
-    pub fn graded(mesh: TriangleMesh, material: impl FnMut(Vec2) -> Result<E, SolidError>) -> Result<Self, SolidError> {
+    pub fn hyperelastic_graded<E: EnergyDensity>(
+        mesh: TriangleMesh,
+        material: impl FnMut(Vec2) -> Result<E, SolidError>,
+    ) -> Result<Self, SolidError> {
         let law = Hyperelastic::graded(&mesh, material)?;
         Ok(Self::at_rest(mesh, law))
     }
-}
 
-impl SpringLattice {
-    /// A solid of springs with one shear modulus everywhere (force per length), in its reference state.
-    ///
-    /// # Errors
-    /// A shear modulus that is not positive and finite.
-    pub fn new(mesh: TriangleMesh, shear: f64) -> Result<Self, SolidError> {
-        let law = Springs::new(&mesh, shear)?;
-        Ok(Self::at_rest(mesh, law))
-    }
-
-    /// A solid of springs whose shear modulus (force per length) is a function of the reference position (length).
-    ///
-    /// # Errors
-    /// A shear modulus that is not positive and finite.
-    pub fn graded(mesh: TriangleMesh, shear: impl FnMut(Vec2) -> f64) -> Result<Self, SolidError> {
-        let law = Springs::graded(&mesh, shear)?;
-        Ok(Self::at_rest(mesh, law))
-    }
-}
-
-impl<F: ElasticForces> Solid<F> {
     /// A solid with elastic forces of your own, in its reference state.
     ///
     /// # Errors
     /// Forces made for another number of points.
-    pub fn with_forces(mesh: TriangleMesh, law: F) -> Result<Self, SolidError> {
+    pub fn with_forces(mesh: TriangleMesh, law: impl ElasticForces) -> Result<Self, SolidError> {
         fits("the mesh of the forces", law.point_count(), mesh.points().len())?;
         Ok(Self::at_rest(mesh, law))
     }
 
-    fn at_rest(mesh: TriangleMesh, law: F) -> Self {
+    fn at_rest(mesh: TriangleMesh, law: impl ElasticForces) -> Self {
         let count = mesh.points().len();
         Self {
             name: "solid".to_owned(),
-            law,
+            law: Arc::new(law),
             positions: mesh.points().to_vec(),
             free: (0..count).collect(),
             tethers: Vec::new(),
             forces: vec![Vec2::zeros(); count],
             spacing: mesh.quality().mean_edge,
             may_invert: false,
+            corrected: false,
             surface: None,
             mesh,
         }
     }
 
-    /// The same, where triangles may turn inside out, which springs do not resist: for comparison with work that lets
-    /// them. [`Solid::smallest_jacobian`] tells whether they have. Otherwise a step that turns one inside out is an
+    /// The same, where triangles may become inverted, which springs do not resist: for comparison with work that lets
+    /// them. [`Solid::smallest_jacobian`] tells whether they have. Otherwise a step that inverts one is an
     /// error, as it is always where the energy is not defined for it.
     #[must_use]
     pub fn allow_inversion(mut self) -> Self {
@@ -178,9 +165,7 @@ impl<F: ElasticForces> Solid<F> {
         let points = self.mesh.points();
         self.free.retain(|&point| !condition(points[point]));
         at_least("free points", self.free.len(), 1)?;
-        // The correction knows the points that are free.
-        let free = &self.free;
-        self.surface = self.surface.map(|surface| surface.with_free(free));
+        self.surface = None;
         Ok(self)
     }
 
@@ -198,11 +183,12 @@ impl<F: ElasticForces> Solid<F> {
         Ok(self)
     }
 
-    /// The same with the mobility correction of its surface, for the kernel by which markers and grid are coupled.
+    /// The same with the mobility correction of its surface, for the kernel and grid of the flow in which it is (known
+    /// from the first evaluation on, which fails where there is no grid).
     ///
     /// Spreading and interpolation round off the kink that tangential forces at the surface leave in the velocity, so
     /// that points at the distance d from it lack `(h/eta) phi(d/h) f_t`, f_t being the force per length along the
-    /// surface and `phi(0)` the deficit of a flat interface ([`MobilityDeficit::flat`], and the grid's harmonic where
+    /// surface and `phi(0)` the deficit of a flat interface ([`ib_core::MobilityDeficit::flat`], and the grid's harmonic where
     /// the surface runs along the grid). Points within some four grid spacings of the surface are moved by that, by a
     /// flow without divergence, and by an operator that is symmetric and positive in the forces. Measured with the
     /// default kernel: a stiff wall stops the fluid 0.31 to 0.44 h in front of its surface, with the correction within
@@ -214,18 +200,17 @@ impl<F: ElasticForces> Solid<F> {
     ///
     /// ```
     /// use elastic_solids::*;
-    /// use ib_core::{CubicQuadratic, MobilityDeficit, Vec2};
+    /// use ib_core::Vec2;
     ///
-    /// let deficit = MobilityDeficit::new(&CubicQuadratic::default());
     /// let mesh = equilateral_strip(Vec2::zeros(), 20, 10, 0.1)?;
-    /// let wall = SpringLattice::new(mesh, 1000.0)?.pinned(|s| s.y < 0.01)?.surface_corrected(&deficit);
+    /// let wall = Solid::springs(mesh, 1000.0)?.pinned(|s| s.y < 0.01)?.surface_corrected();
     /// println!("{} points move", wall.free_points().len()); // 200
     /// assert_eq!(wall.free_points().len(), 200);
     /// # Ok::<(), SolidError>(())
     /// ```
     #[must_use]
-    pub fn surface_corrected(mut self, deficit: &MobilityDeficit) -> Self {
-        self.surface = Some(SurfaceCorrection::new(&self.mesh, &self.free, deficit));
+    pub fn surface_corrected(mut self) -> Self {
+        self.corrected = true;
         self
     }
 
@@ -259,8 +244,8 @@ impl<F: ElasticForces> Solid<F> {
 
     /// What computes the elastic forces.
     #[must_use]
-    pub fn law(&self) -> &F {
-        &self.law
+    pub fn law(&self) -> &dyn ElasticForces {
+        self.law.as_ref()
     }
 
     /// Present positions of all points of the mesh (length), not wrapped into the period.

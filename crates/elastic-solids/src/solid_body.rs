@@ -1,8 +1,9 @@
 //! The solid as a body of a scene.
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepLimit, StepLimits, Vec2};
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, SavedState, StepLimit, StepLimits, Vec2};
 
-use crate::{ElasticForces, Solid, SolidError};
+use crate::surface_correction::SurfaceCorrection;
+use crate::{Solid, SolidError};
 
 impl From<SolidError> for BodyError {
     fn from(error: SolidError) -> Self {
@@ -16,7 +17,7 @@ impl From<SolidError> for BodyError {
 /// 0.012, 0.02 and 0.05 at mesh spacings of 0.5, 1, 1.5 and 2 grid spacings.
 const BULK_SHARE: f64 = 0.015;
 
-impl<F: ElasticForces> Body for Solid<F> {
+impl Body for Solid {
     fn name(&self) -> &str {
         &self.name
     }
@@ -37,9 +38,12 @@ impl<F: ElasticForces> Body for Solid<F> {
 
     fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.compute_forces()?;
-        if let Some(surface) = &mut self.surface {
-            surface.prepare(&self.mesh, &self.free, medium.spacing);
-            surface.update(&self.mesh, &self.free, medium, &self.positions, &self.forces);
+        if self.corrected {
+            let surface = match self.surface.take() {
+                Some(surface) if surface.suits(medium) => surface,
+                _ => SurfaceCorrection::new(&self.mesh, &self.free, medium)?,
+            };
+            self.surface.insert(surface).update(&self.mesh, &self.free, medium, &self.positions, &self.forces);
         }
         for (force, &point) in forces.iter_mut().zip(&self.free) {
             *force = self.forces[point];
@@ -95,24 +99,24 @@ impl<F: ElasticForces> Body for Solid<F> {
     }
 
     /// All points, pinned ones too, and the tethers.
-    fn save(&self) -> Record {
+    fn save(&self) -> SavedState {
         let mut reals: Vec<f64> = self.positions.iter().flat_map(|place| [place.x, place.y]).collect();
         reals.extend(self.tethers.iter().flat_map(|tether| [tether.anchor.x, tether.anchor.y, tether.stiffness]));
         let counts = vec![self.positions.len() as u64, self.tethers.len() as u64];
-        Record { reals, counts }
+        SavedState { reals, counts }
     }
 
-    fn load(&mut self, _medium: &Medium, record: &Record) -> Result<(), BodyError> {
-        let [points, tethers] = record.counts_of("an elastic solid")?;
-        let (split, found) = (2 * self.positions.len(), record.reals.len());
+    fn load(&mut self, _medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
+        let [points, tethers] = saved.counts_of("an elastic solid")?;
+        let (split, found) = (2 * self.positions.len(), saved.reals.len());
         let expected = split + 3 * self.tethers.len();
         if [points, tethers] != [self.positions.len() as u64, self.tethers.len() as u64] || expected != found {
-            return Err(BodyError::ForeignRecord { expected, found });
+            return Err(BodyError::ForeignState { expected, found });
         }
-        if let Some(index) = record.reals.iter().position(|value| !value.is_finite()) {
-            return Err(BodyError::NonFinite { what: "entry of the record", index, value: record.reals[index] });
+        if let Some(index) = saved.reals.iter().position(|value| !value.is_finite()) {
+            return Err(BodyError::NonFinite { what: "entry of the saved state", index, value: saved.reals[index] });
         }
-        let (positions, numbers) = record.reals.split_at(split);
+        let (positions, numbers) = saved.reals.split_at(split);
         for (place, pair) in self.positions.iter_mut().zip(positions.chunks_exact(2)) {
             *place = Vec2::new(pair[0], pair[1]);
         }
@@ -139,7 +143,7 @@ impl<F: ElasticForces> Body for Solid<F> {
     }
 }
 
-impl<F: ElasticForces> Solid<F> {
+impl Solid {
     /// Viscosity times the fastest rate at which tethers relax (force per length), from above: all of them move
     /// together.
     ///

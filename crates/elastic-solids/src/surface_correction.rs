@@ -1,9 +1,12 @@
 //! Putting back the mobility that the grid takes from the surface of a solid.
 
+use std::sync::Arc;
+
 use ib_core::{Medium, MobilityDeficit, Vec2};
 
-use crate::TriangleMesh;
+use crate::error::within;
 use crate::rounded_kink::{Beside, RoundedKink};
+use crate::{SolidError, TriangleMesh};
 
 /// The mobility correction of a solid's surface.
 ///
@@ -22,13 +25,14 @@ use crate::rounded_kink::{Beside, RoundedKink};
 #[derive(Debug, Clone)]
 pub(crate) struct SurfaceCorrection {
     vertices: Vec<Vertex>,
-    deficit: MobilityDeficit,
+    /// Of the kernel in use.
+    deficit: Arc<MobilityDeficit>,
     /// G_t(0) at vertices, by their tangent in the reference state.
     flat: Vec<f64>,
     /// The square root of what is missing where the vertices are now, zero where they are pinned.
     roots: Vec<f64>,
     near: Vec<Near>,
-    /// Grid spacing that `near` is made for.
+    /// Of the grid.
     spacing: f64,
     /// How often forces, and then missing velocities, are averaged over neighbours.
     passes: usize,
@@ -99,12 +103,25 @@ struct Foot {
 /// for q h up to 0.5.
 const SMOOTHING: f64 = 4.0;
 
+/// Largest grid spacing over the mean edge of the surface; averages take its square.
+const COARSEST: f64 = 50.0;
+
 /// Edges along which the nearest one is looked for.
 const FARTHEST: usize = 100;
 
 impl SurfaceCorrection {
-    /// For the free points of a mesh; parts of the surface that are pinned have no traction.
-    pub(crate) fn new(mesh: &TriangleMesh, free: &[usize], deficit: &MobilityDeficit) -> Self {
+    /// For the free points of a mesh and the kernel and grid of a flow; parts of the surface that are pinned have no
+    /// traction.
+    ///
+    /// # Errors
+    /// A flow without a grid; a mesh much finer than the grid.
+    pub(crate) fn new(mesh: &TriangleMesh, free: &[usize], medium: &Medium) -> Result<Self, SolidError> {
+        let (Some(spacing), Some(deficit)) = (medium.spacing, &medium.mobility_deficit) else {
+            return Err(SolidError::Unsupported {
+                what: "correcting the surface of a solid in a flow without a grid",
+                remedy: "use a grid, or leave the correction out",
+            });
+        };
         let mut vertices = Vec::new();
         let mut flat = Vec::new();
         for boundary in mesh.boundary_loops() {
@@ -119,17 +136,17 @@ impl SurfaceCorrection {
                     own: start + k,
                     before: start + before,
                     after: start + after,
-                    pinned: false,
+                    pinned: free.binary_search(&point).is_err(),
                 });
             }
         }
         let count = vertices.len();
-        let correction = Self {
-            deficit: deficit.clone(),
+        let mut correction = Self {
+            deficit: Arc::clone(deficit),
             flat,
             roots: vec![0.0; count],
             near: Vec::new(),
-            spacing: 0.0,
+            spacing,
             passes: 0,
             edges: vec![Edge { from: Vec2::zeros(), tangent: Vec2::zeros(), length: 0.0 }; count],
             bends: vec![Bend::default(); count],
@@ -141,43 +158,32 @@ impl SurfaceCorrection {
             scratch: vec![0.0; count],
             vertices,
         };
-        correction.with_free(free)
+        correction.find_edges(mesh, mesh.points());
+        let edge = correction.edges.iter().map(|edge| edge.length).sum::<f64>() / count as f64;
+        let coarseness = within("the grid spacing over that of a corrected surface", spacing / edge, 0.0, COARSEST)?;
+        correction.passes = (0.5 * SMOOTHING * coarseness.powi(2)).round().max(1.0) as usize;
+        correction.find_near(mesh, free);
+        Ok(correction)
     }
 
-    /// The same for other free points.
-    pub(crate) fn with_free(mut self, free: &[usize]) -> Self {
-        for vertex in &mut self.vertices {
-            vertex.pinned = free.binary_search(&vertex.point).is_err();
-        }
-        self.near.clear();
-        self.spacing = 0.0;
-        self
+    /// Whether it is made for this flow.
+    pub(crate) fn suits(&self, medium: &Medium) -> bool {
+        medium.spacing == Some(self.spacing)
+            && medium.mobility_deficit.as_ref().is_some_and(|deficit| Arc::ptr_eq(deficit, &self.deficit))
     }
 
-    /// Finds the points near the surface for a new grid spacing, if there is one.
-    pub(crate) fn prepare(&mut self, mesh: &TriangleMesh, free: &[usize], spacing: Option<f64>) {
-        let spacing = spacing.unwrap_or(0.0);
-        if self.spacing == spacing {
-            return;
-        }
-        self.spacing = spacing;
-        self.near.clear();
-        if spacing > 0.0 {
-            self.find_edges(mesh, mesh.points());
-            let edge = self.edges.iter().map(|edge| edge.length).sum::<f64>() / self.edges.len() as f64;
-            self.passes = (0.5 * SMOOTHING * (spacing / edge).powi(2)).round().max(1.0) as usize;
-            let found = free.iter().enumerate();
-            let found = found.filter_map(|(marker, &point)| self.find(mesh, marker, mesh.points()[point]));
-            let feet: Vec<(Near, f64)> = found.collect();
-            // The deepest point of a solid is half as deep as the solid is thick.
-            let room = feet.iter().map(|(_, depth)| depth / spacing).fold(0.0, f64::max);
-            let deficit = |vertex: &Vertex| 0.5 * (self.flat[vertex.own] + self.flat[vertex.after]);
-            self.kinks = self.vertices.iter().map(|vertex| RoundedKink::new(deficit(vertex), room)).collect();
-            let reaches = |(near, depth): &(Near, f64)| *depth < spacing * self.kinks[near.vertex].reach();
-            self.near = feet.into_iter().filter(reaches).map(|(near, _)| near).collect();
-            self.feet.clear();
-            self.feet.resize(self.near.len(), Foot { vertex: 0, fraction: 0.0, beside: None });
-        }
+    /// Finds the points near the surface.
+    fn find_near(&mut self, mesh: &TriangleMesh, free: &[usize]) {
+        let found = free.iter().enumerate();
+        let found = found.filter_map(|(marker, &point)| self.find(mesh, marker, mesh.points()[point]));
+        let feet: Vec<(Near, f64)> = found.collect();
+        // The deepest point of a solid is half as deep as the solid is thick.
+        let room = feet.iter().map(|(_, depth)| depth / self.spacing).fold(0.0, f64::max);
+        let deficit = |vertex: &Vertex| 0.5 * (self.flat[vertex.own] + self.flat[vertex.after]);
+        self.kinks = self.vertices.iter().map(|vertex| RoundedKink::new(deficit(vertex), room)).collect();
+        let reaches = |(near, depth): &(Near, f64)| *depth < self.spacing * self.kinks[near.vertex].reach();
+        self.near = feet.into_iter().filter(reaches).map(|(near, _)| near).collect();
+        self.feet = vec![Foot { vertex: 0, fraction: 0.0, beside: None }; self.near.len()];
     }
 
     /// The edge of the surface nearest to a point of the reference state, and how far away it is (length).

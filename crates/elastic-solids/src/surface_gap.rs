@@ -3,7 +3,7 @@
 use ib_core::Vec2;
 
 use crate::error::{all_points_finite, at_least};
-use crate::{ElasticForces, Solid, SolidError};
+use crate::{Solid, SolidError};
 
 /// A straight part of a surface, the solid to its left, with the outward normals (not of unit length) of the corners at
 /// its ends.
@@ -22,7 +22,7 @@ struct Side {
 /// use elastic_solids::*;
 /// use ib_core::Vec2;
 ///
-/// let wall = SpringLattice::new(equilateral_strip(Vec2::zeros(), 20, 10, 0.1)?, 1.0)?;
+/// let wall = Solid::springs(equilateral_strip(Vec2::zeros(), 20, 10, 0.1)?, 1.0)?;
 /// let mut gap = SurfaceGap::new(Some(2.0));
 /// gap.add(&wall)?;
 /// gap.sort();
@@ -59,7 +59,7 @@ impl SurfaceGap {
     ///
     /// # Errors
     /// Positions that are not finite.
-    pub fn add<F: ElasticForces>(&mut self, solid: &Solid<F>) -> Result<(), SolidError> {
+    pub fn add(&mut self, solid: &Solid) -> Result<(), SolidError> {
         all_points_finite("the positions of a solid", solid.positions())?;
         for boundary in solid.mesh().boundary_loops() {
             let polygon = solid.mesh().boundary_polygon(boundary, solid.positions());

@@ -1,9 +1,7 @@
 //! Truncation of vectors along a closed curve to its lowest Fourier modes.
 
-use std::sync::Arc;
-
+use fourier::ComplexTransform;
 use num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
 
 use crate::Vec2;
 
@@ -11,18 +9,11 @@ use crate::Vec2;
 ///
 /// Where the flow is resolved by fewer modes than a body has markers ([`crate::Medium::shape_modes`]), the body passes
 /// the velocities of its markers through this, so that nothing moves in a way that the flow does not see.
+#[derive(Debug, Clone)]
 pub struct BandLimit {
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
+    transform: ComplexTransform,
     samples: Vec<Complex<f64>>,
-    scratch: Vec<Complex<f64>>,
     modes: usize,
-}
-
-impl std::fmt::Debug for BandLimit {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("BandLimit").field("len", &self.len()).field("modes", &self.modes).finish_non_exhaustive()
-    }
 }
 
 impl BandLimit {
@@ -30,16 +21,8 @@ impl BandLimit {
     /// the mean).
     #[must_use]
     pub fn new(len: usize, modes: usize) -> Self {
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(len.max(1)), planner.plan_fft_inverse(len.max(1)));
-        let needed = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
-        Self {
-            forward,
-            inverse,
-            samples: vec![Complex::default(); len.max(1)],
-            scratch: vec![Complex::default(); needed],
-            modes,
-        }
+        let len = len.max(1);
+        Self { transform: ComplexTransform::new(len), samples: vec![Complex::default(); len], modes }
     }
 
     /// Number of samples.
@@ -69,10 +52,11 @@ impl BandLimit {
         for (sample, value) in self.samples.iter_mut().zip(values.iter()) {
             *sample = Complex::new(value.x, value.y);
         }
-        self.forward.process_with_scratch(&mut self.samples, &mut self.scratch);
+        // The lengths are this plan's own, so that the calls cannot fail.
+        let _ = self.transform.forward(&mut self.samples);
         let largest = self.modes.saturating_sub(1) / 2;
         self.samples[largest + 1..len - largest].fill(Complex::default());
-        self.inverse.process_with_scratch(&mut self.samples, &mut self.scratch);
+        let _ = self.transform.inverse(&mut self.samples);
         let scale = 1.0 / len as f64;
         for (value, sample) in values.iter_mut().zip(&self.samples) {
             *value = Vec2::new(scale * sample.re, scale * sample.im);

@@ -11,6 +11,9 @@ pub enum FlowError {
     /// The grid solver refused.
     #[error(transparent)]
     Stokes(#[from] StokesError),
+    /// A transform of another length than planned for.
+    #[error(transparent)]
+    Transform(#[from] fourier::FourierError),
     /// A marker position or force is not a finite number.
     #[error("{what} of marker {marker} of body {body} is ({x}, {y}): the run has gone wrong, use a smaller time step")]
     NonFinite {
@@ -125,11 +128,11 @@ pub enum BodyError {
         /// What is allowed.
         bound: f64,
     },
-    /// A record of another body, or of one made otherwise.
+    /// The state of another body, or of one made otherwise.
     #[error(
-        "a record of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
+        "a saved state of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
     )]
-    ForeignRecord {
+    ForeignState {
         /// Numbers needed.
         expected: usize,
         /// Numbers found.
@@ -268,6 +271,15 @@ pub enum SceneError {
     ForeignCheckpoint {
         /// How it differs.
         problem: String,
+    },
+    /// A handle of another scene.
+    #[error("the handle is of a body of another scene: use the one that this scene gave when the body was added")]
+    ForeignHandle,
+    /// The flow of the present state is asked for before it has been computed.
+    #[error("the flow at {body} is not known in the present state: call `evaluate` first, or `observe`, which does")]
+    NotEvaluated {
+        /// The body's name.
+        body: String,
     },
     /// An observer failed.
     #[error("an observer failed at time {time}")]

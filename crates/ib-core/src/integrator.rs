@@ -7,7 +7,7 @@ mod spectral_radius;
 pub use chebyshev::{RungeKuttaChebyshev, SpectralEstimate};
 pub use midpoint::Midpoint;
 
-use crate::{Hydrodynamics, Record, SceneError, System};
+use crate::{Hydrodynamics, SavedState, SceneError, System};
 
 /// Work of an integrator since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -56,13 +56,13 @@ pub trait Integrator: std::fmt::Debug + Send {
     }
 
     /// Writes what it keeps from step to step, so that it can go on bit for bit; most keep nothing.
-    fn save(&self, _record: &mut Record) {}
+    fn save(&self, _record: &mut SavedState) {}
 
     /// Takes back what [`Integrator::save`] wrote.
     ///
     /// # Errors
-    /// A record that another kind of integrator wrote.
-    fn load(&mut self, _record: &Record) -> Result<(), SceneError> {
+    /// A state that another kind of integrator wrote.
+    fn load(&mut self, _saved: &SavedState) -> Result<(), SceneError> {
         Ok(())
     }
 }

@@ -1,39 +1,20 @@
 //! Scenes: bodies in a fluid, advanced in time.
 
-use std::marker::PhantomData;
+mod handle;
+mod run;
+mod step_control;
+mod system;
 
-use crate::step_control::StepControl;
+pub use handle::Handle;
+pub(crate) use handle::SceneId;
+pub use run::{Every, Observer, Run};
+pub(crate) use step_control::StepControl;
+pub use step_control::{Limiting, StepReport, StepSize};
+pub use system::{BodyFlow, System};
+
 use crate::{
-    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Record, Repulsion, Run, SceneError, StepInfo,
-    StepReport, StepSize, System,
+    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Observe, Repulsion, SavedState, SceneError, StepInfo,
 };
-
-/// Where a body of type B stands in its scene.
-pub struct Handle<B> {
-    index: usize,
-    body: PhantomData<fn() -> B>,
-}
-
-// Derived implementations would ask B to be copied and printed too.
-impl<B> Clone for Handle<B> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<B> Copy for Handle<B> {}
-impl<B> std::fmt::Debug for Handle<B> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Handle({})", self.index)
-    }
-}
-
-impl<B> Handle<B> {
-    /// Number of the body, in the order of addition; also that of its group in [`System::markers`].
-    #[must_use]
-    pub fn index(&self) -> usize {
-        self.index
-    }
-}
 
 /// Bodies coupled by a fluid, and the integrator that advances them.
 #[derive(Debug)]
@@ -119,24 +100,32 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
 
     /// Adds a body; the handle gives it back.
     pub fn add<B: Body>(&mut self, body: B) -> Handle<B> {
-        Handle { index: self.system.push(Box::new(body)), body: PhantomData }
+        self.system.push(body)
     }
 
     /// A body.
     ///
-    /// # Panics
-    /// A handle of another scene.
-    #[must_use]
-    pub fn body<B: Body>(&self, handle: Handle<B>) -> &B {
-        self.system.body_at(handle.index).downcast_ref().expect("a handle belongs to the scene that gave it")
+    /// # Errors
+    /// [`SceneError::ForeignHandle`] for a handle of another scene.
+    pub fn body<B: Body>(&self, handle: Handle<B>) -> Result<&B, SceneError> {
+        self.system.body(handle)
     }
 
     /// A body, to be changed between steps.
     ///
-    /// # Panics
-    /// A handle of another scene.
-    pub fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> &mut B {
-        self.system.body_at_mut(handle.index).downcast_mut().expect("a handle belongs to the scene that gave it")
+    /// # Errors
+    /// [`SceneError::ForeignHandle`] for a handle of another scene.
+    pub fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> Result<&mut B, SceneError> {
+        self.system.body_mut(handle)
+    }
+
+    /// What is seen of a body in the present state, whose flow is computed if it is not known yet: all observables of
+    /// a droplet, say.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`] for a handle of another scene; those of the flow and of the body.
+    pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
+        self.system.observe(handle)
     }
 
     /// The bodies, the fluid and the time.
@@ -263,8 +252,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         self.integrator.work()
     }
 
-    pub(crate) fn load_integrator(&mut self, record: &Record) -> Result<(), SceneError> {
-        self.integrator.load(record)
+    pub(crate) fn load_integrator(&mut self, saved: &SavedState) -> Result<(), SceneError> {
+        self.integrator.load(saved)
     }
 
     /// The integrator.
@@ -291,3 +280,6 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         Run::new(self, until)
     }
 }
+
+#[cfg(test)]
+mod tests;

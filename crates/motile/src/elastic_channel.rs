@@ -2,8 +2,7 @@
 
 use active_interface::{ActiveDroplet, Curve};
 use elastic_solids::{
-    AnySolid, Channel, ChannelWalls, ElasticForces, Hyperelastic, Mesher, Moduli, NeoHookean, Solid, SolidError,
-    Springs, StraightChannel, SurfaceGap, TriangleMesh,
+    Channel, ChannelWalls, Mesher, Moduli, NeoHookean, Solid, SolidError, StraightChannel, SurfaceGap, TriangleMesh,
 };
 use ib_core::{Handle, MobilityDeficit, Scene, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid};
@@ -60,8 +59,8 @@ pub enum WallSurface {
 /// let (mut scene, droplet, walls) = channel.build()?;
 /// scene.run(1.0).go()?;
 ///
-/// let width = width_between(scene.body(walls[0]), scene.body(walls[1]))?;
-/// println!("width from {:.3} to {:.3}, {} markers", width.minimum, width.maximum, scene.body(droplet).markers().len());
+/// let width = width_between(scene.body(walls[0])?, scene.body(walls[1])?)?;
+/// println!("width from {:.3} to {:.3}, {} markers", width.minimum, width.maximum, scene.body(droplet)?.markers().len());
 /// assert!(width.minimum < 2.0 && width.maximum > 2.1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -104,7 +103,7 @@ const OVERLAP: f64 = 0.25;
 
 /// A scene, the droplet in it, and the elastic solids beside it (lower wall, upper wall, islands), or why there is
 /// none.
-pub type BuiltElastic = Result<(Scene<AnyFlow>, Handle<ActiveDroplet>, Vec<Handle<AnySolid>>), SetupError>;
+pub type BuiltElastic = Result<(Scene<AnyFlow>, Handle<ActiveDroplet>, Vec<Handle<Solid>>), SetupError>;
 
 impl ElasticChannel {
     /// Walls 1.5 R0 thick (the thesis') of springs on an equilateral lattice as fine as the grid.
@@ -201,17 +200,16 @@ impl ElasticChannel {
     ///
     /// # Errors
     /// A shape that cannot be meshed.
-    pub fn solids(&self, shape: &Channel, moduli: impl Fn(Vec2) -> Moduli) -> Result<Vec<AnySolid>, SetupError> {
+    pub fn solids(&self, shape: &Channel, moduli: impl Fn(Vec2) -> Moduli) -> Result<Vec<Solid>, SetupError> {
         let half = 0.5 * self.swimmer.lengths[1] + self.thickness;
         let mesher = Mesher::new(self.mesh_spacing.unwrap_or(self.swimmer.spacing))?;
         let mesher = if self.mesh == WallMesh::Unstructured { mesher.turned(TURN)? } else { mesher };
         let set_back = self.set_back();
         let widened = if set_back > 0.0 { shape.widened(2.0 * set_back)? } else { shape.clone() };
         let ChannelWalls { lower, upper, islands } = widened.walls(-half, half, &mesher)?;
-        let deficit = MobilityDeficit::new(&self.swimmer.kernel);
-        let finished = |solid: AnySolid| {
+        let finished = |solid: Solid| {
             let solid = if self.may_invert { solid.allow_inversion() } else { solid };
-            if self.surface == WallSurface::Corrected { solid.surface_corrected(&deficit) } else { solid }
+            if self.surface == WallSurface::Corrected { solid.surface_corrected() } else { solid }
         };
         let mut solids = Vec::new();
         for (name, mesh) in [("lower wall", lower), ("upper wall", upper)] {
@@ -228,14 +226,11 @@ impl ElasticChannel {
         Ok(solids)
     }
 
-    fn solid(&self, mesh: TriangleMesh, moduli: impl Fn(Vec2) -> Moduli) -> Result<AnySolid, SolidError> {
-        let law: Box<dyn ElasticForces> = match self.material {
-            WallMaterial::Springs => Box::new(Springs::graded(&mesh, |place| moduli(place).shear())?),
-            WallMaterial::NeoHookean => {
-                Box::new(Hyperelastic::graded(&mesh, |place| Ok(NeoHookean::from(moduli(place))))?)
-            }
-        };
-        Solid::with_forces(mesh, law)
+    fn solid(&self, mesh: TriangleMesh, moduli: impl Fn(Vec2) -> Moduli) -> Result<Solid, SolidError> {
+        match self.material {
+            WallMaterial::Springs => Solid::springs_graded(mesh, |place| moduli(place).shear()),
+            WallMaterial::NeoHookean => Solid::hyperelastic_graded(mesh, |place| Ok(NeoHookean::from(moduli(place)))),
+        }
     }
 
     /// Half the length of the straight sides and the radius of the ends (length) of the stadium as which the droplet

@@ -1,10 +1,7 @@
 //! Transforms along y.
 
-use std::fmt;
-use std::sync::Arc;
-
+use fourier::ComplexTransform;
 use num_complex::Complex64;
-use rustfft::{Fft, FftPlanner};
 
 /// Columns that are gathered, changed and put back together: two cache lines of each row.
 const BATCH: usize = 8;
@@ -16,53 +13,33 @@ const GAP: usize = 4;
 ///
 /// Columns are gathered a few at a time into a buffer that stays in the cache, so that no pass walks through memory
 /// with a large stride and nothing is transposed as a whole.
+#[derive(Debug, Clone)]
 pub(crate) struct ColumnTransform {
-    ny: usize,
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
+    plan: ComplexTransform,
     batch: Vec<Complex64>,
-    scratch: Vec<Complex64>,
-}
-
-impl fmt::Debug for ColumnTransform {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ColumnTransform").field("ny", &self.ny).finish_non_exhaustive()
-    }
 }
 
 impl ColumnTransform {
     pub(crate) fn new(ny: usize) -> Self {
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(ny), planner.plan_fft_inverse(ny));
-        let scratch = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
-        Self {
-            ny,
-            forward,
-            inverse,
-            batch: vec![Complex64::ZERO; BATCH * (ny + GAP)],
-            scratch: vec![Complex64::ZERO; scratch],
-        }
+        Self { plan: ComplexTransform::new(ny), batch: vec![Complex64::ZERO; BATCH * (ny + GAP)] }
     }
 
     /// Transforms the columns of `rows`, each `width` long.
     pub(crate) fn forward(&mut self, rows: &mut [Complex64], width: usize) {
-        let plan = self.forward.clone();
-        self.for_each(rows, width, |_, column, scratch| run(&*plan, column, scratch));
+        self.for_each(rows, width, |plan, _, column| forward(plan, column));
     }
 
     /// Transforms the columns of `rows` back.
     pub(crate) fn inverse(&mut self, rows: &mut [Complex64], width: usize) {
-        let plan = self.inverse.clone();
-        self.for_each(rows, width, |_, column, scratch| run(&*plan, column, scratch));
+        self.for_each(rows, width, |plan, _, column| inverse(plan, column));
     }
 
     /// Transforms each column, lets `change(m, column)` change it and transforms it back.
     pub(crate) fn filter(&mut self, rows: &mut [Complex64], width: usize, change: impl Fn(usize, &mut [Complex64])) {
-        let (forward, inverse) = (self.forward.clone(), self.inverse.clone());
-        self.for_each(rows, width, |m, column, scratch| {
-            run(&*forward, column, scratch);
+        self.for_each(rows, width, |plan, m, column| {
+            forward(plan, column);
             change(m, column);
-            run(&*inverse, column, scratch);
+            inverse(plan, column);
         });
     }
 
@@ -76,9 +53,10 @@ impl ColumnTransform {
         columns: &mut [Complex64],
         change: impl Fn(usize, &mut [Complex64]),
     ) {
-        for (b, batch) in columns.chunks_mut(BATCH * self.ny).enumerate() {
+        let ny = self.plan.len();
+        for (b, batch) in columns.chunks_mut(BATCH * ny).enumerate() {
             let m = first + b * BATCH;
-            let mut parts = batch.chunks_exact_mut(self.ny);
+            let mut parts = batch.chunks_exact_mut(ny);
             if parts.len() == BATCH {
                 let mut columns: [&mut [Complex64]; BATCH] = std::array::from_fn(|_| parts.next().unwrap_or_default());
                 gather(&rows[m..], width, &mut columns);
@@ -87,10 +65,10 @@ impl ColumnTransform {
                     gather(&rows[m + k..], width, &mut [column]);
                 }
             }
-            for (k, column) in batch.chunks_exact_mut(self.ny).enumerate() {
-                run(&*self.forward, column, &mut self.scratch);
+            for (k, column) in batch.chunks_exact_mut(ny).enumerate() {
+                forward(&mut self.plan, column);
                 change(m + k, column);
-                run(&*self.inverse, column, &mut self.scratch);
+                inverse(&mut self.plan, column);
             }
         }
     }
@@ -99,23 +77,23 @@ impl ColumnTransform {
         &mut self,
         rows: &mut [Complex64],
         width: usize,
-        mut work: impl FnMut(usize, &mut [Complex64], &mut [Complex64]),
+        mut work: impl FnMut(&mut ComplexTransform, usize, &mut [Complex64]),
     ) {
-        let mut m = 0;
+        let (ny, mut m) = (self.plan.len(), 0);
         while m < width {
             let count = if m + BATCH <= width { BATCH } else { 1 };
-            let mut columns = self.batch.chunks_exact_mut(self.ny + GAP).map(|column| &mut column[..self.ny]);
+            let mut columns = self.batch.chunks_exact_mut(ny + GAP).map(|column| &mut column[..ny]);
             if count == BATCH {
                 let mut batch: [&mut [Complex64]; BATCH] = std::array::from_fn(|_| columns.next().unwrap_or_default());
                 gather(&rows[m..], width, &mut batch);
                 for (k, column) in batch.iter_mut().enumerate() {
-                    work(m + k, column, &mut self.scratch);
+                    work(&mut self.plan, m + k, column);
                 }
                 scatter(&batch, &mut rows[m..], width);
             } else {
                 let mut batch = [columns.next().unwrap_or_default()];
                 gather(&rows[m..], width, &mut batch);
-                work(m, batch[0], &mut self.scratch);
+                work(&mut self.plan, m, batch[0]);
                 scatter(&batch, &mut rows[m..], width);
             }
             m += count;
@@ -123,8 +101,14 @@ impl ColumnTransform {
     }
 }
 
-fn run(plan: &dyn Fft<f64>, column: &mut [Complex64], scratch: &mut [Complex64]) {
-    plan.process_with_scratch(column, &mut scratch[..plan.get_inplace_scratch_len()]);
+/// Transforms a column, which has the length of the plan, so that the call cannot fail.
+fn forward(plan: &mut ComplexTransform, column: &mut [Complex64]) {
+    let _ = plan.forward(column);
+}
+
+/// Transforms a column back; see [`forward`].
+fn inverse(plan: &mut ComplexTransform, column: &mut [Complex64]) {
+    let _ = plan.inverse(column);
 }
 
 /// Copies the leading `N` columns of rows of length `width` into contiguous ones. (The number is a constant because the

@@ -44,6 +44,9 @@ pub enum StokesError {
         /// The field.
         name: &'static str,
     },
+    /// A transform of another length than planned for.
+    #[error(transparent)]
+    Transform(#[from] fourier::FourierError),
     /// A slice of the wrong length.
     #[error("{name} has {found} values where {expected} are needed")]
     WrongLength {

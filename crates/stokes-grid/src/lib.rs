@@ -71,7 +71,7 @@
 //! With the feature `rayon`, off by default, [`PeriodicStokes`] uses the threads of the current pool from 800,000 cells
 //! on, to the same bits for any number of them.
 //!
-//! `cargo bench -p stokes-grid` prints times in units of plain real transforms of the same size in the same run: about
+//! `cargo bench --bench solvers` prints times in units of plain real transforms of the same size in the same run: about
 //! 1.1 pairs for [`PeriodicStokes`] from 120 to 1024 cells squared, and about 2.1 times the passes along x alone for
 //! [`ChannelStokes`].
 
@@ -92,7 +92,6 @@ mod projection;
 mod projection_channel;
 mod projection_periodic;
 mod rows;
-mod sine_cosine;
 mod solver;
 mod sums;
 mod symbol;

@@ -48,7 +48,7 @@ impl ProjectionStokes {
     pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
         check_viscosity(viscosity)?;
         let region = if grid.has_walls() {
-            Region::Channel(Box::new(ChannelProjection::new(grid, viscosity)))
+            Region::Channel(Box::new(ChannelProjection::new(grid, viscosity)?))
         } else {
             Region::Periodic(Box::new(PeriodicProjection::new(grid, viscosity)?))
         };
@@ -130,7 +130,7 @@ impl StokesSolver for ProjectionStokes {
         self.work.solves += 1;
         let mean_pressure_gradient = match &mut self.region {
             Region::Periodic(periodic) => periodic.solve(force, velocity, &mut self.work),
-            Region::Channel(channel) => channel.solve(force, velocity, &mut self.work),
+            Region::Channel(channel) => channel.solve(force, velocity, &mut self.work)?,
         };
         if !(velocity.x()[0].is_finite() && velocity.y()[self.grid.nx()].is_finite()) {
             return Err(StokesError::Overflow { name: "the velocity" });
@@ -149,7 +149,7 @@ impl StokesSolver for ProjectionStokes {
         check_grid(&self.grid, pressure.grid(), "the pressure")?;
         match &mut self.region {
             Region::Periodic(periodic) => periodic.pressure(force, pressure, &mut self.work),
-            Region::Channel(channel) => channel.pressure(force, pressure, &mut self.work),
+            Region::Channel(channel) => channel.pressure(force, pressure, &mut self.work)?,
         }
         Ok(())
     }

@@ -2,13 +2,13 @@
 
 use std::f64::consts::PI;
 
+use fourier::SineCosine;
 use num_complex::Complex64;
 
 use crate::mean_flow::Poiseuille;
 use crate::rows::RowTransform;
-use crate::sine_cosine::SineCosine;
 use crate::symbol::second_difference;
-use crate::{CentreField, Drive, Grid, StaggeredField, Wall, WallMotion, Work};
+use crate::{CentreField, Drive, Grid, StaggeredField, StokesError, Wall, WallMotion, Work};
 
 /// The projection method in a channel, exact in one pass by the wall values of u*. Lengths inside are in cells, phi is
 /// phi / h.
@@ -49,7 +49,7 @@ enum Goal {
 }
 
 impl ChannelProjection {
-    pub(crate) fn new(grid: Grid, viscosity: f64) -> Self {
+    pub(crate) fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
         let (nx, n) = (grid.nx(), grid.ny());
         let rows = RowTransform::new(nx);
         let width = rows.width();
@@ -74,7 +74,7 @@ impl ChannelProjection {
                 *value = Complex64::new(b, 0.0);
                 harmonic.push(b);
             }
-            across.analyse_cosines(&mut column);
+            across.analyse_cosines(&mut column)?;
             let (mut first, mut last) = (0.0, 0.0);
             for (k, value) in column.iter().enumerate() {
                 let phi = if m == 0 { 0.0 } else { -value.re / (across_symbol[k] + k2) };
@@ -85,7 +85,7 @@ impl ChannelProjection {
             capacitance.push([1.0 / (1.0 + k2 * (first + last)), 1.0 / (1.0 + k2 * (first - last))]);
         }
         let complex = |count: usize| vec![Complex64::ZERO; count];
-        Self {
+        Ok(Self {
             grid,
             viscosity,
             drive: Drive::default(),
@@ -105,7 +105,7 @@ impl ChannelProjection {
             v_column: complex(n - 1),
             phi_column: complex(n),
             mean_u: vec![0.0; n],
-        }
+        })
     }
 
     pub(crate) fn set_drive(&mut self, drive: Drive) {
@@ -128,8 +128,13 @@ impl ChannelProjection {
     }
 
     /// The velocity; gives the mean pressure gradient.
-    pub(crate) fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField, work: &mut Work) -> [f64; 2] {
-        let gradient = self.columns(force, Goal::Velocity, work);
+    pub(crate) fn solve(
+        &mut self,
+        force: &StaggeredField,
+        velocity: &mut StaggeredField,
+        work: &mut Work,
+    ) -> Result<[f64; 2], StokesError> {
+        let gradient = self.columns(force, Goal::Velocity, work)?;
         let (nx, n, width) = (self.grid.nx(), self.grid.ny(), self.rows.width());
         let (u, v) = velocity.components_mut();
         for (to, from) in u.chunks_exact_mut(nx).zip(self.u_spectrum.chunks_exact_mut(width)) {
@@ -141,22 +146,28 @@ impl ChannelProjection {
         v[..nx].fill(0.0);
         v[n * nx..].fill(0.0);
         work.inverse_transforms += 2;
-        [gradient, 0.0]
+        Ok([gradient, 0.0])
     }
 
     /// `p = -eta lap phi`.
-    pub(crate) fn pressure(&mut self, force: &StaggeredField, pressure: &mut CentreField, work: &mut Work) {
-        self.columns(force, Goal::Pressure, work);
+    pub(crate) fn pressure(
+        &mut self,
+        force: &StaggeredField,
+        pressure: &mut CentreField,
+        work: &mut Work,
+    ) -> Result<(), StokesError> {
+        self.columns(force, Goal::Pressure, work)?;
         let (nx, width) = (self.grid.nx(), self.rows.width());
         for (to, from) in pressure.values_mut().chunks_exact_mut(nx).zip(self.u_spectrum.chunks_exact_mut(width)) {
             to.copy_from_slice(self.rows.inverse(from));
         }
         work.inverse_transforms += 1;
+        Ok(())
     }
 
     /// Everything between the transforms in x: leaves the spectra of u and v, or of p in place of u; gives the mean
     /// pressure gradient (of use with the velocity only).
-    fn columns(&mut self, force: &StaggeredField, goal: Goal, work: &mut Work) -> f64 {
+    fn columns(&mut self, force: &StaggeredField, goal: Goal, work: &mut Work) -> Result<f64, StokesError> {
         let (nx, n, width) = (self.grid.nx(), self.grid.ny(), self.rows.width());
         // With this factor v* has the right units, and the transforms in x are normalised.
         let scale = self.grid.spacing().powi(2) / (self.viscosity * nx as f64);
@@ -176,7 +187,7 @@ impl ChannelProjection {
         for m in 0..width {
             gather(&self.u_spectrum[m..], width, &mut self.u_column);
             gather(&self.v_spectrum[m..], width, &mut self.v_column);
-            self.column(m, goal);
+            self.column(m, goal)?;
             if m == 0 && goal == Goal::Velocity {
                 for (mean, value) in self.mean_u.iter_mut().zip(&self.u_column) {
                     *mean = value.re;
@@ -189,12 +200,12 @@ impl ChannelProjection {
             scatter(&self.u_column, &mut self.u_spectrum[m..], width);
             scatter(&self.v_column, &mut self.v_spectrum[m..], width);
         }
-        gradient
+        Ok(gradient)
     }
 
     /// One wave number: from the forces in `u_column` and `v_column` to the velocities, or to the pressure in
     /// `u_column`.
-    fn column(&mut self, m: usize, goal: Goal) {
+    fn column(&mut self, m: usize, goal: Goal) -> Result<(), StokesError> {
         let (nx, n) = (self.grid.nx(), self.grid.ny());
         let k2 = second_difference(m, nx);
         // The difference from u points to centres; minus its conjugate is the one from centres to u points.
@@ -205,19 +216,19 @@ impl ChannelProjection {
         let symbol = &self.across_symbol;
 
         // v*, with no wall values of u* yet.
-        self.across.analyse_sines(u);
+        self.across.analyse_sines(u)?;
         for (u, symbol) in u.iter_mut().zip(&symbol[1..]) {
             *u /= symbol + k2;
         }
-        self.across.synthesise_sines(u);
-        self.across.analyse_node_sines(v);
+        self.across.synthesise_sines(u)?;
+        self.across.analyse_node_sines(v)?;
         for (v, symbol) in v.iter_mut().zip(&symbol[1..]) {
             *v /= symbol + k2;
         }
 
         // phi, and its values next to the walls.
         phi.copy_from_slice(u);
-        self.across.analyse_cosines(phi);
+        self.across.analyse_cosines(phi)?;
         let (mut first, mut last) = (Complex64::ZERO, Complex64::ZERO);
         for k in 0..n {
             let across = if k == 0 { Complex64::ZERO } else { symbol[k].sqrt() * v[k - 1] };
@@ -244,8 +255,8 @@ impl ChannelProjection {
                 for (k, v) in v.iter_mut().enumerate() {
                     *v += symbol[k + 1].sqrt() * phi[k + 1];
                 }
-                self.across.synthesise_node_sines(v);
-                self.across.synthesise_cosines(phi);
+                self.across.synthesise_node_sines(v)?;
+                self.across.synthesise_cosines(phi)?;
                 for (j, u) in u.iter_mut().enumerate() {
                     *u += bottom * harmonic[j] + top * harmonic[n - 1 - j] - gradient * phi[j];
                 }
@@ -255,9 +266,10 @@ impl ChannelProjection {
                 for ((u, phi), symbol) in u.iter_mut().zip(phi.iter()).zip(symbol) {
                     *u = stress * (symbol + k2) * phi;
                 }
-                self.across.synthesise_cosines(u);
+                self.across.synthesise_cosines(u)?;
             }
         }
+        Ok(())
     }
 }
 

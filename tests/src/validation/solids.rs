@@ -1,12 +1,11 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
 use motile::elastic_solids::{
-    DeformationGradient, ElasticForces, ElasticSolid, EnergyDensity, ForceBalance, Hyperelastic, InnerPoints, Mat2,
-    MeasuredModuli, Mesher, MooneyRivlin, NeoHookean, Outline, Region, SaintVenantKirchhoff, Solid, SolidError,
-    SpringLattice, Springs, TriangleMesh, equilateral_block, equilateral_strip, fitted_strip, force_balance,
-    measured_moduli, patch_residual, stress_error,
+    DeformationGradient, ElasticForces, EnergyDensity, ForceBalance, Hyperelastic, InnerPoints, Mat2, MeasuredModuli,
+    Mesher, MooneyRivlin, NeoHookean, Outline, Region, SaintVenantKirchhoff, Solid, SolidError, Springs, TriangleMesh,
+    equilateral_block, equilateral_strip, fitted_strip, force_balance, measured_moduli, patch_residual, stress_error,
 };
-use motile::ib_core::{CubicQuadratic, ImmersedBoundary, MobilityDeficit, Scene, Vec2};
+use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid};
 
 use crate::validation::StudyError;
@@ -174,10 +173,10 @@ impl Layer {
         match self.material {
             Material::NeoHookean => {
                 let material = NeoHookean::new(LAYER_SHEAR, 3.0 * LAYER_SHEAR)?;
-                self.relaxation(ElasticSolid::new(mesh, material), h, 0.3)
+                self.relaxation(Solid::hyperelastic(mesh, material), h, 0.3)
             }
             // Springs obey the solution for small shear only.
-            Material::Springs => self.relaxation(SpringLattice::new(mesh, LAYER_SHEAR)?, h, 0.01),
+            Material::Springs => self.relaxation(Solid::springs(mesh, LAYER_SHEAR)?, h, 0.01),
         }
     }
 
@@ -190,26 +189,25 @@ impl Layer {
         Mesher::new(h)?.turned(TURN)?.mesh(&Region::new(sides)?)
     }
 
-    fn relaxation<F: ElasticForces>(&self, solid: Solid<F>, h: f64, shear: f64) -> Result<f64, StudyError> {
+    fn relaxation(&self, solid: Solid, h: f64, shear: f64) -> Result<f64, StudyError> {
         let grid = Grid::channel((LENGTH / h).round() as usize, (HEIGHT / h).round() as usize, h)?;
         let solver = ChannelStokes::new(grid, VISCOSITY)?;
         let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
         let above = |s: Vec2| s.y + 0.5 * HEIGHT;
         let solid = solid.pinned(|s| above(s) < 1e-9)?.deformed(|s| s + Vec2::new(shear * above(s), 0.0))?;
-        let deficit = MobilityDeficit::new(&CubicQuadratic::default());
-        let handle = scene.add(if self.corrected { solid.surface_corrected(&deficit) } else { solid });
-        let start = slide(scene.body(handle));
+        let handle = scene.add(if self.corrected { solid.surface_corrected() } else { solid });
+        let start = slide(scene.body(handle)?);
         let time = VISCOSITY / LAYER_SHEAR;
         for _ in 0..50 {
             scene.step(time / 50.0)?;
         }
-        let rate = -(slide(scene.body(handle)) / start).ln();
+        let rate = -(slide(scene.body(handle)?) / start).ln();
         Ok(rate / (1.0 - THICKNESS / HEIGHT) - 1.0)
     }
 }
 
 /// Mean displacement of the upper surface along x.
-fn slide<F: ElasticForces>(solid: &Solid<F>) -> f64 {
+fn slide(solid: &Solid) -> f64 {
     let surface = solid.mesh().boundary_loops().iter().filter(|boundary| boundary.periods == -1);
     let points: Vec<usize> = surface.flat_map(|boundary| boundary.points.iter().copied()).collect();
     let displacements: Vec<Vec2> = solid.displacements().collect();

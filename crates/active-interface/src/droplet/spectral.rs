@@ -1,11 +1,10 @@
 //! Geometry, forces and marker motion of a smooth curve by Fourier series in the marker number.
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
+use fourier::ComplexTransform;
 use ib_core::Vec2;
 use num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
 
 use super::geometry::{Geometry, outward};
 
@@ -13,20 +12,13 @@ use super::geometry::{Geometry, outward};
 ///
 /// Where the flow itself is spectrally accurate, the chords of the polygon would be the largest error of a scene: their
 /// lengths, directions and normals are of second order in the spacing. Here all of them come from X_alpha.
+#[derive(Debug, Clone)]
 pub(crate) struct SpectralCurve {
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
-    scratch: Vec<Complex<f64>>,
+    plan: ComplexTransform,
     spectrum: Vec<Complex<f64>>,
     work: Vec<Complex<f64>>,
     /// |X_alpha| at the markers (length).
     stretch: Vec<f64>,
-}
-
-impl std::fmt::Debug for SpectralCurve {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("SpectralCurve").field("markers", &self.stretch.len()).finish_non_exhaustive()
-    }
 }
 
 fn complex(v: Vec2) -> Complex<f64> {
@@ -39,18 +31,8 @@ fn vector(z: Complex<f64>) -> Vec2 {
 
 impl SpectralCurve {
     pub(crate) fn new(count: usize) -> Self {
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(count), planner.plan_fft_inverse(count));
-        let needed = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
         let zeros = vec![Complex::default(); count];
-        Self {
-            forward,
-            inverse,
-            scratch: vec![Complex::default(); needed],
-            spectrum: zeros.clone(),
-            work: zeros,
-            stretch: vec![0.0; count],
-        }
+        Self { plan: ComplexTransform::new(count), spectrum: zeros.clone(), work: zeros, stretch: vec![0.0; count] }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -70,7 +52,8 @@ impl SpectralCurve {
     }
 
     fn transform(&mut self) {
-        self.forward.process_with_scratch(&mut self.spectrum, &mut self.scratch);
+        // The lengths are this plan's own, so that the call cannot fail.
+        let _ = self.plan.forward(&mut self.spectrum);
     }
 
     /// Fills `work` with the values of the series `spectrum` times `factor(wave number)`.
@@ -79,7 +62,7 @@ impl SpectralCurve {
         for m in 0..self.len() {
             self.work[m] = self.spectrum[m] * factor(self.wave(m)) * scale;
         }
-        self.inverse.process_with_scratch(&mut self.work, &mut self.scratch);
+        let _ = self.plan.inverse(&mut self.work);
     }
 
     /// Replaces lengths, directions (at the middle of the segments), tangents and weights of `geometry` by those of the

@@ -111,6 +111,12 @@ fn a_channel_that_branches_around_an_island() {
     }
     let lowest = walls.lower.points().iter().filter(|p| p.x.abs() < 0.1).map(|p| p.y).fold(-9.0, f64::max);
     assert!((lowest + 1.6).abs() < 1e-12);
+    // Each alone is the same mesh.
+    let mesher = Mesher::new(0.08).unwrap();
+    assert_eq!(channel.lower_wall(-3.0, &mesher).unwrap(), walls.lower);
+    assert_eq!(channel.upper_wall(3.0, &mesher).unwrap(), walls.upper);
+    assert_eq!(channel.island(0, &mesher).unwrap(), walls.islands[0]);
+    assert!(matches!(channel.island(1, &mesher), Err(SolidError::TooFew { found: 1, minimum: 2, .. })));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::{
 
 const SHEAR: f64 = 93.75;
 
-fn measured<F: ElasticForces>(mesh: &TriangleMesh, law: &F, inner: InnerPoints) -> MeasuredModuli {
+fn measured(mesh: &TriangleMesh, law: &dyn ElasticForces, inner: InnerPoints) -> MeasuredModuli {
     measured_moduli(mesh, law, 1e-3, inner).unwrap()
 }
 

@@ -28,7 +28,7 @@ fn shear(s: Vec2) -> Vec2 {
 #[test]
 fn pinned_points_are_no_markers() {
     let bottom = |s: Vec2| s.y < -0.99;
-    let mut solid = SpringLattice::new(block(), 1.0).unwrap().pinned(bottom).unwrap().deformed(shear).unwrap();
+    let mut solid = Solid::springs(block(), 1.0).unwrap().pinned(bottom).unwrap().deformed(shear).unwrap();
     let (all, free) = (solid.mesh().points().len(), solid.free_points().len());
     assert_eq!(all - free, 9);
     assert_eq!((solid.marker_count(), solid.state_len(), solid.kind()), (free, 2 * free, MarkerKind::Points));
@@ -49,13 +49,13 @@ fn pinned_points_are_no_markers() {
         let expected = if bottom(solid.mesh().points()[point]) { *old } else { old + Vec2::repeat(0.5) };
         assert_eq!(*new, expected);
     }
-    assert!(matches!(SpringLattice::new(block(), 1.0).unwrap().pinned(|_| true), Err(SolidError::TooFew { .. })));
+    assert!(matches!(Solid::springs(block(), 1.0).unwrap().pinned(|_| true), Err(SolidError::TooFew { .. })));
 }
 
 /// Overdamped motion along the forces: the energy falls to zero and the shape returns.
 #[test]
 fn a_deformed_solid_relaxes() {
-    let mut solid = ElasticSolid::new(block(), NeoHookean::new(1.0, 2.0).unwrap())
+    let mut solid = Solid::hyperelastic(block(), NeoHookean::new(1.0, 2.0).unwrap())
         .pinned(|s| s.y < -0.99)
         .unwrap()
         .deformed(shear)
@@ -86,7 +86,7 @@ fn a_deformed_solid_relaxes() {
 
 #[test]
 fn tethers_pull_back_to_their_anchors() {
-    let mut solid = SpringLattice::new(block(), 1.0)
+    let mut solid = Solid::springs(block(), 1.0)
         .unwrap()
         .tethered(3.0, |s| s.y < -0.99)
         .unwrap()
@@ -112,14 +112,14 @@ fn tethers_pull_back_to_their_anchors() {
 #[test]
 fn step_limits_follow_the_moduli() {
     let limit = |shear: f64, bulk: f64, grid: Option<f64>| {
-        let solid = ElasticSolid::new(block(), NeoHookean::new(shear, bulk).unwrap());
+        let solid = Solid::hyperelastic(block(), NeoHookean::new(shear, bulk).unwrap());
         solid.step_limits(&Medium { spacing: grid, ..medium() })[0].dt
     };
     assert!((limit(4.0, 8.0, Some(0.2)) - 20.0 / (4.0 + 0.12)).abs() < 1e-12);
     assert!((limit(4.0, 8.0, None) - 5.0).abs() < 1e-12);
     // Coarser than the grid, the bulk modulus counts.
     assert!((limit(4.0, 80.0, Some(0.1)) - 20.0 / (4.0 + 0.015 * 320.0)).abs() < 1e-12);
-    let graded = SpringLattice::graded(block(), |s| 2.0 + s.x).unwrap();
+    let graded = Solid::springs_graded(block(), |s| 2.0 + s.x).unwrap();
     // The rightmost triangle's centroid stands less than 0.6 right of the origin.
     let dt = graded.step_limits(&medium())[0].dt;
     assert!(dt > 20.0 / 2.6 && dt < 20.0 / 2.3, "{dt}");
@@ -127,7 +127,7 @@ fn step_limits_follow_the_moduli() {
 
 #[test]
 fn bad_states_are_refused() {
-    let mut solid = SpringLattice::new(block(), 1.0).unwrap();
+    let mut solid = Solid::springs(block(), 1.0).unwrap();
     let mut state = vec![0.0; solid.state_len()];
     solid.write_state(&mut state);
     state[5] = f64::NAN;
@@ -149,7 +149,7 @@ fn bad_states_are_refused() {
 fn observables_of_a_uniform_deformation() {
     let a = Mat2::new(1.1, 0.2, 0.0, 0.9);
     let shift = Vec2::new(0.3, -0.2);
-    let solid = ElasticSolid::new(block(), NeoHookean::new(2.0, 5.0).unwrap()).deformed(|s| a * s + shift).unwrap();
+    let solid = Solid::hyperelastic(block(), NeoHookean::new(2.0, 5.0).unwrap()).deformed(|s| a * s + shift).unwrap();
     assert!(solid.jacobians().all(|jacobian| (jacobian - 0.99).abs() < 1e-12));
     let gradient = crate::DeformationGradient::new(a).unwrap();
     let material = NeoHookean::new(2.0, 5.0).unwrap();
@@ -170,13 +170,13 @@ fn observables_of_a_uniform_deformation() {
 #[test]
 fn displacements_along_and_across_a_surface() {
     let strip = equilateral_strip(Vec2::zeros(), 20, 5, 0.1).unwrap();
-    let slid = SpringLattice::new(strip.clone(), 1.0).unwrap().deformed(|s| s + Vec2::new(0.4, 0.0)).unwrap();
+    let slid = Solid::springs(strip.clone(), 1.0).unwrap().deformed(|s| s + Vec2::new(0.4, 0.0)).unwrap();
     let largest = slid.largest_displacement();
     assert!((largest.total - 0.4).abs() < 1e-14 && largest.normal < 1e-14);
     let top = 5.0 * 0.1 * 0.75_f64.sqrt();
     // The top row is an odd one, half a spacing off.
     let bulged = |s: Vec2| s + Vec2::new(0.4, if (s.x - 0.55).abs() < 1e-9 { 0.05 * s.y / top } else { 0.0 });
-    let largest = SpringLattice::new(strip, 1.0).unwrap().deformed(bulged).unwrap().largest_displacement();
+    let largest = Solid::springs(strip, 1.0).unwrap().deformed(bulged).unwrap().largest_displacement();
     assert!((largest.normal - 0.05).abs() < 1e-12 && (largest.total - 0.4_f64.hypot(0.05)).abs() < 1e-12);
 }
 
@@ -184,8 +184,8 @@ fn displacements_along_and_across_a_surface() {
 fn the_width_of_a_channel_between_deformed_walls() {
     // Chords of the ramp, of curvature pi^2/4, are off it by less than 0.05^2/8 pi^2/4 = 8e-4 on either side.
     let walls = Constriction::thesis().channel().unwrap().walls(-2.5, 2.5, &Mesher::new(0.05).unwrap()).unwrap();
-    let lower = SpringLattice::new(walls.lower, 1.0).unwrap();
-    let upper = ElasticSolid::new(walls.upper, NeoHookean::new(1.0, 2.0).unwrap());
+    let lower = Solid::springs(walls.lower, 1.0).unwrap();
+    let upper = Solid::hyperelastic(walls.upper, NeoHookean::new(1.0, 2.0).unwrap());
     let width = width_between(&lower, &upper).unwrap();
     assert!((width.minimum - 1.0).abs() < 1e-12 && (width.maximum - 2.0).abs() < 1e-12);
     // The upper wall rises by 0.1 at x = 0 and slides on by many periods.
@@ -201,7 +201,7 @@ fn the_width_of_a_channel_between_deformed_walls() {
     let at = width.minimum_at - 12.0 * (width.minimum_at / 12.0).round();
     assert!((at.abs() - narrowest).abs() < 0.1, "{width:?} {narrowest}");
     assert!(matches!(
-        width_between(&moved, &SpringLattice::new(block(), 1.0).unwrap()),
+        width_between(&moved, &Solid::springs(block(), 1.0).unwrap()),
         Err(SolidError::DifferentPeriods { .. })
     ));
 }

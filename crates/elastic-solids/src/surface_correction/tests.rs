@@ -11,7 +11,7 @@ fn medium(spacing: f64) -> Medium {
         spacing: Some(spacing),
         shape_modes: None,
         interface_stiffness: 0.0,
-        mobility_deficit: None,
+        mobility_deficit: Some(Arc::new(MobilityDeficit::new(&CubicQuadratic::default()))),
     }
 }
 
@@ -19,11 +19,11 @@ fn medium(spacing: f64) -> Medium {
 fn velocities(mesh: &TriangleMesh, forces: &[Vec2]) -> Vec<Vec2> {
     let count = mesh.points().len();
     let free: Vec<usize> = (0..count).filter(|&k| mesh.points()[k].y > -0.8).collect();
-    let mut correction = SurfaceCorrection::new(mesh, &free, &MobilityDeficit::new(&CubicQuadratic::default()));
-    correction.prepare(mesh, &free, Some(0.1));
+    let medium = medium(0.1);
+    let mut correction = SurfaceCorrection::new(mesh, &free, &medium).unwrap();
     let bent = |s: &Vec2| Vec2::new(s.x + 0.4 * s.y * s.y, s.y + 0.2 * (2.0 * s.x).sin());
     let positions: Vec<Vec2> = mesh.points().iter().map(bent).collect();
-    correction.update(mesh, &free, &medium(0.1), &positions, forces);
+    correction.update(mesh, &free, &medium, &positions, forces);
     let mut rate = vec![0.0; 2 * free.len()];
     correction.add(&mut rate);
     let mut velocities = vec![Vec2::zeros(); count];
@@ -61,9 +61,8 @@ fn uniform_shear_forces_on_a_flat_surface() {
     for &point in &upper.points {
         forces[point].x = 3.0 / upper.points.len() as f64;
     }
-    let mut correction = SurfaceCorrection::new(&mesh, &free, &deficit);
     let medium = medium(0.1);
-    correction.prepare(&mesh, &free, medium.spacing);
+    let mut correction = SurfaceCorrection::new(&mesh, &free, &medium).unwrap();
     correction.update(&mesh, &free, &medium, mesh.points(), &forces);
     let mut rate = vec![0.0; 2 * free.len()];
     correction.add(&mut rate);

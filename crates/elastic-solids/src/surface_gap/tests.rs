@@ -4,13 +4,13 @@ use std::sync::LazyLock;
 use proptest::prelude::*;
 
 use super::*;
-use crate::{ElasticSolid, Mesher, NeoHookean, Outline, Ratchet, SpringLattice, equilateral_strip};
+use crate::{Mesher, NeoHookean, Outline, Ratchet, Solid, equilateral_strip};
 
 /// A disc of radius 1.
 static DISC: LazyLock<SurfaceGap> = LazyLock::new(|| {
     let mesh = Outline::circle(Vec2::zeros(), 1.0).unwrap().mesh(0.1).unwrap();
     let mut gap = SurfaceGap::new(None);
-    gap.add(&ElasticSolid::new(mesh, NeoHookean::new(1.0, 2.0).unwrap())).unwrap();
+    gap.add(&Solid::hyperelastic(mesh, NeoHookean::new(1.0, 2.0).unwrap())).unwrap();
     gap.sort();
     gap
 });
@@ -21,7 +21,7 @@ static RATCHET: LazyLock<SurfaceGap> = LazyLock::new(|| {
     let walls = shape.channel().unwrap().walls(-2.5, 2.5, &Mesher::new(0.1).unwrap()).unwrap();
     let mut gap = SurfaceGap::new(Some(12.0));
     for mesh in [walls.lower, walls.upper] {
-        gap.add(&SpringLattice::new(mesh, 1.0).unwrap()).unwrap();
+        gap.add(&Solid::springs(mesh, 1.0).unwrap()).unwrap();
     }
     gap.sort();
     gap
@@ -47,7 +47,7 @@ proptest! {
 
 #[test]
 fn a_wall_over_its_seam() {
-    let wall = SpringLattice::new(equilateral_strip(Vec2::zeros(), 20, 10, 0.1).unwrap(), 1.0).unwrap();
+    let wall = Solid::springs(equilateral_strip(Vec2::zeros(), 20, 10, 0.1).unwrap(), 1.0).unwrap();
     let top = 0.75_f64.sqrt();
     let mut gap = SurfaceGap::new(Some(2.0));
     assert_eq!(gap.at(Vec2::zeros()), f64::INFINITY);
@@ -70,7 +70,7 @@ fn a_wall_over_its_seam() {
 
 #[test]
 fn it_follows_the_solid() {
-    let wall = SpringLattice::new(equilateral_strip(Vec2::zeros(), 20, 10, 0.1).unwrap(), 1.0).unwrap();
+    let wall = Solid::springs(equilateral_strip(Vec2::zeros(), 20, 10, 0.1).unwrap(), 1.0).unwrap();
     let moved = wall.deformed(|s| Vec2::new(s.x + 3.3, 2.0 * s.y)).unwrap();
     let mut gap = SurfaceGap::new(Some(2.0));
     for _ in 0..2 {

@@ -1,10 +1,9 @@
 //! Forces that take the place of another viscosity.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
+use fourier::ComplexTransform;
 use num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
 
 use super::droplet::Droplet;
 use super::gmres::{Gmres, Outcome};
@@ -40,38 +39,28 @@ pub(crate) struct EquivalentForces {
 }
 
 /// Multiplication of the Fourier modes along a closed curve.
+#[derive(Debug)]
 struct Filter {
-    forward: Arc<dyn Fft<f64>>,
-    inverse: Arc<dyn Fft<f64>>,
+    transform: ComplexTransform,
     values: Vec<Complex<f64>>,
-    scratch: Vec<Complex<f64>>,
     /// Wave number of the first mode (1/length).
     wave: f64,
 }
 
-impl std::fmt::Debug for Filter {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Filter").field("nodes", &self.values.len()).finish_non_exhaustive()
-    }
-}
-
 impl Filter {
     fn new(nodes: usize) -> Self {
-        let mut planner = FftPlanner::new();
-        let (forward, inverse) = (planner.plan_fft_forward(nodes), planner.plan_fft_inverse(nodes));
-        let scratch = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
-        let (values, scratch) = (vec![Complex::default(); nodes], vec![Complex::default(); scratch]);
-        Self { forward, inverse, values, scratch, wave: 0.0 }
+        Self { transform: ComplexTransform::new(nodes), values: vec![Complex::default(); nodes], wave: 0.0 }
     }
 
     /// Multiplies each mode of `self.values` by a function of its number.
     fn apply(&mut self, factor: impl Fn(usize) -> f64) {
         let nodes = self.values.len();
-        self.forward.process_with_scratch(&mut self.values, &mut self.scratch);
+        // The lengths are this plan's own, so that the calls cannot fail.
+        let _ = self.transform.forward(&mut self.values);
         for (m, value) in self.values.iter_mut().enumerate() {
             *value *= factor(m.min(nodes - m)) / nodes as f64;
         }
-        self.inverse.process_with_scratch(&mut self.values, &mut self.scratch);
+        let _ = self.transform.inverse(&mut self.values);
     }
 }
 

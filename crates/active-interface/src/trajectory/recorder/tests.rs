@@ -118,23 +118,25 @@ fn without_walls() {
     // From its first height.
     assert!(recorder.trajectory().unwrap().heights().iter().all(|y| y.abs() < 1e-12));
     assert_eq!(recorder.regime(&RegimeCriteria::default()).unwrap().regime, Regime::AtRest);
-    assert!(TrajectoryRecorder::of_body(0).regime(&RegimeCriteria::default()).is_err());
+    assert!(TrajectoryRecorder::new(droplet).regime(&RegimeCriteria::default()).is_err());
 }
 
 #[test]
 fn what_cannot_be_recorded_ends_the_run() {
-    let (mut first, _) = scene(0.0, 0.0, false);
-    let mut stranger = TrajectoryRecorder::of_body(3);
+    let (mut first, droplet) = scene(0.0, 0.0, false);
+    let (_, other) = scene(0.0, 0.0, false);
+    let mut stranger = TrajectoryRecorder::new(other);
     let error = first.run(1.0).observe(Every::Time(0.5), &mut stranger).go().unwrap_err();
-    assert!(matches!(error, SceneError::Observer { .. }) && error.explanation().contains("body 3"), "{error}");
+    assert!(matches!(error, SceneError::Observer { .. }) && error.explanation().contains("another scene"), "{error}");
 
-    let mut recorder = TrajectoryRecorder::of_body(0);
+    let mut recorder = TrajectoryRecorder::new(droplet);
+    let start = first.checkpoint("");
     first.run(1.0).observe(Every::Time(0.5), &mut recorder).go().unwrap();
-    let (mut second, _) = scene(0.0, 0.0, false);
-    let error = second.run(1.0).observe(Every::Time(0.5), &mut recorder).go().unwrap_err();
+    first.resume(&start).unwrap();
+    let error = first.run(1.0).observe(Every::Time(0.5), &mut recorder).go().unwrap_err();
     assert!(error.explanation().contains("the times of the records"), "{error}");
 
-    let mut greedy = TrajectoryRecorder::of_body(0).with_gap_flow();
-    let error = second.run(1.0).observe(Every::Time(0.5), &mut greedy).go().unwrap_err();
+    let mut greedy = TrajectoryRecorder::new(droplet).with_gap_flow();
+    let error = first.run(1.0).observe(Every::Time(0.5), &mut greedy).go().unwrap_err();
     assert!(error.explanation().contains("walls"), "{error}");
 }

@@ -1,0 +1,51 @@
+//! Solvers of a periodic box, in units of one forward and one inverse real transform of the same size in the same run.
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion};
+use motile::stokes_grid::{Grid, PeriodicStokes, ProjectionStokes, RealFft2};
+use motile_timing::{PlainPair, print_ratios};
+use num_complex::Complex64;
+
+use crate::solve;
+
+const SIZES: [usize; 7] = [120, 128, 240, 256, 480, 512, 1024];
+
+/// This crate's forward and inverse transform, with the spectrum as a whole in between.
+fn own_pair(n: usize) -> impl FnMut() {
+    let mut transform = RealFft2::new(n, n).expect("a size");
+    let mut space: Vec<f64> = (0..n * n).map(|i| ((i * i) as f64).sin()).collect();
+    let mut spectrum = vec![Complex64::ZERO; transform.spectrum_width() * n];
+    let scale = 1.0 / (n * n) as f64;
+    move || {
+        space.iter_mut().for_each(|x| *x *= scale);
+        transform.forward(&space, &mut spectrum).expect("right lengths");
+        transform.inverse(black_box(&spectrum), &mut space).expect("right lengths");
+        black_box(&space);
+    }
+}
+
+pub(crate) fn benches(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("periodic");
+    for n in SIZES {
+        let size = format!("{n}x{n}");
+        let grid = Grid::periodic(n, n, 0.05).expect("a box");
+        let mut plain = PlainPair::new(n, n);
+        let mut own = own_pair(n);
+        let mut streamfunction = solve(PeriodicStokes::new(grid, 100.0).expect("a solver"));
+        let mut projection = solve(ProjectionStokes::new(grid, 100.0).expect("a solver"));
+        group.bench_function(BenchmarkId::new("plain pair", &size), |b| b.iter(|| plain.run()));
+        group.bench_function(BenchmarkId::new("own pair", &size), |b| b.iter(&mut own));
+        group.bench_function(BenchmarkId::new("streamfunction", &size), |b| b.iter(&mut streamfunction));
+        print_ratios(
+            &size,
+            &mut [
+                ("plain pair", &mut || plain.run()),
+                ("own pair", &mut own),
+                ("streamfunction", &mut streamfunction),
+                ("projection", &mut projection),
+            ],
+        );
+    }
+    group.finish();
+}

@@ -1,0 +1,23 @@
+//! Discrete Fourier, sine and cosine transforms of double precision numbers.
+//!
+//! Every transform is a plan for one length: it is made once, owns its scratch, and allocates nothing per call. Nothing
+//! here is generic, so that the algorithms behind the plans (rustfft, realfft) are compiled in this crate
+//! alone and not again in each crate that transforms.
+//!
+//! | plan | transform |
+//! |---|---|
+//! | [`ComplexTransform`] | complex numbers, in place |
+//! | [`RealTransform`] | real numbers to half of their spectrum and back |
+//! | [`SineCosine`] | sines and cosines across an interval, for values on its nodes or in its cells |
+//!
+//! Every length is correct, odd and prime ones included; lengths with no prime factors but 2, 3, 5, 7 and 11 are fast.
+
+mod complex;
+mod error;
+mod real;
+mod sine_cosine;
+
+pub use complex::ComplexTransform;
+pub use error::FourierError;
+pub use real::RealTransform;
+pub use sine_cosine::SineCosine;

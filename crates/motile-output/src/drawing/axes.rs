@@ -1,0 +1,148 @@
+//! A rectangle with axes: from data to pixels, ticks and labels.
+
+use crate::{
+    Rgb,
+    drawing::font::text_width,
+    drawing::surface::{Anchor, Pen, Pixel, Rect, Surface, TextStyle},
+    drawing::ticks::Ticks,
+};
+
+/// Whether an axis is linear or logarithmic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum AxisScale {
+    /// Equal distances for equal differences.
+    #[default]
+    Linear,
+    /// Equal distances for equal ratios; values that are not positive are not drawn.
+    Logarithmic,
+}
+
+impl AxisScale {
+    /// The value where this scale is linear.
+    pub(crate) fn straight(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Logarithmic => value.log10(),
+        }
+    }
+}
+
+/// One axis: what it measures and from where to where.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Axis {
+    pub(crate) label: String,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    pub(crate) scale: AxisScale,
+    pub(crate) ticks: Ticks,
+}
+
+impl Axis {
+    pub(crate) fn new(label: &str, [low, high]: [f64; 2], scale: AxisScale, ticks: usize) -> Self {
+        let ticks = match scale {
+            AxisScale::Linear => Ticks::linear(low, high, ticks),
+            AxisScale::Logarithmic => Ticks::logarithmic(low, high),
+        };
+        Self { label: label.to_string(), low, high, scale, ticks }
+    }
+
+    /// Position along the axis, 0 to 1 within its ends.
+    pub(crate) fn fraction(&self, value: f64) -> f64 {
+        let [low, high, value] = [self.low, self.high, value].map(|v| self.scale.straight(v));
+        (value - low) / (high - low)
+    }
+
+    /// Width of the widest tick label (pixels).
+    pub(crate) fn label_width(&self, size: f64) -> f64 {
+        let labels = self.ticks.ticks.iter().filter_map(|t| t.label.as_deref());
+        labels.map(|l| text_width(l, size)).fold(0.0, f64::max)
+    }
+
+    /// The power of ten that multiplies the tick labels, as text; empty for 1.
+    pub(crate) fn factor(&self) -> String {
+        match self.ticks.exponent {
+            0 => String::new(),
+            n => format!("×10^{{{n}}}").replace('-', "−"),
+        }
+    }
+}
+
+/// A rectangle on a surface with its two axes. The unit of all its distances is the size of the type, `em` (pixels).
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Frame {
+    pub(crate) area: Rect,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) em: f64,
+}
+
+/// Size of tick labels relative to that of axis labels.
+pub(crate) const TICK_SIZE: f64 = 0.88;
+
+impl Frame {
+    /// Where a point of the data lies.
+    pub(crate) fn place(&self, x: f64, y: f64) -> Pixel {
+        [
+            self.area.left + self.x.fraction(x) * self.area.width,
+            self.area.bottom() - self.y.fraction(y) * self.area.height,
+        ]
+    }
+
+    /// Space that the axis needs to the left of the rectangle (pixels).
+    pub(crate) fn left_margin(y: &Axis, em: f64) -> f64 {
+        let label = if y.label.is_empty() { 0.3 } else { 1.8 };
+        y.label_width(TICK_SIZE * em) + (1.0 + label) * em
+    }
+
+    /// Space that the axis needs below the rectangle (pixels).
+    pub(crate) fn bottom_margin(x: &Axis, em: f64) -> f64 {
+        if x.label.is_empty() { 2.0 * em } else { 3.7 * em }
+    }
+
+    /// Draws pale lines at the labelled ticks.
+    pub(crate) fn draw_grid(&self, surface: &mut impl Surface) {
+        let pen = Pen::new(Rgb::PALE, (0.055 * self.em).max(0.8));
+        for tick in self.x.ticks.ticks.iter().filter(|t| t.label.is_some()) {
+            let x = self.place(tick.value, self.y.low)[0];
+            surface.stroke(&[[x, self.area.top], [x, self.area.bottom()]], &pen);
+        }
+        for tick in self.y.ticks.ticks.iter().filter(|t| t.label.is_some()) {
+            let y = self.place(self.x.low, tick.value)[1];
+            surface.stroke(&[[self.area.left, y], [self.area.right(), y]], &pen);
+        }
+    }
+
+    /// Draws the border, ticks outside of it and all labels.
+    pub(crate) fn draw_axes(&self, surface: &mut impl Surface) {
+        let (em, area) = (self.em, self.area);
+        let pen = Pen::new(Rgb::INK, (0.07 * em).max(1.0));
+        surface.stroke(&area.outline(), &pen);
+        let small = TextStyle::new(TICK_SIZE * em, Anchor::Middle);
+        for tick in &self.x.ticks.ticks {
+            let [x, y] = [self.place(tick.value, self.y.low)[0], area.bottom()];
+            let length = if tick.label.is_some() { 0.4 } else { 0.22 } * em;
+            surface.stroke(&[[x, y], [x, y + length]], &pen);
+            if let Some(label) = &tick.label {
+                surface.text([x, y + 1.15 * em], label, &small);
+            }
+        }
+        let right = TextStyle { anchor: Anchor::End, ..small };
+        for tick in &self.y.ticks.ticks {
+            let [x, y] = [area.left, self.place(self.x.low, tick.value)[1]];
+            let length = if tick.label.is_some() { 0.4 } else { 0.22 } * em;
+            surface.stroke(&[[x, y], [x - length, y]], &pen);
+            if let Some(label) = &tick.label {
+                surface.text([x - 0.7 * em, y], label, &right);
+            }
+        }
+        surface.text([area.right(), area.bottom() + 2.5 * em], &self.x.factor(), &right);
+        surface.text([area.left, area.top - 0.8 * em], &self.y.factor(), &TextStyle { anchor: Anchor::Start, ..small });
+        let style = TextStyle::new(em, Anchor::Middle);
+        surface.text([area.left + 0.5 * area.width, area.bottom() + 2.65 * em], &self.x.label, &style);
+        let beside = self.y.label_width(TICK_SIZE * em) + 1.75 * em;
+        surface.text([area.left - beside, area.top + 0.5 * area.height], &self.y.label, &style.upwards());
+    }
+}
+
+#[cfg(test)]
+mod tests;

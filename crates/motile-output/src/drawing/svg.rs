@@ -1,0 +1,137 @@
+//! Vector drawings as SVG files.
+//!
+//! Written by hand: lines, areas and text are three elements, and their coordinates keep fractions of a pixel, which
+//! drawing libraries with integer coordinates round away.
+
+use std::{fmt::Write as _, fs, path::Path};
+
+use anyhow::{Context, Result};
+
+use crate::{
+    Rgb,
+    drawing::font,
+    drawing::surface::{Pen, Pixel, Rect, Surface, TextStyle},
+};
+
+/// A drawing that is written as SVG. Its text is drawn, so that it looks the same everywhere; what it says is in the
+/// `aria-label` attributes, for search and screen readers.
+#[derive(Debug, Clone)]
+pub struct Svg {
+    size: [f64; 2],
+    body: String,
+    clips: usize,
+    clipped: bool,
+}
+
+impl Svg {
+    /// A white drawing of the given width and height (pixels).
+    #[must_use]
+    pub fn new(width: f64, height: f64) -> Self {
+        Self { size: [width, height], body: String::new(), clips: 0, clipped: false }
+    }
+
+    /// The drawing as the text of an SVG file.
+    #[must_use]
+    pub fn document(&self) -> String {
+        let [width, height] = self.size.map(short);
+        let close = if self.clipped { "</g>\n" } else { "" };
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\">\n\
+             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}{close}</svg>\n",
+            self.body
+        )
+    }
+
+    /// Writes the file.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn write(&self, path: &Path) -> Result<()> {
+        fs::write(path, self.document()).with_context(|| format!("writing {}", path.display()))
+    }
+
+    fn push(&mut self, element: &str) {
+        self.body.push_str(element);
+        self.body.push('\n');
+    }
+}
+
+/// A coordinate with at most two decimals.
+fn short(value: f64) -> String {
+    let text = format!("{value:.2}");
+    text.trim_end_matches('0').trim_end_matches('.').to_string()
+}
+
+/// Corners as the data of a path element, `None` with one that is not finite.
+fn path_data(path: &[Pixel]) -> Option<String> {
+    let finite = !path.is_empty() && path.iter().flatten().all(|v| v.is_finite());
+    let corners = || path.iter().map(|p| format!("{} {}", short(p[0]), short(p[1]))).collect::<Vec<_>>().join("L");
+    finite.then(|| format!("M{}", corners()))
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+impl Surface for Svg {
+    fn stroke(&mut self, path: &[Pixel], pen: &Pen) {
+        let Some(data) = path_data(path) else { return };
+        let mut element = format!(
+            "<path d=\"{data}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
+            pen.colour.hex(),
+            short(pen.width)
+        );
+        // Writing to a string cannot fail.
+        let _ = match pen.dash {
+            Some([dash, gap]) => write!(element, " stroke-dasharray=\"{} {}\"", short(dash), short(gap)),
+            None => write!(element, " stroke-linecap=\"round\""),
+        };
+        if pen.opacity < 1.0 {
+            let _ = write!(element, " stroke-opacity=\"{}\"", short(pen.opacity));
+        }
+        self.push(&format!("{element}/>"));
+    }
+
+    fn fill(&mut self, rings: &[Vec<Pixel>], colour: Rgb, opacity: f64) {
+        let Some(data) = rings.iter().map(|r| path_data(r)).collect::<Option<Vec<_>>>() else { return };
+        let opacity = if opacity < 1.0 { format!(" fill-opacity=\"{}\"", short(opacity)) } else { String::new() };
+        let data = data.join("Z");
+        self.push(&format!("<path d=\"{data}Z\" fill-rule=\"evenodd\" fill=\"{}\"{opacity}/>", colour.hex()));
+    }
+
+    fn text(&mut self, at: Pixel, text: &str, style: &TextStyle) {
+        let (strokes, weight) = font::place(text, at, style);
+        let Some(data) = strokes.iter().map(|s| path_data(s)).collect::<Option<Vec<_>>>() else { return };
+        if data.is_empty() {
+            return;
+        }
+        self.push(&format!(
+            "<path aria-label=\"{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" \
+             stroke-linejoin=\"round\" stroke-linecap=\"round\"/>",
+            escape(text),
+            data.concat(),
+            style.colour.hex(),
+            short(weight)
+        ));
+    }
+
+    fn clip(&mut self, to: Option<Rect>) {
+        if self.clipped {
+            self.push("</g>");
+        }
+        self.clipped = to.is_some();
+        if let Some(rect) = to {
+            self.clips += 1;
+            let id = self.clips;
+            let [l, t, w, h] = [rect.left, rect.top, rect.width, rect.height].map(short);
+            self.push(&format!(
+                "<clipPath id=\"c{id}\"><rect x=\"{l}\" y=\"{t}\" width=\"{w}\" height=\"{h}\"/></clipPath>\n\
+                 <g clip-path=\"url(#c{id})\">"
+            ));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

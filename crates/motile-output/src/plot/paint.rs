@@ -1,0 +1,262 @@
+//! Plots of series of points: how they are drawn.
+
+use anyhow::{Result, ensure};
+
+use crate::{
+    AxisScale, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series,
+    drawing::axes::{Axis, Frame},
+    drawing::font::text_width,
+    drawing::surface::{Anchor, Pen, Pixel, Rect, Surface, TextStyle},
+};
+
+/// Size of the type (pixels of the SVG).
+const EM: f64 = 13.0;
+/// Space around data on an axis, relative to its length.
+const MARGIN: f64 = 0.05;
+/// Least length of a linear axis relative to its values, so that round-off does not fill a plot.
+const LEAST_SPAN: f64 = 1e-3;
+
+/// The panels of a figure, laid out.
+pub(crate) struct Sheet<'a> {
+    panels: Vec<Panel<'a>>,
+    size: [f64; 2],
+}
+
+struct Panel<'a> {
+    plot: &'a Plot,
+    frame: Frame,
+}
+
+impl<'a> Sheet<'a> {
+    /// Lays out a figure, with `scale` pixels a pixel of the SVG.
+    pub(crate) fn new(figure: &'a Figure, scale: f64) -> Result<Self> {
+        let [width, height] = figure.panel_size;
+        ensure!(!figure.panels.is_empty(), "a figure without plots cannot be drawn");
+        ensure!(
+            (200.0..=4000.0).contains(&width) && (150.0..=4000.0).contains(&height),
+            "a panel of {width} x {height} pixels cannot be drawn: 200 x 150 to 4000 x 4000"
+        );
+        let (width, height, em) = (width * scale, height * scale, EM * scale);
+        let columns = figure.columns.min(figure.panels.len());
+        let rows = figure.panels.len().div_ceil(columns);
+        let panel = |(k, plot): (usize, &'a Plot)| {
+            let (column, row) = ((k % columns) as f64, (k / columns) as f64);
+            let outer = Rect { left: column * width, top: row * height, width, height };
+            Panel { plot, frame: frame(plot, outer, em) }
+        };
+        let panels = figure.panels.iter().enumerate().map(panel).collect();
+        Ok(Self { panels, size: [columns as f64 * width, rows as f64 * height] })
+    }
+
+    pub(crate) fn size(&self) -> [f64; 2] {
+        self.size
+    }
+
+    pub(crate) fn paint(&self, surface: &mut impl Surface) {
+        for panel in &self.panels {
+            panel.paint(surface);
+        }
+    }
+}
+
+/// The axes of a plot within its panel.
+fn frame(plot: &Plot, outer: Rect, em: f64) -> Frame {
+    let axis = |k: usize, length: f64| {
+        let range = plot.ranges[k].filter(|r| usable(*r, plot.scales[k])).unwrap_or_else(|| data_range(plot, k));
+        Axis::new(&plot.labels[k], range, plot.scales[k], ((length / (4.0 * em)) as usize).clamp(3, 9))
+    };
+    let y = axis(1, outer.height);
+    let left = Frame::left_margin(&y, em) + 0.4 * em;
+    let top = if plot.title.is_empty() { 1.4 } else { 2.9 } * em;
+    let x = axis(0, outer.width - left);
+    let area = Rect {
+        left: (outer.left + left).round(),
+        top: (outer.top + top).round(),
+        width: (outer.width - left - 1.6 * em).round(),
+        height: (outer.height - top - Frame::bottom_margin(&x, em)).round(),
+    };
+    Frame { area, x, y, em }
+}
+
+fn usable([low, high]: [f64; 2], scale: AxisScale) -> bool {
+    low.is_finite() && high.is_finite() && low < high && (scale == AxisScale::Linear || low > 0.0)
+}
+
+/// The range of the data along an axis, with some space around it.
+fn data_range(plot: &Plot, axis: usize) -> [f64; 2] {
+    let scale = plot.scales[axis];
+    let points = plot.series.iter().flat_map(|s| &s.points).map(|p| if axis == 0 { p.0 } else { p.1 });
+    let lines = plot.references.iter().filter(|r| r.vertical == (axis == 0)).map(|r| r.value);
+    let values = points.chain(lines).map(|v| scale.straight(v)).filter(|v| v.is_finite());
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
+    let least = match scale {
+        AxisScale::Linear if low == 0.0 && high == 0.0 => 1.0,
+        AxisScale::Linear => LEAST_SPAN * low.abs().max(high.abs()),
+        AxisScale::Logarithmic => 0.3,
+    };
+    let (middle, span) = (0.5 * (low + high), (high - low).max(least));
+    let half = (0.5 + MARGIN) * span;
+    let ends = [middle - half, middle + half];
+    match scale {
+        AxisScale::Linear => ends,
+        AxisScale::Logarithmic => ends.map(|v| 10f64.powf(v)),
+    }
+}
+
+impl Panel<'_> {
+    fn paint(&self, surface: &mut impl Surface) {
+        let (frame, em) = (&self.frame, self.frame.em);
+        frame.draw_grid(surface);
+        surface.clip(Some(frame.area));
+        self.references(surface);
+        for (series, colour) in self.coloured() {
+            self.series(surface, series, colour);
+        }
+        self.legend(surface);
+        surface.clip(None);
+        frame.draw_axes(surface);
+        let shift = if frame.y.ticks.exponent == 0 { 0.0 } else { 3.4 * em };
+        let at = [frame.area.left + shift, frame.area.top - 1.15 * em];
+        surface.text(at, &self.plot.title, &TextStyle::new(1.1 * em, Anchor::Start).bold());
+    }
+
+    /// The series with their colours.
+    fn coloured(&self) -> Vec<(&Series, Rgb)> {
+        let mut next = SERIES_COLOURS.iter().cycle();
+        let colour = |s: &Series| s.colour.or_else(|| next.next().copied()).unwrap_or(Rgb::INK);
+        self.plot.series.iter().zip(self.plot.series.iter().map(colour)).collect()
+    }
+
+    fn pixels(&self, series: &Series) -> Vec<Pixel> {
+        series.points.iter().map(|p| self.frame.place(p.0, p.1)).collect()
+    }
+
+    fn references(&self, surface: &mut impl Surface) {
+        let (area, em) = (self.frame.area, self.frame.em);
+        let pen = Pen::new(Rgb::GREY, 0.09 * em).dashed(0.45 * em, 0.3 * em);
+        let style = TextStyle::new(0.85 * em, Anchor::End).colour(Rgb::GREY);
+        for reference in &self.plot.references {
+            let [x, y] = self.frame.place(reference.value, reference.value);
+            if reference.vertical && x.is_finite() {
+                surface.stroke(&[[x, area.top], [x, area.bottom()]], &pen);
+                surface.text([x - 0.6 * em, area.top + 0.5 * em], &reference.label, &style.upwards());
+            } else if !reference.vertical && y.is_finite() {
+                surface.stroke(&[[area.left, y], [area.right(), y]], &pen);
+                let side = if y - area.top < 1.6 * em { 0.75 } else { -0.75 };
+                surface.text([area.right() - 0.5 * em, y + side * em], &reference.label, &style);
+            }
+        }
+    }
+
+    fn series(&self, surface: &mut impl Surface, series: &Series, colour: Rgb) {
+        let em = self.frame.em;
+        let pixels = self.pixels(series);
+        if series.line {
+            for piece in pixels.split(|p| !(p[0].is_finite() && p[1].is_finite())).filter(|p| p.len() > 1) {
+                surface.stroke(&thinned(piece, 0.04 * em), &line_pen(series, colour, em));
+            }
+        }
+        if let Some(marker) = series.marker {
+            for at in pixels.into_iter().filter(|p| p[0].is_finite() && p[1].is_finite()) {
+                draw_marker(surface, marker, at, 0.3 * em, colour);
+            }
+        }
+    }
+
+    /// Draws the legend in the corner where it hides the fewest points.
+    fn legend(&self, surface: &mut impl Surface) {
+        let em = self.frame.em;
+        let size = 0.9 * em;
+        let entries: Vec<(&Series, Rgb)> = self.coloured().into_iter().filter(|(s, _)| !s.label.is_empty()).collect();
+        if entries.is_empty() {
+            return;
+        }
+        let widest = entries.iter().map(|(s, _)| text_width(&s.label, size)).fold(0.0, f64::max);
+        let (width, height) = (widest + 3.6 * em, (1.4 * entries.len() as f64 + 0.5) * em);
+        let area = self.frame.area;
+        let gap = 0.6 * em;
+        let corners = [area.right() - gap - width, area.left + gap].into_iter().flat_map(|left| {
+            [area.top + gap, area.bottom() - gap - height].map(|top| Rect { left, top, width, height })
+        });
+        let hidden = |panel: &Rect| {
+            let inside =
+                |p: &Pixel| (panel.left..panel.right()).contains(&p[0]) && (panel.top..panel.bottom()).contains(&p[1]);
+            let lines = self.plot.references.iter().filter(|r| !r.vertical && !r.label.is_empty());
+            let label = |value: f64| [area.right() - gap, self.frame.place(self.frame.x.low, value)[1]];
+            // The line between points hides as much as points do.
+            let dense = |s: &Series| -> usize {
+                let pixels = self.pixels(s);
+                let between = |w: &[Pixel]| {
+                    (0..8)
+                        .map(|k| f64::from(k) / 8.0)
+                        .filter(|t| inside(&[w[0][0] + t * (w[1][0] - w[0][0]), w[0][1] + t * (w[1][1] - w[0][1])]))
+                        .count()
+                };
+                pixels.windows(2).map(between).sum::<usize>() + pixels.iter().filter(|p| inside(p)).count()
+            };
+            let points: usize = self.plot.series.iter().map(|s| 1000 * dense(s) / (s.points.len().max(1) * 9)).sum();
+            points + lines.filter(|r| inside(&label(r.value))).count() * 50
+        };
+        let Some(panel) = corners.min_by_key(hidden) else { return };
+        surface.fill(&[panel.outline().to_vec()], Rgb::WHITE, 0.85);
+        for (k, (series, colour)) in entries.into_iter().enumerate() {
+            let y = panel.top + (1.4 * k as f64 + 0.95) * em;
+            let (from, to) = (panel.left + 0.5 * em, panel.left + 2.5 * em);
+            if series.line {
+                surface.stroke(&[[from, y], [to, y]], &line_pen(series, colour, em));
+            }
+            if let Some(marker) = series.marker {
+                draw_marker(surface, marker, [0.5 * (from + to), y], 0.3 * em, colour);
+            }
+            surface.text([panel.left + 3.0 * em, y], &series.label, &TextStyle::new(size, Anchor::Start));
+        }
+    }
+}
+
+fn line_pen(series: &Series, colour: Rgb, em: f64) -> Pen {
+    let pen = Pen::new(colour, 0.14 * em);
+    if series.dashed { pen.dashed(0.55 * em, 0.35 * em) } else { pen }
+}
+
+/// A path without the points that lie less than `apart` (pixels) from the last one kept; the ends stay.
+fn thinned(path: &[Pixel], apart: f64) -> Vec<Pixel> {
+    let mut kept: Vec<Pixel> = Vec::with_capacity(path.len());
+    for &p in path {
+        if kept.last().is_none_or(|q| (p[0] - q[0]).hypot(p[1] - q[1]) >= apart) {
+            kept.push(p);
+        }
+    }
+    if let Some(&end) = path.last()
+        && kept.last() != Some(&end)
+    {
+        kept.push(end);
+    }
+    kept
+}
+
+fn draw_marker(surface: &mut impl Surface, marker: Marker, [x, y]: Pixel, radius: f64, colour: Rgb) {
+    let polygon = |corners: usize, size: f64, turn: f64| -> Vec<Pixel> {
+        let angle = |k: usize| turn + std::f64::consts::TAU * k as f64 / corners as f64;
+        (0..=corners).map(|k| [x + size * angle(k).sin(), y - size * angle(k).cos()]).collect()
+    };
+    let pen = Pen::new(colour, 0.45 * radius);
+    match marker {
+        Marker::Disc => surface.fill(&[polygon(20, radius, 0.0)], colour, 1.0),
+        Marker::Circle => {
+            surface.fill(&[polygon(20, radius, 0.0)], Rgb::WHITE, 1.0);
+            surface.stroke(&polygon(20, radius, 0.0), &pen);
+        }
+        Marker::Square => surface.fill(&[polygon(4, 1.25 * radius, std::f64::consts::FRAC_PI_4)], colour, 1.0),
+        Marker::Triangle => surface.fill(&[polygon(3, 1.3 * radius, 0.0)], colour, 1.0),
+        Marker::Diamond => surface.fill(&[polygon(4, 1.3 * radius, 0.0)], colour, 1.0),
+        Marker::Cross => {
+            let r = 0.8 * radius;
+            surface.stroke(&[[x - r, y - r], [x + r, y + r]], &pen);
+            surface.stroke(&[[x - r, y + r], [x + r, y - r]], &pen);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

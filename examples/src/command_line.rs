@@ -1,0 +1,124 @@
+//! The frame of an example: reads the command line, runs, and ends with one sentence where something is wrong.
+
+use std::{error::Error as _, io::Write as _, process::ExitCode};
+
+use anyhow::Result;
+use clap::{
+    Parser,
+    error::{ContextKind, ContextValue, ErrorKind},
+};
+
+/// Exit code for a command line that cannot be understood, as is usual; other failures end with 1.
+const MISUSE: u8 = 2;
+
+/// The main function of an example: parses the command line into `Flags` and runs. What goes wrong, in the flags or in
+/// the run, ends as one sentence on the error output and an exit code other than zero.
+///
+/// ```no_run
+/// use motile_examples::{BoxFlags, DropletFlags, MethodFlags, OutputFlags};
+///
+/// /// A droplet swims in a periodic box.
+/// #[derive(clap::Parser)]
+/// struct Flags {
+///     #[command(flatten)]
+///     droplet: DropletFlags,
+///     #[command(flatten)]
+///     region: BoxFlags,
+///     #[command(flatten)]
+///     method: MethodFlags,
+///     #[command(flatten)]
+///     output: OutputFlags,
+/// }
+///
+/// fn swim(flags: &Flags) -> anyhow::Result<()> {
+///     flags.region.check(&flags.method)?;
+///     let cells = flags.method.cells(flags.region.side, "box")?;
+///     println!("{cells} x {cells} cells");
+///     Ok(())
+/// }
+///
+/// fn main() -> std::process::ExitCode {
+///     motile_examples::run(swim)
+/// }
+/// ```
+pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
+    let flags = match Flags::try_parse() {
+        Ok(flags) => flags,
+        Err(error) if !error.use_stderr() => {
+            // Help or version; where nobody listens there is nothing to do about it.
+            let _ = error.print();
+            return ExitCode::SUCCESS;
+        }
+        Err(error) => {
+            eprintln!("error: {}", sentence(&error, &Flags::command()));
+            return ExitCode::from(MISUSE);
+        }
+    };
+    match body(&flags) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {}", one_line(&chain(&error)));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Writes a line to the standard output; where nobody listens any more, as behind `head`, that is no reason to fail.
+pub fn say(line: impl std::fmt::Display) {
+    let _ = writeln!(std::io::stdout(), "{line}");
+}
+
+/// An error and its causes, without those that it tells already.
+fn chain(error: &anyhow::Error) -> String {
+    error.chain().map(ToString::to_string).fold(String::new(), |told, cause| match told.as_str() {
+        "" => cause,
+        _ if told.contains(&cause) => told,
+        _ => format!("{told}: {cause}"),
+    })
+}
+
+/// What is wrong with a command line, in one sentence.
+fn sentence(error: &clap::Error, command: &clap::Command) -> String {
+    let context = |kind: ContextKind| match error.get(kind) {
+        Some(ContextValue::String(text)) => text.clone(),
+        Some(ContextValue::Strings(texts)) => texts.join(", "),
+        _ => String::new(),
+    };
+    // Without the name of the value: `--box <SIDE>`.
+    let flag = context(ContextKind::InvalidArg).split(' ').next().unwrap_or_default().to_string();
+    let value = context(ContextKind::InvalidValue);
+    let valid = context(ContextKind::ValidValue);
+    let text = match error.kind() {
+        ErrorKind::UnknownArgument => {
+            let suggestion = context(ContextKind::SuggestedArg);
+            let hint = if suggestion.is_empty() { String::new() } else { format!("did you mean {suggestion}? ") };
+            format!("there is no flag {flag} ({hint}--help lists them)")
+        }
+        ErrorKind::InvalidValue if value.is_empty() => format!("{flag} needs a value"),
+        ErrorKind::InvalidValue if !valid.is_empty() => format!("{flag} {value} is not one of {valid}"),
+        ErrorKind::ValueValidation => {
+            let reason = error.source().map(ToString::to_string).unwrap_or_else(|| "not valid".into());
+            format!("{flag} {value}: {reason}")
+        }
+        ErrorKind::InvalidSubcommand | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            let given = context(ContextKind::InvalidSubcommand);
+            let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
+            format!("{given:?} is not one of {}", names.join(", "))
+        }
+        ErrorKind::ArgumentConflict => format!("{flag} is given more than once"),
+        _ => {
+            let whole = error.to_string();
+            // The usage follows after an empty line.
+            let told: Vec<&str> = whole.lines().take_while(|line| !line.trim().is_empty()).collect();
+            told.join(" ").trim_start_matches("error: ").to_string()
+        }
+    };
+    one_line(&text)
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,39 @@
+use super::*;
+
+#[test]
+fn time_steps() {
+    assert_eq!("auto".parse(), Ok(TimeStep::Auto));
+    assert_eq!("1e-3".parse(), Ok(TimeStep::Fixed(1e-3)));
+    for text in ["0", "-1", "nan", "inf", "automatic", ""] {
+        assert!(text.parse::<TimeStep>().is_err(), "{text}");
+    }
+    assert_eq!(TimeStep::Fixed(0.002).to_string(), "0.002");
+}
+
+#[test]
+fn pairs() {
+    assert_eq!(pair("-0.5,1e-2"), Ok([-0.5, 0.01]));
+    assert_eq!(pair("1, 2"), Ok([1.0, 2.0]));
+    for text in ["1", "1,", ",1", "1,2,3", "1;2", "nan,0", ""] {
+        assert!(pair(text).is_err(), "{text}");
+    }
+}
+
+#[test]
+fn signs_and_sizes() {
+    assert_eq!(activity("-2"), Ok(-2.0));
+    assert_eq!(activity("0"), Ok(0.0));
+    assert!(activity("0.5").is_err() && activity("-1e7").is_err());
+    assert!(positive("0").is_err() && positive("1e7").is_err() && positive("NaN").is_err() && positive("x").is_err());
+    assert!(not_negative("-1e-9").is_err() && not_negative("0").is_ok());
+}
+
+#[test]
+fn numbers_come_back() {
+    // Mantissas that need all digits, over all magnitudes of both signs.
+    for k in -3000..3000 {
+        let value = f64::from(k).signum() * (f64::from(k) * 4.6e-3).exp().min(1e6) * 0.999_999_7;
+        assert_eq!(finite(&value.to_string()), Ok(value));
+        assert_eq!(positive(&value.to_string()).is_ok(), value > 0.0);
+    }
+}

@@ -1,0 +1,148 @@
+//! What becomes of a droplet that meets a constriction.
+
+use std::fmt;
+
+use anyhow::{Context, Result};
+use motile::{
+    active_interface::{ActiveDroplet, curve::polygon_moments},
+    ib_core::{Hydrodynamics, Observer, System},
+};
+
+use crate::Summary;
+
+/// How far back from the furthest it has come a droplet counts as turned back (R0).
+const BACK: f64 = 1.0;
+/// A droplet is stuck that has stayed within this distance (R0) for this time, four times R0^2/D.
+const REST: (f64, f64) = (0.02, 40.0);
+
+/// What became of a droplet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// Its centroid is beyond the far end of the constriction.
+    Passed,
+    /// It has come back by its radius from where it was furthest.
+    TurnedBack,
+    /// It has stayed in its place.
+    Stuck,
+    /// None of this, yet.
+    Undecided,
+}
+
+impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Passed, Self::TurnedBack, Self::Stuck, Self::Undecided];
+
+    /// As it stands in `summary.json`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Passed => "passed",
+            Self::TurnedBack => "turned_back",
+            Self::Stuck => "stuck",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+impl fmt::Display for Verdict {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// Ends a run: what it was to find out is known.
+#[derive(Debug, Clone, Copy)]
+pub struct Decided;
+
+impl fmt::Display for Decided {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the run has shown what it was to show")
+    }
+}
+
+impl std::error::Error for Decided {}
+
+/// Follows the first droplet of a scene to the far end of a constriction, or wherever else it goes. To be called after
+/// every step; ends the run by the error [`Decided`].
+#[derive(Debug, Clone)]
+pub struct Passage {
+    far_end: f64,
+    track: Vec<(f64, f64)>,
+    furthest: f64,
+    verdict: Verdict,
+}
+
+impl Passage {
+    /// For a constriction that ends at `far_end` (R0), on the right of a droplet that starts on its left.
+    #[must_use]
+    pub fn new(far_end: f64) -> Self {
+        Self { far_end, track: Vec::new(), furthest: f64::NEG_INFINITY, verdict: Verdict::Undecided }
+    }
+
+    /// The verdict.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        self.verdict
+    }
+
+    /// When it was found, or until when it was not.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.track.last().map_or(0.0, |(time, _)| *time)
+    }
+
+    /// The largest x of the centroid (R0).
+    #[must_use]
+    pub fn furthest(&self) -> f64 {
+        self.furthest
+    }
+
+    /// Takes the centroid at a time into account.
+    pub fn follow(&mut self, time: f64, x: f64) {
+        self.furthest = self.furthest.max(x);
+        self.track.push((time, x));
+        let (near, long) = REST;
+        let rested = time - self.track[0].0 >= long && {
+            let since = self.track.partition_point(|(t, _)| *t < time - long);
+            let late = self.track[since..].iter().map(|(_, x)| *x);
+            let (low, high) = late.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+            high - low < near
+        };
+        self.verdict = if x > self.far_end {
+            Verdict::Passed
+        } else if x < self.furthest - BACK {
+            Verdict::TurnedBack
+        } else if rested {
+            Verdict::Stuck
+        } else {
+            Verdict::Undecided
+        };
+    }
+
+    /// Puts verdict, time and furthest x into the results of a run.
+    pub fn put(&self, summary: &mut Summary) {
+        summary.put("verdict", self.verdict.name(), "what became of the droplet");
+        summary.put("verdict_time", self.time(), "when that was clear");
+        summary.put("furthest_x", self.furthest, "of the centroid (R0)");
+    }
+
+    fn look<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<()> {
+        let droplet = system.bodies::<ActiveDroplet>().next().context("a scene without a droplet")?.1;
+        let x = polygon_moments(droplet.markers())?.centroid.x;
+        // A second look at the same time, where a run starts.
+        if self.track.last().is_none_or(|(time, _)| *time < system.time()) {
+            self.follow(system.time(), x);
+        }
+        Ok(())
+    }
+}
+
+impl<H: Hydrodynamics> Observer<H> for Passage {
+    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        self.look(system)?;
+        if self.verdict == Verdict::Undecided { Ok(()) } else { Err(Decided.into()) }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,89 @@
+//! Where the time of a step goes between elastic walls.
+//!
+//! `cargo run --release -p studies -- elastic_step` times, for walls of 17,000 points on a grid of 240 x 100 cells (or
+//! `--spacing`), the elastic forces, the transfer between points and grid, and the Stokes solve, one after another on
+//! the state of a running scene, and prints the median of many.
+
+use std::time::Instant;
+
+use anyhow::Result;
+use clap::Args;
+use motile::elastic_solids::Moduli;
+use motile::ib_core::{AnyKernel, Body, Hydrodynamics, Transfer, Vec2};
+use motile::stokes_grid::{ChannelStokes, Grid, StaggeredField, StokesSolver};
+use motile::{ElasticChannel, Swimmer};
+use motile_examples::{positive, say};
+
+/// Times the parts of a step between elastic walls.
+#[derive(Debug, Args)]
+pub(crate) struct Flags {
+    /// Grid spacing h (R0)
+    #[arg(long, default_value_t = 0.05, value_parser = positive, allow_hyphen_values = true)]
+    spacing: f64,
+    /// Spacing of the points of the walls (R0); without it that of the grid
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    mesh_spacing: Option<f64>,
+    /// Repetitions
+    #[arg(long, default_value_t = 200)]
+    repetitions: usize,
+}
+
+pub(crate) fn run(flags: &Flags) -> Result<()> {
+    let swimmer = Swimmer { activity: -4.0, lengths: [12.0, 2.0], spacing: flags.spacing, ..Swimmer::default() };
+    let channel = ElasticChannel {
+        mesh_spacing: flags.mesh_spacing,
+        ..ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e5)?)
+    };
+    let (mut scene, _, walls) = channel.build()?;
+    (0..10).try_for_each(|_| scene.step(0.01))?;
+    let medium = scene.system().hydrodynamics().medium();
+    let markers = scene.system_mut().evaluate()?.clone();
+
+    let [lx, height] = [12.0, 2.0 + 2.0 * channel.thickness];
+    let cells = [lx, height].map(|length| (length / flags.spacing).round() as usize);
+    let grid = Grid::channel(cells[0], cells[1], flags.spacing)?;
+    let mut solver = ChannelStokes::new(grid, medium.viscosity)?;
+    let mut transfer = Transfer::new(grid, AnyKernel::BSpline4);
+    let (mut density, mut velocity) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
+    let mut velocities = vec![Vec2::zeros(); markers.len()];
+
+    let mut forces = vec![Vec2::zeros(); markers.len()];
+    let median = |name: &str, work: &mut dyn FnMut() -> Result<()>| -> Result<f64> {
+        let mut times = Vec::with_capacity(flags.repetitions);
+        for _ in 0..flags.repetitions {
+            let start = Instant::now();
+            work()?;
+            times.push(start.elapsed().as_secs_f64() * 1e3);
+        }
+        times.sort_by(f64::total_cmp);
+        let value = times[times.len() / 2];
+        say(format_args!("  {name:<24} {value:>8.3} ms"));
+        Ok(value)
+    };
+    say(format_args!("{} x {} cells, {} markers", cells[0], cells[1], markers.len()));
+    median("elastic forces", &mut || {
+        for wall in &walls {
+            let wall = scene.body_mut(*wall)?;
+            let count = wall.marker_count();
+            wall.write_forces(&medium, &mut forces[..count])?;
+        }
+        Ok(())
+    })?;
+    let locate = median("places", &mut || {
+        transfer.locate(&markers.positions);
+        Ok(())
+    })?;
+    let spread = median("spread", &mut || {
+        density.fill(0.0);
+        transfer.spread(&markers.forces, &mut density);
+        Ok(())
+    })?;
+    let solve = median("Stokes solve", &mut || Ok(solver.solve(&density, &mut velocity).map(|_| ())?))?;
+    let interpolate = median("interpolate", &mut || {
+        transfer.interpolate(&velocity, &mut velocities);
+        Ok(())
+    })?;
+    say(format_args!("  transfer over solve      {:>8.2}", (locate + spread + interpolate) / solve));
+    median("whole step of two", &mut || Ok(scene.step(1e-3)?))?;
+    Ok(())
+}

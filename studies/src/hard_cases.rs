@@ -1,0 +1,99 @@
+//! Scenes that are hard to compute, and what becomes of them.
+//!
+//! `cargo run --release -p studies -- hard_cases` runs the long version of the suite in `tests/hard_cases`, prints a
+//! table (case, method, outcome, steps, changes of area and particles, seconds), and writes to `out/hard_cases/` a
+//! picture of the last state of each run, `table.md` and `summary.json`. `--case N` runs one case, `--quick` the short
+//! version. `--help` lists the flags.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use crate::results::write_results;
+use anyhow::Result;
+use clap::Args;
+use motile_examples::{Summary, make_directory, say};
+use motile_output::write_scene_picture;
+use motile_tests::hard_cases::{Extent, Outcome, Trial, cases};
+
+/// Scenes that are hard to compute.
+#[derive(Debug, Args)]
+pub(crate) struct Flags {
+    /// Numbers of the cases to run; without it all
+    #[arg(long = "case", value_name = "NUMBER", value_delimiter = ',')]
+    cases: Vec<usize>,
+    /// Run the short version, as the tests do
+    #[arg(long)]
+    quick: bool,
+    /// Draw no pictures
+    #[arg(long)]
+    no_pictures: bool,
+    /// Directory of the results
+    #[arg(long, value_name = "DIRECTORY", default_value = "out/hard_cases")]
+    out: PathBuf,
+}
+
+/// Grid spacing of the fields in pictures.
+const SPACING: f64 = 0.05;
+/// Concentration that counts as one in pictures (particles per length).
+const CONCENTRATION: f64 = 100.0;
+
+pub(crate) fn run(flags: &Flags) -> Result<()> {
+    make_directory(&flags.out)?;
+    let extent = if flags.quick { Extent::Quick } else { Extent::Long };
+    let heading = "| case | what is hard | method | outcome | time | steps | taken back | area | particles | seconds |\n\
+                   |---|---|---|---|---|---|---|---|---|---|\n";
+    let mut table = heading.to_owned();
+    say(heading.trim_end());
+    let (mut results, mut wrong) = (Vec::new(), Vec::new());
+    let chosen = |trial: &&Trial| flags.cases.is_empty() || flags.cases.contains(&trial.number);
+    for (index, trial) in cases().iter().filter(chosen).enumerate() {
+        let name = format!("{:02}_{}_{index}.png", trial.number, trial.way.to_string().replace([' ', ','], "_"));
+        let mut drawn = Ok(());
+        let outcome = trial.run(extent, &mut |system| {
+            if !flags.no_pictures {
+                let title = format!("{}: {}, t = {:.2}", trial.number, trial.name, system.time());
+                drawn = write_scene_picture(system, SPACING, CONCENTRATION, &title, &flags.out.join(&name));
+            }
+        })?;
+        if let Err(error) = drawn {
+            say(format_args!("note: no picture of {trial:?}: {error:#}"));
+        }
+        let line = row(trial, &outcome);
+        say(&line);
+        writeln!(table, "{line}")?;
+        // The table so far, should somebody lose patience.
+        std::fs::write(flags.out.join("table.md"), &table)?;
+        results.push(summary(trial, &outcome, &name));
+        wrong.extend(trial.complaint(&outcome));
+    }
+    write_results(&flags.out.join("summary.json"), &results)?;
+    say(format_args!("results in {}", flags.out.display()));
+    anyhow::ensure!(wrong.is_empty(), "{} runs did not end as they should: {}", wrong.len(), wrong.join("; "));
+    Ok(())
+}
+
+fn row(trial: &Trial, outcome: &Outcome) -> String {
+    let Outcome { ending, time, steps, taken_back, drift, seconds, .. } = outcome;
+    format!(
+        "| {} | {} | {} | {ending:?} | {time:.4} | {steps} | {taken_back} | {:+.1e} | {:+.1e} | {seconds:.1} |",
+        trial.number, trial.name, trial.way, drift.area, drift.particles
+    )
+}
+
+fn summary(trial: &Trial, outcome: &Outcome, picture: &str) -> Summary {
+    let mut summary = Summary::new();
+    summary.put("case", trial.number, "");
+    summary.put("name", trial.name, "");
+    summary.put("method", trial.way.to_string(), "");
+    summary.put("outcome", format!("{:?}", outcome.ending), "");
+    summary.put("error", outcome.explanation.clone(), "");
+    summary.put("time", outcome.time, "");
+    summary.put("steps", outcome.steps, "");
+    summary.put("taken_back", outcome.taken_back, "");
+    summary.put("evaluations", outcome.evaluations, "");
+    summary.put("area_relative_change", outcome.drift.area, "");
+    summary.put("particle_relative_change", outcome.drift.particles, "");
+    summary.put("seconds", outcome.seconds, "");
+    summary.put("picture", picture, "");
+    summary
+}

@@ -1,0 +1,61 @@
+//! What prints the tables and figures of motile's documents.
+//!
+//! `cargo run --release -p studies -- NAME` runs one of them; `--help` lists the names, `NAME --help` its flags.
+
+mod channels;
+mod elastic_step;
+mod hard_cases;
+mod results;
+mod run_pool;
+mod scaling;
+mod step_cost;
+mod stiffness;
+mod threads;
+mod time_steps;
+mod validation;
+mod viscosity_contrast;
+mod work_precision;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Runs a study: what prints a table or a figure of motile's documents.
+#[derive(Debug, Parser)]
+#[command(name = "studies", disable_help_subcommand = true)]
+struct Flags {
+    #[command(subcommand)]
+    study: Study,
+}
+
+#[derive(Debug, Subcommand)]
+#[command(rename_all = "snake_case")]
+enum Study {
+    Validation(validation::Flags),
+    WorkPrecision(work_precision::Flags),
+    StepCost(step_cost::Flags),
+    Stiffness(stiffness::Flags),
+    ViscosityContrast(viscosity_contrast::Flags),
+    Channels(channels::Flags),
+    HardCases(hard_cases::Flags),
+    TimeSteps(time_steps::Flags),
+    Scaling(scaling::Flags),
+    Threads(threads::Flags),
+    ElasticStep(elastic_step::Flags),
+}
+
+fn main() -> ExitCode {
+    motile_examples::run(|flags: &Flags| match &flags.study {
+        Study::Validation(flags) => validation::run(flags),
+        Study::WorkPrecision(flags) => work_precision::run(flags),
+        Study::StepCost(flags) => step_cost::run(flags),
+        Study::Stiffness(flags) => stiffness::run(flags),
+        Study::ViscosityContrast(flags) => viscosity_contrast::run(flags),
+        Study::Channels(flags) => channels::run(flags),
+        Study::HardCases(flags) => hard_cases::run(flags),
+        Study::TimeSteps(flags) => time_steps::run(flags),
+        Study::Scaling(flags) => scaling::run(flags),
+        Study::Threads(flags) => threads::run(flags),
+        Study::ElasticStep(flags) => elastic_step::run(flags),
+    })
+}

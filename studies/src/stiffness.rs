@@ -1,0 +1,81 @@
+//! Droplets between elastic walls of many stiffnesses, as in chapter 4 of the thesis.
+//!
+//! `cargo run --release -p studies -- stiffness` makes the runs on a coarse grid, some ten minutes on two cores;
+//! `--full` makes all of the thesis' on a fine grid, which takes hours; `--only` makes part of them. Each finished run
+//! leaves a file in `out/stiffness/runs/` and is not made again; delete the directory to start afresh. Prints the
+//! speeds with the fits (4.3), the maps 4.17 and 4.19 and the comparison of materials, and writes `points.csv` and
+//! figures.
+
+mod figures;
+mod history;
+mod jobs;
+mod run;
+mod tables;
+
+use crate::results::write_results;
+use crate::run_pool::RunPool;
+use anyhow::Result;
+use clap::Args;
+use motile_examples::{OutputFlags, Summary, say};
+
+use crate::stiffness::run::{Job, Purpose};
+
+/// Droplets between elastic walls of many stiffnesses.
+#[derive(Debug, Args)]
+pub(crate) struct Flags {
+    /// Fine grid, all widths, activities and stiffnesses
+    #[arg(long)]
+    full: bool,
+    /// Only this part
+    #[arg(long, value_enum)]
+    only: Option<Purpose>,
+    /// Grid spacing h (R0); without it 0.1, or 0.05 with --full
+    #[arg(long, value_parser = spacing, allow_hyphen_values = true)]
+    spacing: Option<f64>,
+    /// The method of the thesis, for the constriction
+    #[arg(long)]
+    thesis: bool,
+    /// Only runs whose names contain this
+    #[arg(long)]
+    matching: Option<String>,
+    /// Runs at a time; without it as many as there are processors
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    output: OutputFlags,
+}
+
+/// A grid spacing that resolves a droplet and divides all lengths of the study.
+fn spacing(text: &str) -> Result<f64, String> {
+    let divides = |h: f64| ((1.0 / h) - (1.0 / h).round()).abs() < 1e-9;
+    text.parse()
+        .ok()
+        .filter(|&h| (0.02..=0.2).contains(&h) && divides(h))
+        .ok_or_else(|| "must be a number from 0.02 to 0.2 that divides 1, such as 0.1".to_string())
+}
+
+pub(crate) fn run(flags: &Flags) -> Result<()> {
+    let h = flags.spacing.unwrap_or(if flags.full { 0.05 } else { 0.1 });
+    let mut jobs = jobs::list(flags.only, flags.full, flags.thesis, h);
+    if let Some(text) = &flags.matching {
+        jobs.retain(|job| job.name().contains(text));
+    }
+    let directory = flags.output.directory("stiffness")?;
+    let threads = flags
+        .threads
+        .map_or_else(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get), usize::from);
+    let runs = directory.join("runs");
+    let pool = RunPool::new(&runs, threads, flags.output.quiet)?;
+    let (points, failures) = pool.study(jobs, Job::name, Job::run);
+    let rows: Vec<Summary> = points.iter().map(|(_, summary)| history::without(summary)).collect();
+    write_results(&directory.join("points.csv"), &rows)?;
+    tables::print(&points);
+    if !flags.output.no_pictures {
+        figures::write(&points, &directory)?;
+    }
+    say(format_args!("results of {} runs in {}", points.len(), directory.display()));
+    match failures.into_iter().next() {
+        Some(first) => Err(first.context("a run failed; the study can be started again")),
+        None => Ok(()),
+    }
+}

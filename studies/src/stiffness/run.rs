@@ -1,0 +1,274 @@
+//! A run by its parameters, and what is measured in it.
+
+use anyhow::{Result, bail};
+use clap::ValueEnum;
+use motile::active_interface::{
+    ActiveDroplet, Motion,
+    trajectory::{RegimeCriteria, TrajectoryRecorder},
+};
+use motile::elastic_solids::{Channel, Constriction, Moduli, Solid, StraightChannel, width_between};
+use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
+use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, WallSurface, stokes_grid::Drive};
+use motile_examples::{Decided, Passage, Steadiness, Summary};
+
+use crate::stiffness::history::History;
+
+/// Period of all channels, and side of the box that is called unconfined (R0).
+pub(crate) const LENGTH: f64 = 12.0;
+/// How deep the droplet may come into a wall, in grid spacings.
+const OVERLAP: f64 = 0.25;
+/// Part of the stability limit that steps take.
+const OF_LIMIT: f64 = 0.7;
+/// The same between walls so soft that they fold around the droplet, where 0.7 is not stable.
+const OF_LIMIT_NARROW: f64 = 0.2;
+
+/// What a run contributes to: a part of the study.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Purpose {
+    /// Speed, shape and walls against stiffness (thesis figures 4.4 to 4.16).
+    Speed,
+    /// The same between rigid walls, without a grid.
+    #[value(skip)]
+    Rigid,
+    /// The same in a large box, without a grid.
+    #[value(skip)]
+    Unconfined,
+    /// Droplets off the centre line (thesis figure 4.17).
+    Lateral,
+    /// The constriction (thesis figure 4.19).
+    Passage,
+    /// Springs and neo-Hookean walls, lattice and unstructured mesh (thesis figures 4.2, 4.3, 4.22, 4.23).
+    Comparison,
+    /// A channel half as wide as the droplet (thesis figure 4.25); the stiffness is Young's modulus.
+    Narrow,
+    /// Droplets more viscous than their surroundings.
+    Contrast,
+    /// How a droplet in contact with stiff walls starts by the method of the thesis.
+    Start,
+    /// Whether the least active droplet comes to rest.
+    Rest,
+}
+
+/// A run by its parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Job {
+    pub(crate) purpose: Purpose,
+    pub(crate) width: f64,
+    pub(crate) activity: f64,
+    pub(crate) excluded_volume: f64,
+    pub(crate) viscosity: f64,
+    /// Viscosity of the droplet over that of its surroundings.
+    pub(crate) ratio: f64,
+    /// The thesis' spring constant k.
+    pub(crate) stiffness: f64,
+    pub(crate) material: WallMaterial,
+    pub(crate) mesh: WallMesh,
+    /// What is done about the walls' surfaces.
+    pub(crate) surface: WallSurface,
+    pub(crate) thesis: bool,
+    /// Whether markers are kept equally spaced, also by the method of the thesis.
+    pub(crate) equidistant: bool,
+    /// How much further back than the shape says the walls stand (R0).
+    pub(crate) back: f64,
+    pub(crate) spacing: f64,
+    pub(crate) time: f64,
+}
+
+impl Job {
+    /// A run between walls of springs on a lattice.
+    pub(crate) fn new(purpose: Purpose, width: f64, activity: f64, stiffness: f64, spacing: f64, time: f64) -> Self {
+        Self {
+            purpose,
+            width,
+            activity,
+            excluded_volume: 10.0,
+            viscosity: 100.0,
+            ratio: 1.0,
+            stiffness,
+            material: WallMaterial::Springs,
+            mesh: WallMesh::Equilateral,
+            surface: if purpose == Purpose::Passage { WallSurface::SetBack } else { WallSurface::Corrected },
+            thesis: false,
+            equidistant: false,
+            back: 0.0,
+            spacing,
+            time,
+        }
+    }
+
+    pub(crate) fn name(&self) -> String {
+        let Self { purpose, width, activity, excluded_volume, viscosity, stiffness, spacing, time, .. } = self;
+        let kind = format!("{purpose:?}_{:?}_{:?}", self.material, self.mesh).to_lowercase();
+        let method = if self.thesis { "_thesis" } else { "" };
+        let equidistant = if self.equidistant { "_equidistant" } else { "" };
+        let back = if self.back == 0.0 { String::new() } else { format!("_back{}", self.back) };
+        let surface = if self.surface == WallSurface::SetBack { "_setback" } else { "" };
+        let ratio = if self.ratio == 1.0 { String::new() } else { format!("_ratio{}", self.ratio) };
+        format!(
+            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}{surface}{equidistant}{back}"
+        )
+    }
+
+    fn swimmer(&self) -> Swimmer {
+        let offset = match self.purpose {
+            Purpose::Passage => [-0.5 * LENGTH, 0.0],
+            Purpose::Lateral => [0.0, 0.3],
+            _ => [0.0, 0.0],
+        };
+        let base = if self.thesis { Swimmer::thesis() } else { Swimmer::default() };
+        Swimmer {
+            activity: self.activity,
+            excluded_volume: self.excluded_volume,
+            viscosity: self.viscosity,
+            viscosity_inside: (self.ratio != 1.0).then_some(self.ratio * self.viscosity),
+            lengths: [LENGTH, self.width],
+            spacing: self.spacing,
+            offset,
+            // The thesis' step of 1e-3 would only cost time.
+            step: StepSize::OfLimit(if self.purpose == Purpose::Narrow { OF_LIMIT_NARROW } else { OF_LIMIT }),
+            motion: if self.equidistant { Motion::default() } else { base.motion },
+            ..base
+        }
+    }
+
+    /// How much work it is, roughly.
+    pub(crate) fn size(&self) -> f64 {
+        let stiff = 1.0 + self.stiffness / 1e5 * 100.0 / self.viscosity;
+        match self.purpose {
+            Purpose::Rigid | Purpose::Unconfined => 0.0,
+            _ => self.time * stiff / (self.spacing * self.spacing),
+        }
+    }
+
+    pub(crate) fn run(&self) -> Result<Summary> {
+        let swimmer = Swimmer { method: Method::BoundaryIntegral, ..self.swimmer() };
+        let mut summary = match self.purpose {
+            Purpose::Rigid => {
+                let (scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient)?;
+                self.without_solids(scene, droplet)?
+            }
+            Purpose::Unconfined => {
+                let (scene, droplet) = Swimmer { lengths: [LENGTH; 2], ..swimmer }.build()?;
+                self.without_solids(scene, droplet)?
+            }
+            _ => self.with_solids()?,
+        };
+        let parameters = [
+            ("width", self.width),
+            ("activity", self.activity),
+            ("excluded_volume", self.excluded_volume),
+            ("viscosity", self.viscosity),
+            ("ratio", self.ratio),
+            ("stiffness", self.stiffness),
+            ("spacing", self.spacing),
+        ];
+        summary.put("purpose", format!("{:?}", self.purpose), "");
+        summary.put("material", format!("{:?}", self.material), "");
+        summary.put("mesh", format!("{:?}", self.mesh), "");
+        summary.put("thesis", self.thesis, "");
+        for (name, value) in parameters {
+            summary.put(name, value, "");
+        }
+        Ok(summary)
+    }
+
+    fn without_solids<H: Hydrodynamics>(&self, mut scene: Scene<H>, droplet: Handle<ActiveDroplet>) -> Result<Summary> {
+        let mut recorder = TrajectoryRecorder::new(droplet);
+        scene.run(self.time).observe(Every::Time(self.time / 300.0), &mut recorder).go()?;
+        measured(&recorder)
+    }
+
+    fn with_solids(&self) -> Result<Summary> {
+        let moduli = if self.purpose == Purpose::Narrow {
+            Moduli::from_young(self.stiffness, 1.0 / 3.0)?
+        } else {
+            Moduli::from_thesis_spring_constant(self.stiffness)?
+        };
+        let swimmer = self.swimmer();
+        let base =
+            if self.thesis { ElasticChannel::thesis(swimmer, moduli) } else { ElasticChannel::new(swimmer, moduli) };
+        let channel = ElasticChannel {
+            material: self.material,
+            mesh: if self.thesis { base.mesh } else { self.mesh },
+            surface: if self.thesis { base.surface } else { self.surface },
+            // Whether springs turn inside out is reported.
+            may_invert: true,
+            ..base
+        };
+        let (mut scene, droplet, walls) = channel.build_in(&self.shape()?)?;
+        let mut recorder = TrajectoryRecorder::new(droplet);
+        let mut gap = SolidGap::new(OVERLAP * self.spacing).with_set_back(channel.set_back());
+        let mut history = History::new(droplet, channel.set_back());
+        let mut passage = Passage::new(if self.purpose == Purpose::Passage { 3.0 } else { f64::INFINITY });
+        let mut run = scene
+            .run(self.time)
+            .observe(Every::Time(self.time / 300.0), &mut recorder)
+            .observe(Every::Time(self.time / 300.0), &mut history)
+            .observe(Every::Steps(1), &mut gap);
+        if self.purpose == Purpose::Passage {
+            run = run.observe(Every::Steps(1), &mut passage);
+        }
+        let outcome = run.go();
+        let failure = match &outcome {
+            Err(SceneError::Observer { source, .. }) if source.is::<Decided>() => None,
+            outcome => outcome.as_ref().err().map(ToString::to_string),
+        };
+        let mut summary = measured(&recorder)?;
+        history.put(&mut summary);
+        self.measure_walls(&scene, &walls, channel.set_back(), &mut summary)?;
+        summary.put("minimum_gap", gap.smallest().map(|(gap, _)| gap), "");
+        if self.purpose == Purpose::Passage {
+            passage.put(&mut summary);
+        }
+        summary.put("time", scene.time(), "");
+        summary.put("steps", scene.steps(), "");
+        summary.put("failure", failure, "");
+        Ok(summary)
+    }
+
+    fn shape(&self) -> Result<Channel> {
+        let shape = if self.purpose == Purpose::Passage {
+            Constriction { width: self.width, ..Constriction::thesis() }.channel()?
+        } else {
+            StraightChannel { period: LENGTH, width: self.width }.channel()?
+        };
+        Ok(if self.back > 0.0 { shape.widened(2.0 * self.back)? } else { shape })
+    }
+
+    fn measure_walls<H: Hydrodynamics>(
+        &self,
+        scene: &Scene<H>,
+        walls: &[Handle<Solid>],
+        set_back: f64,
+        summary: &mut Summary,
+    ) -> Result<()> {
+        let [lower, upper] = [scene.body(walls[0])?, scene.body(walls[1])?];
+        let width = width_between(lower, upper)?;
+        summary.put("channel_width_min", width.minimum - 2.0 * set_back, "");
+        summary.put("channel_width_max", width.maximum - 2.0 * set_back, "");
+        let largest = [lower, upper].map(Solid::largest_displacement);
+        summary.put("largest_displacement", largest[0].total.max(largest[1].total), "");
+        summary.put("largest_normal_displacement", largest[0].normal.max(largest[1].normal), "");
+        let jacobian = [lower, upper].map(|wall| wall.smallest_jacobian().0);
+        summary.put("smallest_jacobian", jacobian[0].min(jacobian[1]), "");
+        Ok(())
+    }
+}
+
+/// What is measured of the droplet.
+fn measured(recorder: &TrajectoryRecorder) -> Result<Summary> {
+    let Some(last) = recorder.records().last() else { bail!("nothing was measured") };
+    let seen = &last.observables;
+    let speeds: Vec<(f64, f64)> = recorder.records().iter().map(|r| (r.time, r.observables.speed())).collect();
+    let steadiness = Steadiness::of(&speeds, Swimmer::default().diffusion);
+    let report = recorder.regime(&RegimeCriteria::default())?;
+    let mut summary = Summary::new();
+    summary.put("speed", steadiness.final_speed, "");
+    summary.put("speed_deviation", steadiness.deviation, "");
+    summary.put("aspect_ratio", seen.aspect_ratio_moments, "");
+    summary.put("active_curvature", seen.get("active_curvature"), "");
+    summary.put("regime", report.regime.to_string(), "");
+    summary.put("amplitude", report.evidence.amplitude, "");
+    summary.put("growth_rate", report.evidence.growth_rate.map(|rate| rate.value), "");
+    Ok(summary)
+}

@@ -1,0 +1,304 @@
+//! What time steps cost: Runge-Kutta-Chebyshev against the midpoint rule between stiff walls, the largest stable steps
+//! against the predicted ones between walls and of swimmers, and adaptive against fixed steps for a swimmer that
+//! starts.
+//!
+//! `cargo run --release -p studies -- time_steps` prints four tables and writes them to `out/time_steps/tables.md`.
+//! `--study` chooses one of them; `--help` lists the flags.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+use motile::active_interface::{ActiveDroplet, curve::polygon_moments, observables::centroid_velocity};
+use motile::elastic_solids::Moduli;
+use motile::ib_core::{
+    Checkpoint, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2,
+};
+use motile::{AnyFlow, ElasticChannel, Method, Swimmer, WallSurface};
+use motile_examples::{make_directory, positive, say};
+
+/// Which table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Study {
+    /// Cost at equal error between stiff walls.
+    StiffWalls,
+    /// Largest stable steps between stiff walls.
+    Limits,
+    /// Largest stable steps of swimmers, with and without the stabiliser of the coupling of concentration and tension.
+    Coupling,
+    /// Adaptive and fixed steps of a swimmer that starts.
+    Transient,
+}
+
+/// What time steps cost.
+#[derive(Debug, Args)]
+pub(crate) struct Flags {
+    /// Which table; without it all
+    #[arg(long, value_enum)]
+    study: Option<Study>,
+    /// Time to which the stiff walls are simulated
+    #[arg(long, default_value_t = 10.0, value_parser = positive)]
+    time: f64,
+    /// Directory of the results
+    #[arg(long, value_name = "DIRECTORY", default_value = "out/time_steps")]
+    out: PathBuf,
+}
+
+pub(crate) fn run(flags: &Flags) -> Result<()> {
+    make_directory(&flags.out)?;
+    let mut report = String::new();
+    let wanted = |study| flags.study.is_none_or(|chosen| chosen == study);
+    if wanted(Study::Limits) {
+        limits(&mut report)?;
+    }
+    if wanted(Study::Coupling) {
+        coupling(&mut report)?;
+    }
+    if wanted(Study::Transient) {
+        transient(&mut report)?;
+    }
+    if wanted(Study::StiffWalls) {
+        stiff_walls(flags.time, &mut report)?;
+    }
+    std::fs::write(flags.out.join("tables.md"), report)?;
+    say(format_args!("results in {}", flags.out.display()));
+    Ok(())
+}
+
+fn tell(report: &mut String, line: impl std::fmt::Display) -> Result<()> {
+    say(&line);
+    Ok(writeln!(report, "{line}")?)
+}
+
+/// The activity of the droplet between stiff walls.
+const ACTIVITY: f64 = -2.0;
+
+type Channel<I> = Scene<AnyFlow, I>;
+
+/// The thesis' stiffest walls: k = 1e6, viscosity 10, width 2, with a droplet of this activity between them.
+fn channel<I: Integrator>(integrator: I, activity: f64) -> Result<(Channel<I>, Handle<ActiveDroplet>)> {
+    let swimmer = Swimmer { activity, viscosity: 10.0, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };
+    let moduli = Moduli::from_thesis_spring_constant(1e6)?;
+    // The grid does not resolve the edge of the active region here. Between corrected surfaces there are then two
+    // states, and which one a run finds says nothing about the error of its steps.
+    let surface = WallSurface::SetBack;
+    let (scene, droplet, _) = ElasticChannel { surface, ..ElasticChannel::new(swimmer, moduli) }.build()?;
+    Ok((scene.advanced_by(integrator), droplet))
+}
+
+/// What a run came to and what it cost.
+struct Cost {
+    markers: Vec<Vec2>,
+    steps: usize,
+    taken_back: usize,
+    evaluations: usize,
+    seconds: f64,
+}
+
+fn timed<H: Hydrodynamics, I: Integrator>(
+    (mut scene, droplet): (Scene<H, I>, Handle<ActiveDroplet>),
+    until: f64,
+    step: StepSize,
+) -> Result<Cost> {
+    let start = Instant::now();
+    scene.run(until).step_size(step).go()?;
+    let report = scene.step_report();
+    Ok(Cost {
+        markers: scene.body(droplet)?.markers().to_vec(),
+        steps: scene.steps(),
+        taken_back: report.rejections + report.failures,
+        evaluations: scene.system().hydrodynamics().work().evaluations,
+        seconds: start.elapsed().as_secs_f64(),
+    })
+}
+
+/// Errors of the centroid and of the shape (root mean square over the markers), lengths.
+fn errors(cost: &Cost, exact: &Cost) -> Result<[f64; 2]> {
+    let [own, other] = [&cost.markers, &exact.markers].map(|markers| polygon_moments(markers).map(|m| m.centroid));
+    let (own, other) = (own?, other?);
+    let squares = cost.markers.iter().zip(&exact.markers).map(|(a, b)| ((a - own) - (b - other)).norm_squared());
+    Ok([(own - other).norm(), (squares.sum::<f64>() / exact.markers.len() as f64).sqrt()])
+}
+
+fn line(name: &str, step: &str, cost: &Cost, exact: &Cost) -> Result<String> {
+    let [place, shape] = errors(cost, exact)?;
+    let Cost { steps, taken_back, evaluations, seconds, .. } = cost;
+    Ok(format!(
+        "| {name} | {step} | {steps} | {taken_back} | {evaluations} | {seconds:.1} | {place:.1e} | {shape:.1e} |"
+    ))
+}
+
+const HEADING: &str = "| method | step | steps | taken back | evaluations | seconds | error of position | error of shape |\n\
+                       |---|---|---|---|---|---|---|---|";
+
+fn stiff_walls(until: f64, report: &mut String) -> Result<()> {
+    tell(
+        report,
+        format_args!("\nWalls k = 1e6, viscosity 10, width 2, h = 0.1, activity -2, to t = {until}:\n\n{HEADING}"),
+    )?;
+    let midpoint = |step| timed(channel(Midpoint::default(), ACTIVITY)?, until, step);
+    let chebyshev = |step| timed(channel(RungeKuttaChebyshev::new(), ACTIVITY)?, until, step);
+    let exact = midpoint(StepSize::OfLimit(REFERENCE))?;
+    tell(report, line("midpoint (reference)", &format!("{REFERENCE} of the limit"), &exact, &exact)?)?;
+    for fraction in [0.9, 0.5, 0.25] {
+        let cost = midpoint(StepSize::OfLimit(fraction))?;
+        tell(report, line("midpoint", &format!("{fraction} of the limit"), &cost, &exact)?)?;
+    }
+    for fraction in [0.9, 0.5] {
+        let cost = chebyshev(StepSize::OfLimit(fraction))?;
+        tell(report, line("RKC", &format!("{fraction} of the limit"), &cost, &exact)?)?;
+    }
+    for tolerance in [1e-3, 1e-4, 1e-5] {
+        let cost = chebyshev(StepSize::Adaptive { tolerance })?;
+        tell(report, line("RKC", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?)?;
+    }
+    Ok(())
+}
+
+/// Steps of the reference between stiff walls, as part of the midpoint rule's limit.
+const REFERENCE: f64 = 0.125;
+
+/// Whether `steps` steps of `dt` from a slightly rough start stay bounded.
+fn is_stable<I: Integrator>(integrator: I, dt: f64, steps: usize) -> Result<bool> {
+    let (mut scene, droplet) = channel(integrator, 0.0)?;
+    let start = scene.body(droplet)?.markers().to_vec();
+    for _ in 0..steps {
+        if scene.step(dt).is_err() {
+            return Ok(false);
+        }
+    }
+    let moved = scene.body(droplet)?.markers().iter().zip(&start).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    Ok(moved < 0.5)
+}
+
+fn limits(report: &mut String) -> Result<()> {
+    tell(
+        report,
+        "Largest stable step between walls k = 1e6, viscosity 10, droplet without activity (60 steps stay bounded), over the predicted one:\n\n\
+         | method | predicted | largest stable (tried 0.7 to 3 times) |\n|---|---|---|",
+    )?;
+    let factors = [0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0, 2.5, 3.0];
+    let predicted = |stages: Option<usize>| -> Result<f64> {
+        let (scene, _) = channel(Midpoint::default(), 0.0)?;
+        let rate = scene.system().limits().map(|(limit, _)| limit.decay_rate()).fold(0.0, f64::max);
+        Ok(stages.map_or(2.0, |s| 0.6535 * (s * s - 1) as f64) / rate)
+    };
+    for stages in [None, Some(3), Some(5), Some(8), Some(12)] {
+        let dt = predicted(stages)?;
+        let mut largest = None;
+        for factor in factors {
+            let stable = match stages {
+                None => is_stable(Midpoint::default(), factor * dt, 60)?,
+                Some(s) => is_stable(RungeKuttaChebyshev::new().with_most_stages(s), factor * dt, 60)?,
+            };
+            if !stable {
+                break;
+            }
+            largest = Some(factor);
+        }
+        let name = stages.map_or_else(|| "midpoint".to_owned(), |s| format!("RKC, {s} stages"));
+        let found = largest.map_or_else(|| "below 0.7".to_owned(), |factor| format!("{factor}"));
+        tell(report, format_args!("| {name} | {dt:.2e} | {found} |"))?;
+    }
+    Ok(())
+}
+
+/// A swimmer's scene, its particles coupled with the stabiliser or without.
+fn free(swimmer: &Swimmer, stabilised: bool) -> Result<Scene<AnyFlow>> {
+    let mut scene = swimmer.empty_box()?;
+    scene.add(swimmer.droplet_for_method()?.with_stabiliser(stabilised));
+    Ok(scene)
+}
+
+fn speed<I: Integrator>(scene: &mut Scene<AnyFlow, I>) -> Result<f64> {
+    let markers = scene.system_mut().evaluate()?;
+    Ok(centroid_velocity(&markers.positions, &markers.velocities)?.norm())
+}
+
+/// Steps that must keep a steady swimmer's speed to a part in a hundred.
+const KEPT: usize = 150;
+
+/// The limit of a steady swimmer, what sets it, and the largest step by which its speed is kept.
+fn steady_limit<I: Integrator>(
+    make: impl Fn() -> Result<Scene<AnyFlow, I>>,
+    steady: &Checkpoint,
+) -> Result<(f64, String, f64)> {
+    let resumed = || -> Result<_> {
+        let mut scene = make()?;
+        scene.resume(steady)?;
+        Ok(scene)
+    };
+    let mut scene = resumed()?;
+    let expected = speed(&mut scene)?;
+    let (limit, reason, _) = scene.step_limit().context("a droplet has a limit")?;
+    let (limit, reason) = (limit, reason.to_owned());
+    let mut largest = 0.0;
+    let mut dt = 0.5 * limit;
+    loop {
+        let mut scene = resumed()?;
+        let kept = (0..KEPT).all(|_| scene.step(dt).is_ok());
+        if !kept || (speed(&mut scene)? / expected - 1.0).abs() > 0.01 {
+            return Ok((limit, reason, largest));
+        }
+        largest = dt;
+        dt *= 1.1;
+    }
+}
+
+fn coupling(report: &mut String) -> Result<()> {
+    tell(
+        report,
+        "\nLargest step that keeps the speed of a steady swimmer (viscosity 100, h = 0.1 or 48 nodes; 150 steps, to 1 %), over the predicted one:\n\n\
+         | activity | flow | steps | predicted | set by | largest/predicted |\n|---|---|---|---|---|---|",
+    )?;
+    for (flow, method) in [("grid", Method::ImmersedBoundary), ("integrals", Method::BoundaryIntegral)] {
+        for activity in [-2.0, -4.0] {
+            let base =
+                Swimmer { activity, spacing: 0.1, method, nodes: 48, concentration_cells: 192, ..Swimmer::default() };
+            let mut scene = free(&base, true)?;
+            scene.run(30.0).go()?;
+            let steady = scene.checkpoint("");
+            let results = [
+                ("midpoint, no stabiliser", steady_limit(|| free(&base, false), &steady)?),
+                ("midpoint", steady_limit(|| free(&base, true), &steady)?),
+                ("RKC", steady_limit(|| Ok(free(&base, true)?.advanced_by(RungeKuttaChebyshev::new())), &steady)?),
+            ];
+            for (name, (limit, reason, largest)) in results {
+                let times = largest / limit;
+                tell(report, format_args!("| {activity} | {flow} | {name} | {limit:.4} | {reason} | {times:.1} |"))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn transient(report: &mut String) -> Result<()> {
+    let until = 10.0;
+    let swimmer = Swimmer { activity: -4.0, spacing: 0.1, method: Method::ImmersedBoundary, ..Swimmer::default() };
+    let midpoint = || swimmer.build();
+    tell(
+        report,
+        format_args!("\nA swimmer of activity -4 starts, viscosity 100, h = 0.1, to t = {until}:\n\n{HEADING}"),
+    )?;
+    let exact = timed(midpoint()?, until, StepSize::Adaptive { tolerance: 1e-8 })?;
+    tell(report, line("midpoint (reference)", "adaptive 1e-8", &exact, &exact)?)?;
+    for dt in [0.04, 0.02, 0.01, 0.005, 0.0025] {
+        match timed(midpoint()?, until, StepSize::Fixed(dt)) {
+            Ok(cost) => tell(report, line("midpoint", &format!("{dt}"), &cost, &exact)?)?,
+            Err(error) => tell(report, format_args!("| midpoint | {dt} | {error} |"))?,
+        }
+    }
+    for tolerance in [1e-4, 1e-5, 1e-6, 1e-7] {
+        let cost = timed(midpoint()?, until, StepSize::Adaptive { tolerance })?;
+        tell(report, line("midpoint", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?)?;
+    }
+    for tolerance in [1e-4, 1e-5, 1e-6] {
+        let (scene, droplet) = midpoint().context("a swimmer")?;
+        let cost =
+            timed((scene.advanced_by(RungeKuttaChebyshev::new()), droplet), until, StepSize::Adaptive { tolerance })?;
+        tell(report, line("RKC", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?)?;
+    }
+    Ok(())
+}

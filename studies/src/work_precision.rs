@@ -1,0 +1,152 @@
+//! Error against cost: every kind of scene by every method, over spacings, nodes, time steps, kernels, corrections and
+//! integrators.
+//!
+//! `cargo run --release -p studies -- work_precision` takes some minutes on one core, `--full` much longer; `--only
+//! SCENE` makes one scene. Each finished run leaves a file in `out/work_precision/runs/COMMIT/`, COMMIT being the
+//! last change to the library or to this study, and is not made again, so that the page may be made in several goes,
+//! by one state of the code all the same. From all runs come `points.csv`, a figure a scene (SVG and PNG), and the page
+//! `speed-against-error.md`; with `--docs DIRECTORY` the page and its figures go there as well.
+//!
+//! Costs are measured by turns with a plain real transform, so that what else the machine does cancels; runs are made
+//! one at a time.
+
+mod cost;
+mod figures;
+mod front;
+mod lists;
+mod report;
+mod settings;
+mod shapes;
+mod studies;
+mod swimmers;
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use crate::results::write_results;
+use crate::run_pool::RunPool;
+use anyhow::{Context, Result};
+use clap::Args;
+use motile_examples::{OutputFlags, Summary, say};
+
+use crate::work_precision::front::Point;
+use crate::work_precision::report::Circumstances;
+use crate::work_precision::settings::Settings;
+use crate::work_precision::studies::Study;
+
+/// Error against cost, over all scenes, methods and resolutions.
+#[derive(Debug, Args)]
+pub(crate) struct Flags {
+    /// The expensive settings too
+    #[arg(long)]
+    full: bool,
+    /// Only this scene
+    #[arg(long, value_enum)]
+    only: Option<Study>,
+    /// Print the speed that the swimmer of ratio 100 is compared with, and nothing else
+    #[arg(long)]
+    reference: bool,
+    /// Write the page and its figures to this directory of documents too
+    #[arg(long, value_name = "DIRECTORY")]
+    docs: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputFlags,
+}
+
+pub(crate) fn run(flags: &Flags) -> Result<()> {
+    if flags.reference {
+        say(format_args!("{:.10}", swimmers::reference_of_ratio_100()?));
+        return Ok(());
+    }
+    let directory = flags.output.directory("work_precision")?;
+    let jobs: Vec<(Study, Settings)> = Study::ALL
+        .into_iter()
+        .filter(|study| flags.only.is_none_or(|only| only == *study))
+        .flat_map(|study| lists::settings(study, flags.full).into_iter().map(move |settings| (study, settings)))
+        .collect();
+    let name = |(study, settings): &(Study, Settings)| format!("{}_{}", study.name(), settings.name());
+    let commit = commit();
+    let runs = directory.join("runs").join(&commit);
+    let results = RunPool::new(&runs, 1, flags.output.quiet)?.run(&jobs, name, point);
+
+    let mut points = Vec::new();
+    for ((study, settings), result) in jobs.into_iter().zip(results) {
+        match result {
+            Ok(summary) => points.push(Point { study, settings, summary }),
+            // Settings that do not get through, such as steps that turn out too long, are an outcome too.
+            Err(error) => say(format_args!("{error:#}")),
+        }
+    }
+    let rows: Vec<Summary> = points.iter().map(|point| point.summary.clone()).collect();
+    write_results(&directory.join("points.csv"), &rows)?;
+    let circumstances = Circumstances { machine: machine(), commit, command: command(flags) };
+    let page = |pictures: &str| report::page(&points, &circumstances, pictures);
+    write(&directory.join("speed-against-error.md"), &page(""))?;
+    if let Some(docs) = &flags.docs {
+        write(&docs.join("speed-against-error.md"), &page("images/speed_against_error/"))?;
+    }
+    for study in Study::ALL {
+        let own: Vec<Point> = points.iter().filter(|point| point.study == study).cloned().collect();
+        if own.is_empty() || flags.output.no_pictures {
+            continue;
+        }
+        let figure = figures::figure(study, &own);
+        figure.write(&directory, study.name())?;
+        if let Some(docs) = &flags.docs {
+            let pictures = docs.join("images/speed_against_error");
+            motile_examples::make_directory(&pictures)?;
+            let path = pictures.join(format!("{}.svg", study.name()));
+            std::fs::copy(directory.join(format!("{}.svg", study.name())), &path)
+                .with_context(|| format!("writing {}", path.display()))?;
+        }
+    }
+    say(format_args!("{} points in {}", points.len(), directory.display()));
+    Ok(())
+}
+
+fn point((study, settings): &(Study, Settings)) -> Result<Summary> {
+    let (error, cost) = study.run(settings)?;
+    let mut summary = Summary::new();
+    summary.put("study", study.name(), "");
+    settings.put(&mut summary);
+    summary.put("error", error, "");
+    cost.put(&mut summary);
+    Ok(summary)
+}
+
+fn write(path: &std::path::Path, text: &str) -> Result<()> {
+    std::fs::write(path, text).with_context(|| format!("writing {}", path.display()))
+}
+
+fn command(flags: &Flags) -> String {
+    format!("cargo run --release -p studies -- work_precision{}", if flags.full { " --full" } else { "" })
+}
+
+/// The processor, as the system names it.
+fn machine() -> String {
+    let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let value = |name: &str| {
+        text.lines().find(|line| line.starts_with(name)).and_then(|line| line.split(':').nth(1)).map(str::trim)
+    };
+    let cores = text.lines().filter(|line| line.starts_with("processor")).count();
+    match value("model name") {
+        Some(model) => format!("{model}, {cores} shared cores"),
+        None => format!("{} on {}", std::env::consts::ARCH, std::env::consts::OS),
+    }
+}
+
+/// What the figures depend on.
+const CODE: [&str; 4] = ["crates", "Cargo.lock", "tests/src", "studies/src/work_precision"];
+
+/// The commit that last changed the code, and a word if there are changes beyond it.
+fn commit() -> String {
+    let git = |arguments: &[&str]| {
+        let output = Command::new("git").args(arguments).arg("--").args(CODE).output();
+        let output = output.ok().filter(|output| output.status.success())?;
+        Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
+    };
+    let last = git(&["log", "-1", "--format=%h"]).filter(|last| !last.is_empty());
+    let Some(last) = last else { return "unknown".to_owned() };
+    let changed = git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|changes| !changes.is_empty());
+    if changed { format!("{last}-changed") } else { last }
+}

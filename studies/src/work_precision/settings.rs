@@ -1,0 +1,202 @@
+//! One way of computing a scene.
+
+use motile::ib_core::{AnyKernel, Kernel, StepSize};
+use motile::{ContrastMethod, Method, Swimmer};
+use motile_examples::Summary;
+use serde_json::Value;
+
+/// How velocities come from forces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Flow {
+    /// Boundary integrals with shape nodes and cells of the concentration.
+    Integrals {
+        /// Shape nodes.
+        nodes: usize,
+        /// Cells of the concentration.
+        cells: usize,
+    },
+    /// A grid of spacing h with markers `ratio` h apart.
+    Grid {
+        /// Spacing (length).
+        h: f64,
+        /// Marker spacing over h.
+        ratio: f64,
+        /// How a contrast is treated.
+        contrast: ContrastMethod,
+    },
+}
+
+/// The preset that is varied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Preset {
+    Default,
+    Thesis,
+}
+
+/// How the state advances.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Stepper {
+    Midpoint,
+    /// Runge-Kutta-Chebyshev with at most so many stages.
+    Chebyshev(usize),
+}
+
+/// One way of computing a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Settings {
+    pub(crate) preset: Preset,
+    pub(crate) flow: Flow,
+    pub(crate) kernel: AnyKernel,
+    pub(crate) corrected: bool,
+    pub(crate) step: StepSize,
+    pub(crate) stepper: Stepper,
+}
+
+impl Settings {
+    /// The default.
+    pub(crate) fn preset() -> Self {
+        let default = Swimmer::default();
+        Self::integrals(default.nodes, default.concentration_cells).with_step(default.step)
+    }
+
+    /// Boundary integrals with steps of half the limit.
+    pub(crate) fn integrals(nodes: usize, cells: usize) -> Self {
+        Self { flow: Flow::Integrals { nodes, cells }, ..Self::grid(0.1, 0.5) }
+    }
+
+    /// A grid with the default kernel, its correction, and steps of half the limit.
+    pub(crate) fn grid(h: f64, ratio: f64) -> Self {
+        Self {
+            preset: Preset::Default,
+            flow: Flow::Grid { h, ratio, contrast: ContrastMethod::Sharp },
+            kernel: AnyKernel::BSpline4,
+            corrected: true,
+            step: StepSize::OfLimit(0.5),
+            stepper: Stepper::Midpoint,
+        }
+    }
+
+    /// The thesis' method on a grid of another spacing with other steps.
+    pub(crate) fn thesis(h: f64, step: StepSize) -> Self {
+        Self {
+            preset: Preset::Thesis,
+            flow: Flow::Grid { h, ratio: 0.5, contrast: ContrastMethod::Arithmetic },
+            kernel: AnyKernel::Peskin4,
+            corrected: false,
+            step,
+            stepper: Stepper::Midpoint,
+        }
+    }
+
+    pub(crate) fn with_step(self, step: StepSize) -> Self {
+        Self { step, ..self }
+    }
+
+    pub(crate) fn with_kernel(self, kernel: AnyKernel) -> Self {
+        Self { kernel, ..self }
+    }
+
+    pub(crate) fn uncorrected(self) -> Self {
+        Self { corrected: false, ..self }
+    }
+
+    pub(crate) fn with_stepper(self, stepper: Stepper) -> Self {
+        Self { stepper, ..self }
+    }
+
+    pub(crate) fn smeared(self) -> Self {
+        let flow = match self.flow {
+            Flow::Grid { h, ratio, .. } => Flow::Grid { h, ratio, contrast: ContrastMethod::Arithmetic },
+            integrals @ Flow::Integrals { .. } => integrals,
+        };
+        Self { flow, corrected: false, ..self }
+    }
+
+    /// The preset with these settings.
+    pub(crate) fn swimmer(&self) -> Swimmer {
+        let base = match self.preset {
+            Preset::Default => Swimmer::default(),
+            Preset::Thesis => Swimmer::thesis(),
+        };
+        let base = Swimmer { kernel: self.kernel, corrected: self.corrected, step: self.step, ..base };
+        match self.flow {
+            Flow::Integrals { nodes, cells } => {
+                Swimmer { method: Method::BoundaryIntegral, nodes, concentration_cells: cells, ..base }
+            }
+            Flow::Grid { h, ratio, contrast } => Swimmer {
+                method: Method::ImmersedBoundary,
+                contrast,
+                spacing: h,
+                marker_spacing: Some(ratio * h),
+                ..base
+            },
+        }
+    }
+
+    /// The family of methods, one colour of a figure.
+    pub(crate) fn family(&self) -> &'static str {
+        match self.flow {
+            _ if self.preset == Preset::Thesis => "thesis",
+            Flow::Integrals { .. } => "boundary integrals",
+            Flow::Grid { contrast: ContrastMethod::Arithmetic, .. } => "grid, arithmetic",
+            Flow::Grid { .. } if self.corrected => "grid, corrected",
+            Flow::Grid { .. } => "grid, uncorrected",
+        }
+    }
+
+    /// For people.
+    pub(crate) fn label(&self) -> String {
+        let flow = match self.flow {
+            Flow::Integrals { nodes, cells } => format!("{nodes} nodes, {cells} cells"),
+            Flow::Grid { h, ratio, .. } => format!("h = {h}, ds = {ratio} h, {}", self.kernel.name()),
+        };
+        let step = match self.step {
+            StepSize::Fixed(dt) => format!("dt = {dt}"),
+            StepSize::OfLimit(fraction) => format!("dt = {fraction} of the limit"),
+            StepSize::Adaptive { tolerance } => format!("adaptive {tolerance:e}"),
+        };
+        let stepper = match self.stepper {
+            Stepper::Midpoint => String::new(),
+            Stepper::Chebyshev(stages) => format!(", RKC up to {stages} stages"),
+        };
+        format!("{flow}, {step}{stepper}")
+    }
+
+    /// For files.
+    pub(crate) fn name(&self) -> String {
+        let text = format!("{}_{}", self.family(), self.label());
+        let short = text.replace(" of the limit", "L").replace([' ', ','], "").replace('=', "");
+        short.replace("uptostages", "")
+    }
+
+    /// The columns of a table.
+    pub(crate) fn put(&self, summary: &mut Summary) {
+        let (mut nodes, mut cells, mut spacing, mut markers) = (Value::Null, Value::Null, Value::Null, Value::Null);
+        match self.flow {
+            Flow::Integrals { nodes: n, cells: c } => (nodes, cells) = (n.into(), c.into()),
+            Flow::Grid { h, ratio, .. } => (spacing, markers) = (h.into(), (ratio * h).into()),
+        }
+        summary.put("family", self.family(), "");
+        summary.put("settings", self.label(), "");
+        summary.put("nodes", nodes, "");
+        summary.put("cells", cells, "");
+        summary.put("h", spacing, "");
+        summary.put("ds", markers, "");
+    }
+
+    /// Whether this is the preset as it is.
+    pub(crate) fn is_preset(&self) -> Option<&'static str> {
+        let mut plain = match self.preset {
+            Preset::Default => Swimmer::default(),
+            Preset::Thesis => Swimmer::thesis(),
+        };
+        if plain.method == Method::ImmersedBoundary {
+            plain.marker_spacing = Some(0.5 * plain.spacing);
+        }
+        let midpoint = self.stepper == Stepper::Midpoint;
+        (midpoint && self.swimmer() == plain).then_some(match self.preset {
+            Preset::Default => "default",
+            Preset::Thesis => "thesis()",
+        })
+    }
+}

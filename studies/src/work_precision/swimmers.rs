@@ -1,0 +1,117 @@
+//! Errors of swimmers.
+
+use std::sync::OnceLock;
+
+use anyhow::{Result, anyhow};
+use motile::active_interface::ActiveDroplet;
+use motile::ib_core::{StepSize, System};
+use motile::stokes_grid::Drive;
+use motile::{AnyFlow, Swimmer};
+use motile_tests::validation::{Reference, ReferenceFile};
+
+use crate::work_precision::cost::{Cost, march};
+use crate::work_precision::settings::Settings;
+
+/// Speed of the swimmer of ratio 100 with 160 nodes, 1280 cells and steps of a quarter of the limit
+/// (`--reference` computes it).
+const RATIO_100: f64 = 0.149_390_892_4;
+
+/// Time by which a swimmer is steady.
+const STEADY: f64 = 80.0;
+
+/// The swimmer of the reference tables for a box; the surroundings may have another viscosity.
+fn boxed(settings: &Settings, activity: f64, outside: Option<f64>) -> Swimmer {
+    Swimmer {
+        activity,
+        excluded_volume: 2.0 * activity.abs(),
+        viscosity: outside.unwrap_or(100.0),
+        viscosity_inside: outside.map(|_| 100.0),
+        lengths: [6.0; 2],
+        ..settings.swimmer()
+    }
+}
+
+/// Speed at present of the only droplet.
+fn speed(system: &mut System<AnyFlow>) -> Result<f64> {
+    let (droplet, _) = system.bodies::<ActiveDroplet>().next().ok_or_else(|| anyhow!("no droplet"))?;
+    Ok(system.observe(droplet)?.speed())
+}
+
+fn against(swimmer: &Swimmer, settings: &Settings, reference: f64) -> Result<(f64, Cost)> {
+    let (cost, found) = march(|| Ok(swimmer.build()?.0), settings.stepper, STEADY, speed)?;
+    Ok((found / reference - 1.0, cost))
+}
+
+/// Speed of the steady swimmer of an activity.
+pub(crate) fn steady(settings: &Settings, activity: f64) -> Result<(f64, Cost)> {
+    let reference = Reference::read(ReferenceFile::SteadySwimmers)?.select("zeta_dmu", &format!("{activity:.1}"));
+    against(&boxed(settings, activity, None), settings, reference.value("speed")?)
+}
+
+/// Speed of a swimmer that is not along the grid, against far finer boundary integrals.
+pub(crate) fn oblique(settings: &Settings) -> Result<(f64, Cost)> {
+    static REFERENCE: OnceLock<f64> = OnceLock::new();
+    let scene = |settings: &Settings| Swimmer { angle: 0.4, offset: [0.013, 0.027], ..boxed(settings, -3.0, None) };
+    let reference = match REFERENCE.get() {
+        Some(&speed) => speed,
+        None => {
+            let fine = Settings::integrals(96, 512);
+            let swimmer = scene(&fine);
+            let found = march(|| Ok(swimmer.build()?.0), fine.stepper, STEADY, speed)?.1;
+            *REFERENCE.get_or_init(|| found)
+        }
+    };
+    against(&scene(settings), settings, reference)
+}
+
+/// The swimmer of activity -1, ten times as viscous as its surroundings.
+pub(crate) fn ratio_10(settings: &Settings) -> Result<(f64, Cost)> {
+    let reference = Reference::read(ReferenceFile::SteadySwimmerContrast)?.select("zeta_dmu", "-1.0");
+    against(&boxed(settings, -1.0, Some(10.0)), settings, reference.value("speed")?)
+}
+
+/// The same swimmer a hundred times as viscous.
+pub(crate) fn ratio_100(settings: &Settings) -> Result<(f64, Cost)> {
+    against(&boxed(settings, -1.0, Some(1.0)), settings, RATIO_100)
+}
+
+/// The speed that [`ratio_100`] compares with.
+pub(crate) fn reference_of_ratio_100() -> Result<f64> {
+    let settings = Settings::integrals(160, 1280).with_step(StepSize::OfLimit(0.25));
+    let swimmer = boxed(&settings, -1.0, Some(1.0));
+    Ok(march(|| Ok(swimmer.build()?.0), settings.stepper, STEADY, speed)?.1)
+}
+
+/// Speed in a narrow channel.
+pub(crate) fn channel(settings: &Settings) -> Result<(f64, Cost)> {
+    let reference = Reference::read(ReferenceFile::ChannelSwimmers)?
+        .select("conv", "p0")
+        .select("w", "2")
+        .select("zeta_dmu", "-2.0")
+        .value("speed")?;
+    let swimmer = Swimmer { activity: -2.0, excluded_volume: 10.0, lengths: [12.0, 2.0], ..settings.swimmer() };
+    let make = || Ok(swimmer.build_in_channel(Drive::ZeroGradient)?.0);
+    let (cost, found) = march(make, settings.stepper, STEADY, speed)?;
+    Ok((found / reference - 1.0, cost))
+}
+
+/// Largest error of the speed on the way to the steady state.
+pub(crate) fn transient(settings: &Settings) -> Result<(f64, Cost)> {
+    let reference = Reference::read(ReferenceFile::Transient)?;
+    let (times, speeds) = (reference.column("t")?, reference.column("speed")?);
+    let swimmer = boxed(settings, -1.0, None);
+    let mut scene = swimmer.build()?.0;
+    let mut worst = 0.0_f64;
+    for (&time, expected) in times.iter().zip(speeds) {
+        if time > 0.0 {
+            scene.run(time).go()?;
+        }
+        let error = speed(scene.system_mut())? / expected - 1.0;
+        if error.abs() > worst.abs() {
+            worst = error;
+        }
+    }
+    // The cost from a run nobody interrupts.
+    let (cost, ()) = march(|| Ok(swimmer.build()?.0), settings.stepper, 10.0, |_| Ok(()))?;
+    Ok((worst, cost))
+}
