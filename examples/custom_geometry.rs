@@ -10,7 +10,10 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::{Parser, ValueEnum};
 use motile::ElasticChannel;
-use motile::elastic_solids::{BranchingChannel, Channel, Ratchet, SolidError};
+use motile::elastic_solids::{
+    Channel, SolidError,
+    channel::{BranchingChannel, Ratchet},
+};
 use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
 
 /// A channel whose walls are functions of x: bumps below, and a step to a narrower part above.

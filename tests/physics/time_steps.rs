@@ -1,7 +1,7 @@
 //! Integrators and step sizes: order, stability, accuracy, and what is reported of them.
 
 use motile::active_interface::{ActiveDroplet, Motion, observables::centroid_velocity};
-use motile::elastic_solids::{Moduli, NeoHookean, Solid, equilateral_strip};
+use motile::elastic_solids::{Moduli, NeoHookean, Solid, mesh::equilateral_strip};
 use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
     SceneError, SpectralEstimate, StepSize, Vec2,

@@ -1,13 +1,22 @@
 //! An elastic solid: a mesh, its forces, and where its points are now.
 
+mod body;
+mod gap;
+mod observables;
+mod rounded_kink;
+mod surface_correction;
+
 use std::sync::Arc;
 
 use ib_core::Vec2;
 
-use crate::error::{all_points_finite, at_least, positive};
-use crate::forces::fits;
-use crate::surface_correction::SurfaceCorrection;
-use crate::{ElasticForces, EnergyDensity, Hyperelastic, SolidError, Springs, TriangleMesh};
+use crate::error::{all_points_finite, at_least, fits, positive};
+use crate::forces::{Hyperelastic, Springs};
+use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
+use surface_correction::SurfaceCorrection;
+
+pub use gap::SurfaceGap;
+pub use observables::LargestDisplacement;
 
 /// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid
 /// and move with it. It is made of springs along the edges of its mesh (thesis section 4.1), of a hyperelastic material
@@ -17,7 +26,8 @@ use crate::{ElasticForces, EnergyDensity, Hyperelastic, SolidError, Springs, Tri
 /// the reference state.
 ///
 /// ```
-/// use elastic_solids::*;
+/// use elastic_solids::channel::StraightChannel;
+/// use elastic_solids::{Mesher, NeoHookean, Solid, SolidError};
 /// use ib_core::Vec2;
 ///
 /// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest row pinned.
@@ -66,7 +76,8 @@ impl Solid {
     /// A solid of springs with one shear modulus everywhere (force per length), in its reference state.
     ///
     /// ```
-    /// use elastic_solids::*;
+    /// use elastic_solids::mesh::equilateral_strip;
+    /// use elastic_solids::{Moduli, Solid, SolidError};
     /// use ib_core::Vec2;
     ///
     /// let mesh = equilateral_strip(Vec2::new(-6.0, -2.5), 120, 17, 0.1)?;
@@ -199,7 +210,8 @@ impl Solid {
     /// that to each other or to a no-slip wall are corrected as if they stood alone.
     ///
     /// ```
-    /// use elastic_solids::*;
+    /// use elastic_solids::mesh::equilateral_strip;
+    /// use elastic_solids::{Solid, SolidError};
     /// use ib_core::Vec2;
     ///
     /// let mesh = equilateral_strip(Vec2::zeros(), 20, 10, 0.1)?;

@@ -1,7 +1,7 @@
 //! Solids in the flow of the grid: where walls stand, stability limits, no allocation.
 
 use allocation_counter::measure;
-use elastic_solids::{NeoHookean, Outline, Solid, TriangleMesh, fitted_strip};
+use elastic_solids::{NeoHookean, Outline, Solid, TriangleMesh, mesh::fitted_strip};
 use ib_core::{AnyKernel, Body, FlowSample, Hydrodynamics, ImmersedBoundary, Medium, Scene, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid};
 

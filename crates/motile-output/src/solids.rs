@@ -3,11 +3,8 @@
 use std::{collections::HashMap, path::Path};
 
 use anyhow::Result;
-use motile::{
-    SolidGap,
-    elastic_solids::{Solid, width_between},
-    ib_core::{Hydrodynamics, System},
-};
+use motile::elastic_solids::{Solid, channel::width_between};
+use motile::{SolidGap, ib_core::Hydrodynamics, ib_core::System};
 
 use crate::{SolidShape, Vec2, VtkFile, VtkSeries};
 

@@ -2,7 +2,9 @@
 
 use active_interface::{ActiveDroplet, Curve};
 use elastic_solids::{
-    Channel, ChannelWalls, Mesher, Moduli, NeoHookean, Solid, SolidError, StraightChannel, SurfaceGap, TriangleMesh,
+    Channel, Mesher, Moduli, NeoHookean, Solid, SolidError, TriangleMesh,
+    channel::{StraightChannel, Walls},
+    solid::SurfaceGap,
 };
 use ib_core::{Handle, MobilityDeficit, Scene, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid};
@@ -50,7 +52,7 @@ pub enum WallSurface {
 /// width of the channel between the elastic walls.
 ///
 /// ```
-/// use motile::elastic_solids::{Moduli, width_between};
+/// use motile::elastic_solids::{Moduli, channel::width_between};
 /// use motile::prelude::*;
 ///
 /// // Soft walls, k = 1e4 in the thesis, and a coarse grid.
@@ -206,7 +208,7 @@ impl ElasticChannel {
         let mesher = if self.mesh == WallMesh::Unstructured { mesher.turned(TURN)? } else { mesher };
         let set_back = self.set_back();
         let widened = if set_back > 0.0 { shape.widened(2.0 * set_back)? } else { shape.clone() };
-        let ChannelWalls { lower, upper, islands } = widened.walls(-half, half, &mesher)?;
+        let Walls { lower, upper, islands } = widened.walls(-half, half, &mesher)?;
         let finished = |solid: Solid| {
             let solid = if self.may_invert { solid.allow_inversion() } else { solid };
             if self.surface == WallSurface::Corrected { solid.surface_corrected() } else { solid }

@@ -1,7 +1,7 @@
 //! The gap between a droplet and elastic solids during a run.
 
 use active_interface::ActiveDroplet;
-use elastic_solids::{Solid, SolidError, SurfaceGap};
+use elastic_solids::{Solid, SolidError, solid::SurfaceGap};
 use ib_core::{Hydrodynamics, Observer, System};
 
 /// Measures the gap between the first droplet of a system and all its solids, keeps the smallest

@@ -4,7 +4,7 @@ use std::error::Error;
 
 use anyhow::Result;
 use motile::active_interface::ActiveDroplet;
-use motile::elastic_solids::{Solid, width_between};
+use motile::elastic_solids::{Solid, channel::width_between};
 use motile::ib_core::{Handle, Hydrodynamics, Observer, System};
 use motile_examples::Summary;
 use serde_json::Value;

@@ -6,7 +6,10 @@ use motile::active_interface::{
     ActiveDroplet, Motion,
     trajectory::{RegimeCriteria, TrajectoryRecorder},
 };
-use motile::elastic_solids::{Channel, Constriction, Moduli, Solid, StraightChannel, width_between};
+use motile::elastic_solids::{
+    Channel, Moduli, Solid,
+    channel::{Constriction, StraightChannel, width_between},
+};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
 use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, WallSurface, stokes_grid::Drive};
 use motile_examples::{Decided, Passage, Steadiness, Summary};

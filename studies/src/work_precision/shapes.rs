@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use anyhow::{Result, anyhow, bail};
 use motile::active_interface::{ActiveDroplet, Curve, curve::polygon_moments};
 use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
-use motile::elastic_solids::{NeoHookean, Solid, fitted_strip};
+use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
 use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile::{AnyFlow, Swimmer};

@@ -1,9 +1,11 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
 use motile::elastic_solids::{
-    DeformationGradient, ElasticForces, EnergyDensity, ForceBalance, Hyperelastic, InnerPoints, Mat2, MeasuredModuli,
-    Mesher, MooneyRivlin, NeoHookean, Outline, Region, SaintVenantKirchhoff, Solid, SolidError, Springs, TriangleMesh,
-    equilateral_block, equilateral_strip, fitted_strip, force_balance, measured_moduli, patch_residual, stress_error,
+    ElasticForces, EnergyDensity, Mesher, NeoHookean, Outline, Region, Solid, SolidError, TriangleMesh,
+    check::{ForceBalance, InnerPoints, MeasuredModuli, force_balance, measured_moduli, patch_residual, stress_error},
+    forces::{Hyperelastic, Springs},
+    material::{DeformationGradient, Mat2, MooneyRivlin, SaintVenantKirchhoff},
+    mesh::{equilateral_block, equilateral_strip, fitted_strip},
 };
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid};

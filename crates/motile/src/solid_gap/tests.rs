@@ -1,6 +1,6 @@
 use super::*;
 use crate::{ElasticChannel, Swimmer};
-use elastic_solids::{Moduli, NeoHookean, Solid, Springs, equilateral_strip};
+use elastic_solids::{Moduli, NeoHookean, Solid, forces::Springs, mesh::equilateral_strip};
 use ib_core::Vec2;
 
 #[test]
