@@ -121,7 +121,7 @@ fn meet(flags: &Flags) -> Result<()> {
         progress.update(system.time(), system.steps(), speed);
         Ok(())
     };
-    let run = scene.run(end).observe(Every::Time(end / ROWS), &mut record).observe(Every::Steps(1), &mut tell);
+    let run = scene.run(end).observe(Every::StepAfter(end / ROWS), &mut record).observe(Every::Steps(1), &mut tell);
     let outcome = flags.output.checkpoints.watch(run, &description)?.go();
     progress.finish();
     flags.output.checkpoints.save(&scene, &description, &outcome)?;

@@ -158,13 +158,14 @@ impl WatchedRun {
         let mut run = scene
             .run(self.end)
             .step_size(self.swimmer.step)
-            .observe(Every::Time(self.end / ROWS), &mut self.recorder)
+            .observe(Every::StepAfter(self.end / ROWS), &mut self.recorder)
             .observe(Every::Steps(1), &mut self.gap)
             .observe(Every::Steps(1), end)
             .observe(Every::Steps(1), &mut self.dial);
         if let Some((film, vtk)) = &mut self.pictures {
             let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
-            run = run.observe(Every::Time(self.end / frames), film).observe(Every::Time(self.end / FILES), vtk);
+            run =
+                run.observe(Every::StepAfter(self.end / frames), film).observe(Every::StepAfter(self.end / FILES), vtk);
         }
         let run = self.checkpoints.watch(run, &self.description)?;
         let outcome = match run.go() {

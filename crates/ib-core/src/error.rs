@@ -219,6 +219,21 @@ pub enum SceneError {
         /// Which body.
         body: String,
     },
+    /// A step size that is a part of the stability limit, where no body states a finite one.
+    #[error(
+        "at time {time} no body states a bound on the time step that a run could take a part of: give the run \
+         `StepSize::Fixed` or `StepSize::Adaptive`, or have a body state one (`Body::step_limits`)"
+    )]
+    NoStepLimit {
+        /// When (time).
+        time: f64,
+    },
+    /// Adaptive steps with an integrator whose errors cannot be estimated.
+    #[error("the error of a step of {integrator} cannot be estimated: use another step size than `StepSize::Adaptive`")]
+    NoErrorEstimate {
+        /// The integrator's name.
+        integrator: &'static str,
+    },
     /// Adaptive steps have become shorter than the bound that was set.
     #[error(
         "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: the state cannot be followed any \

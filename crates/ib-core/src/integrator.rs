@@ -1,10 +1,12 @@
 //! Time steps.
 
 mod chebyshev;
+mod error_estimate;
 mod midpoint;
 mod spectral_radius;
 
 pub use chebyshev::{RungeKuttaChebyshev, SpectralEstimate};
+pub(crate) use error_estimate::ErrorEstimate;
 pub use midpoint::Midpoint;
 
 use crate::{Hydrodynamics, SavedState, SceneError, System};
@@ -43,8 +45,14 @@ pub trait Integrator: std::fmt::Debug + Send {
         true
     }
 
+    /// The constant C of an error of a step of about `C dt^3 y'''`, from which it is estimated for
+    /// [`crate::StepSize::Adaptive`]; `None`, the default, where the error is of another form. No dimension.
+    fn error_constant(&self) -> Option<f64> {
+        None
+    }
+
     /// Largest error of a step, in the measure of [`crate::StepSize::Adaptive`], that runs with
-    /// [`crate::StepSize::OfLimit`] accept; by default none is estimated. For integrators whose stability limit is so
+    /// [`crate::StepSize::OfLimit`] accept; needs [`Integrator::error_constant`]; by default none is estimated. For integrators whose stability limit is so
     /// long that it says nothing of accuracy.
     fn error_bound(&self) -> Option<f64> {
         None

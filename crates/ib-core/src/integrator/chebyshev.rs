@@ -23,6 +23,8 @@ pub enum SpectralEstimate {
 const MARGIN: f64 = 1.05;
 /// Range in which a measurement may correct a prediction.
 const CORRECTION: [f64; 2] = [1.0, 20.0];
+/// That of many stages (Sommeijer, Shampine and Verwer 1998).
+const ERROR_CONSTANT: f64 = 1.0 / 15.0;
 /// Largest error of a step of a fraction of the stability limit: where decays do not bound the step, the limit says
 /// nothing of accuracy.
 const ERROR_BOUND: f64 = 3e-4;
@@ -225,6 +227,10 @@ impl Integrator for RungeKuttaChebyshev {
 
     fn stabilised(&self) -> bool {
         false
+    }
+
+    fn error_constant(&self) -> Option<f64> {
+        Some(ERROR_CONSTANT)
     }
 
     fn error_bound(&self) -> Option<f64> {

@@ -81,6 +81,11 @@ impl<H: Hydrodynamics> System<H> {
         self.steps
     }
 
+    /// Takes the round-off of summed steps off the time.
+    pub(crate) fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
     /// A step is over and stays.
     pub(crate) fn commit(&mut self, dt: f64) {
         self.time += dt;

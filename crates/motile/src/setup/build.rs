@@ -7,7 +7,7 @@ use active_interface::{
     QuadraticExcludedVolume, StepExcludedVolume, Tension,
 };
 use boundary_integral::{BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, Settings};
-use elastic_solids::{Solid, SurfaceGap};
+use elastic_solids::{Solid, solid::SurfaceGap};
 use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 

@@ -1,9 +1,8 @@
 //! Descriptions of elastic solids.
 
-use elastic_solids::{
-    BranchingChannel, Channel, Constriction, Mesher, MooneyRivlin, NeoHookean, Outline, Ratchet, Region as Enclosed,
-    SaintVenantKirchhoff, SinusoidalChannel, Solid, SolidError, StraightChannel, TriangleMesh, Valve,
-};
+use elastic_solids::channel::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, StraightChannel, Valve};
+use elastic_solids::material::{MooneyRivlin, SaintVenantKirchhoff};
+use elastic_solids::{Channel, Mesher, NeoHookean, Outline, Region as Enclosed, Solid, SolidError, TriangleMesh};
 use ib_core::{MobilityDeficit, Vec2};
 
 use super::{GridMethod, Method, Region, Setup};
