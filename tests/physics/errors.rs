@@ -20,7 +20,8 @@ fn wrong_numbers_are_refused() {
             }
         }
     }
-    let narrow = Setup { region: open_channel(6.0, 1.6), ..on_grid(0.2) }.build().expect_err("narrower than the droplet");
+    let narrow =
+        Setup { region: open_channel(6.0, 1.6), ..on_grid(0.2) }.build().expect_err("narrower than the droplet");
     assert!(narrow.to_string().contains("6 x 1.6"), "{narrow}");
 }
 

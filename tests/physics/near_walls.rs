@@ -1,6 +1,9 @@
 //! Droplets that meet walls: nothing tunnels, nothing is lost.
 
-use motile::active_interface::{ActiveDroplet, curve::{polygon_area, polygon_moments}};
+use motile::active_interface::{
+    ActiveDroplet,
+    curve::{polygon_area, polygon_moments},
+};
 use motile::ib_core::{StepSize, wall_gap};
 use motile::setup::{Built, DropletSetup, DropletShape, Region, Setup};
 use motile::stokes_grid::Drive;

@@ -1,7 +1,9 @@
 //! Recommended settings hold what they promise where they were not measured.
 
 use motile::ib_core::StepSize;
-use motile::setup::{DropletSetup, Exclusion, GridMethod, IntegralMethod, Method, MethodKind, Particles, Region, Setup};
+use motile::setup::{
+    DropletSetup, Exclusion, GridMethod, IntegralMethod, Method, MethodKind, Particles, Region, Setup,
+};
 use motile::{SceneKind, SetupError, recommend};
 use motile_tests::validation::scene::{open_channel, without_grid};
 use motile_tests::validation::swimmers::speeds;

@@ -89,12 +89,7 @@ pub(crate) fn transients(quick: bool) -> Tables {
     );
     for &(nodes, cells) in resolutions(quick) {
         let (error, time) = transient(&reference(without_grid(nodes, cells), -1.0))?;
-        table.push([
-            nodes.to_string(),
-            cells.to_string(),
-            format!("{:.4}", 100.0 * error),
-            time.to_string(),
-        ]);
+        table.push([nodes.to_string(), cells.to_string(), format!("{:.4}", 100.0 * error), time.to_string()]);
     }
     Ok(vec![table])
 }
@@ -136,9 +131,7 @@ pub(crate) fn lateral_modes(quick: bool) -> Tables {
     );
     for activity in [-2.0, -4.0] {
         let (growth, frequency) = lateral::reference(activity)?;
-        for &(nodes, cells) in
-            &[(64, 256), (96, 384), (96, 768), (128, 512), (192, 768)][..if quick { 2 } else { 5 }]
-        {
+        for &(nodes, cells) in &[(64, 256), (96, 384), (96, 768), (128, 512), (192, 768)][..if quick { 2 } else { 5 }] {
             let droplets = vec![DropletSetup { centre: [0.0, 1e-3], ..DropletSetup::active(activity) }];
             let setup = Setup { region: open_channel(12.0, 5.0), droplets, ..without_grid(nodes, cells) };
             let mode = lateral::mode(&setup, 40.0, 100.0)?;
@@ -267,9 +260,7 @@ pub(crate) fn cost(quick: bool) -> Tables {
             rows.push((name, error, clock.elapsed().as_secs_f64(), steps));
             Ok(())
         };
-        for (nodes, cells) in
-            [(24, 96), (32, 128), (48, 192), (64, 256), (96, 384), (128, 512), (192, 768)]
-        {
+        for (nodes, cells) in [(24, 96), (32, 128), (48, 192), (64, 256), (96, 384), (128, 512), (192, 768)] {
             push(format!("without a grid, {nodes} nodes, {cells} cells"), &|| {
                 let errors = steady(&reference(without_grid(nodes, cells), activity), 60.0)?;
                 Ok((errors.speed, errors.steps))

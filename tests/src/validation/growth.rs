@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::{
-    ActiveDroplet, ContractileTension, Curve, Motion, NoExcludedVolume,
+    ActiveDroplet, ContractileTension, Curve, ExcludedVolume, Motion,
     curve::polygon_moments,
     theory::{LinearTheory, RoundDroplet},
 };
@@ -169,13 +169,13 @@ fn perturbed(setup: &Setup, mode: Mode, epsilon: f64) -> Result<ActiveDroplet, S
             particles.concentration * curve.perimeter() / TAU * (b - a + wave)
         })
         .collect();
-    let law = ContractileTension::new(droplet.tension, particles.activity, NoExcludedVolume)?;
+    let law = ContractileTension::new(droplet.tension, particles.activity, ExcludedVolume::None)?;
     let made = ActiveDroplet::new(&curve.markers(count)?, numbers, law, particles.diffusion)?
         .with_motion(match droplet.motion {
             MarkerMotion::WithFluid => Motion::WithFluid,
             MarkerMotion::Equidistributed { relaxation } => Motion::Equidistributed { relaxation, filter: true },
         })
-        .with_flux(particles.flux)?
+        .with_flux(particles.flux)
         .with_area_constraint(droplet.area_constraint);
     Ok(match droplet.viscosity {
         Some(inside) => made.with_viscosity_inside(inside)?,

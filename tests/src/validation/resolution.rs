@@ -60,5 +60,5 @@ pub fn marker_spacing(ds: f64) -> Result<MarkerSpacing, StudyError> {
     let speed = scene.observe(droplets[0])?.speed();
     let droplet = scene.body(droplets[0])?;
     let warned = droplet.warnings().iter().any(|warning| matches!(warning, DropletWarning::CellPeclet { .. }));
-    Ok(MarkerSpacing { speed, peclet: droplet.cell_peclet()?, warned })
+    Ok(MarkerSpacing { speed, peclet: droplet.cell_peclet(), warned })
 }

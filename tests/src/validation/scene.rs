@@ -1,10 +1,8 @@
 //! Scenes that the studies start from.
 
-use motile::boundary_integral::{BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, Settings};
+use motile::boundary_integral::{self, BoundaryIntegral, Settings, forcing};
 use motile::ib_core::SmearedContrast;
-use motile::setup::{
-    AnyFlow, Contrast, Exclusion, GridMethod, IntegralMethod, Method, Region, Setup,
-};
+use motile::setup::{AnyFlow, Contrast, Exclusion, GridMethod, IntegralMethod, Method, Region, Setup};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
 
 use crate::validation::StudyError;
@@ -45,14 +43,15 @@ pub fn open_channel(length: f64, width: f64) -> Region {
 pub fn flow(region: Region, method: Method, viscosity: f64, tolerance: f64) -> Result<AnyFlow, StudyError> {
     match method {
         Method::Integral(IntegralMethod { nodes, .. }) => {
-            let settings = Settings { nodes, tolerance, ..Settings::default() };
-            match region {
-                Region::Plane => integrals(FreeSpace, viscosity, settings),
-                Region::Box { lengths: [lx, ly] } => integrals(PeriodicBox::new(lx, ly)?, viscosity, settings),
+            let region = match region {
+                Region::Plane => boundary_integral::Region::Plane,
+                Region::Box { lengths } => boundary_integral::Region::Box { lengths },
                 Region::Channel { length, width, drive } => {
-                    integrals(Channel::new(length, width)?.with_drive(drive)?, viscosity, settings)
+                    boundary_integral::Region::Channel { length, width, forcing: forcing(drive) }
                 }
-            }
+            };
+            let settings = Settings { nodes, tolerance, ..Settings::default() };
+            Ok(Box::new(BoundaryIntegral::new(region, viscosity, settings)?))
         }
         Method::Grid(GridMethod { spacing, kernel, contrast: Contrast::Arithmetic, .. }) => {
             let [nx, ny] = region.lengths().map(|length| (length / spacing).round() as usize);
@@ -66,8 +65,4 @@ pub fn flow(region: Region, method: Method, viscosity: f64, tolerance: f64) -> R
         }
         Method::Grid(_) => Ok(Setup { region, method, viscosity, droplets: Vec::new(), ..Setup::default() }.flow()?),
     }
-}
-
-fn integrals<D: FluidDomain + 'static>(domain: D, viscosity: f64, settings: Settings) -> Result<AnyFlow, StudyError> {
-    Ok(Box::new(BoundaryIntegral::new(domain, viscosity, settings)?))
 }

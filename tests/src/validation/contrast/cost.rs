@@ -43,10 +43,8 @@ impl CostScene {
     /// # Errors
     /// What an evaluation can fail with.
     pub fn cost(&self) -> Result<Cost, StudyError> {
-        let region =
-            if self.solid_points == 0 { Region::Box { lengths: [6.0; 2] } } else { open_channel(12.0, 6.0) };
-        let mut flow =
-            if self.smeared { smeared(region, self.h, 1e-4)? } else { sharp(region, self.h)? };
+        let region = if self.solid_points == 0 { Region::Box { lengths: [6.0; 2] } } else { open_channel(12.0, 6.0) };
+        let mut flow = if self.smeared { smeared(region, self.h, 1e-4)? } else { sharp(region, self.h)? };
         let mut markers = Markers::new();
         Droplet::circle(1, self.ratio).at(0.01, 0.013).push_even(0.5 * self.h, &mut markers)?;
         let droplet = markers.len();

@@ -76,12 +76,7 @@ pub fn exact_flow(region: Region, droplet: &Droplet, points: &[Vec2]) -> Result<
     Ok(exact_samples(region, droplet, points)?.0.into_iter().map(|sample| sample.velocity).collect())
 }
 
-fn sample(
-    mut flow: AnyFlow,
-    markers: &mut Markers,
-    points: &[Vec2],
-    out: &mut [FlowSample],
-) -> Result<(), StudyError> {
+fn sample(mut flow: AnyFlow, markers: &mut Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), StudyError> {
     flow.velocities(markers)?;
     flow.sample(markers, points, out)?;
     Ok(())

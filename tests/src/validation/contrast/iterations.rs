@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
 use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Scene, StepSize, Vec2};
-use motile::setup::{DropletSetup, GridMethod, Method, Particles, Setup};
 use motile::setup::Region;
+use motile::setup::{DropletSetup, GridMethod, Method, Particles, Setup};
 
 use super::smeared;
 use crate::validation::StudyError;
