@@ -111,14 +111,14 @@ fn a_corrected_solid_needs_a_grid() {
 fn growth(solid: Solid, h: f64, steps_over_limit: f64, energy: fn(&Solid) -> f64) -> f64 {
     let mut scene = channel(h);
     let handle = scene.add(solid);
-    let limit = scene.body(handle).unwrap().step_limits(&scene.system().hydrodynamics().medium())[0].dt;
-    let start = energy(scene.body(handle).unwrap());
+    let limit = scene.body(handle).expect("a solid").step_limits(&scene.system().hydrodynamics().medium())[0].dt;
+    let start = energy(scene.body(handle).expect("a solid"));
     for _ in 0..60 {
         if scene.step(steps_over_limit * limit).is_err() {
             return f64::INFINITY;
         }
     }
-    energy(scene.body(handle).unwrap()) / start
+    energy(scene.body(handle).expect("a solid")) / start
 }
 
 #[test]
