@@ -36,7 +36,7 @@ pub enum SolidError {
         /// What it must be above (force per length).
         minimum: f64,
     },
-    /// A deformation that turns the material inside out, flattens it, or is not finite.
+    /// A deformation that inverts the material, flattens it, or is not finite.
     #[error(
         "the deformation gradient [[{a11}, {a12}], [{a21}, {a22}]] has the determinant {jacobian}: it must be positive"
     )]
@@ -296,9 +296,9 @@ pub enum SolidError {
         /// What is wrong with it.
         what: &'static str,
     },
-    /// A triangle turned inside out.
+    /// An inverted triangle.
     #[error(
-        "triangle {triangle} near ({x}, {y}) is turned inside out (area ratio {jacobian}): use a smaller time step or mesh spacing, or stiffer material"
+        "triangle {triangle} near ({x}, {y}) is inverted (area ratio {jacobian}): use a smaller time step or mesh spacing, or stiffer material"
     )]
     Inverted {
         /// Which triangle.
@@ -307,7 +307,7 @@ pub enum SolidError {
         x: f64,
         /// y of its middle (length).
         y: f64,
-        /// Its deformed over its reference area, negative when turned.
+        /// Its deformed over its reference area, negative.
         jacobian: f64,
     },
     /// Points that found no equilibrium.

@@ -164,3 +164,17 @@ fn a_step_allocates_nothing() {
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     assert_eq!(measure(|| (0..5).for_each(|_| scene.step(0.01).unwrap())).count_total, 0);
 }
+
+#[test]
+fn a_scene_tells_what_is_seen_of_a_solid() {
+    let mut scene = channel(0.1);
+    let shear = |s: Vec2| s + Vec2::new(0.1 * (s.y + 0.5 * HEIGHT), 0.0);
+    let handle = scene.add(held(springs(layer(0.5, 0.1))).deformed(shear).expect("positions"));
+    let seen = scene.observe(handle).expect("a solid");
+    assert!((seen.largest_displacement - 0.05).abs() < 1e-12 && seen.largest_normal_displacement < 1e-12);
+    assert!((seen.drift - Vec2::new(0.025, 0.0)).norm() < 1e-12);
+    assert!((seen.smallest_jacobian - 1.0).abs() < 1e-12);
+    // The density of the energy of a simple shear g is mu g^2/2, of springs to third order.
+    let energy = 0.5 * SHEAR * 0.01 * LENGTH * 0.5;
+    assert!((seen.elastic_energy / energy - 1.0).abs() < 0.05, "{} {energy}", seen.elastic_energy);
+}
