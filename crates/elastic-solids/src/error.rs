@@ -167,14 +167,12 @@ pub enum SolidError {
         gap: f64,
     },
     /// A side or curve of an outline without length.
-    #[error("a side of the outline at ({x}, {y}) has the length {length}: points that follow each other must differ")]
+    #[error("a side of the outline at ({x}, {y}) has no length: points that follow each other must differ")]
     NoLength {
         /// x of its start (length).
         x: f64,
         /// y of its start (length).
         y: f64,
-        /// Its length.
-        length: f64,
     },
     /// Corners of a curve that do not increase.
     #[error("corner at {value}: give increasing numbers above {start} and below {end}")]
@@ -332,6 +330,14 @@ pub(crate) fn within(name: &'static str, value: f64, minimum: f64, maximum: f64)
     } else {
         Err(SolidError::OutOfRange { name, value, minimum, maximum })
     }
+}
+
+/// Most points of a mesh or an outline: sizes are bounded before anything is allocated.
+pub(crate) const MOST_POINTS: f64 = 1e6;
+
+/// `value` if it is a length to compute with: positive, and such that its square is neither zero nor infinite.
+pub(crate) fn length(name: &'static str, value: f64) -> Result<f64, SolidError> {
+    within(name, positive(name, value)?, 1e-100, 1e100)
 }
 
 /// `found` if it is at least `minimum`.
