@@ -128,11 +128,11 @@ pub enum BodyError {
         /// What is allowed.
         bound: f64,
     },
-    /// A record of another body, or of one made otherwise.
+    /// The state of another body, or of one made otherwise.
     #[error(
-        "a record of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
+        "a saved state of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
     )]
-    ForeignRecord {
+    ForeignState {
         /// Numbers needed.
         expected: usize,
         /// Numbers found.
@@ -218,6 +218,21 @@ pub enum SceneError {
         reason: &'static str,
         /// Which body.
         body: String,
+    },
+    /// A step size that is a part of the stability limit, where no body states a finite one.
+    #[error(
+        "at time {time} no body states a bound on the time step that a run could take a part of: give the run \
+         `StepSize::Fixed` or `StepSize::Adaptive`, or have a body state one (`Body::step_limits`)"
+    )]
+    NoStepLimit {
+        /// When (time).
+        time: f64,
+    },
+    /// Adaptive steps with an integrator whose errors cannot be estimated.
+    #[error("the error of a step of {integrator} cannot be estimated: use another step size than `StepSize::Adaptive`")]
+    NoErrorEstimate {
+        /// The integrator's name.
+        integrator: &'static str,
     },
     /// Adaptive steps have become shorter than the bound that was set.
     #[error(

@@ -41,6 +41,7 @@
 mod elastic_channel;
 mod method;
 mod recommend;
+pub mod setup;
 mod setup_error;
 mod solid_gap;
 mod swimmer;

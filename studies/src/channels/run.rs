@@ -110,7 +110,7 @@ impl Job {
         swimmer: &Swimmer,
     ) -> Result<Summary> {
         let mut recorder = TrajectoryRecorder::new(droplet);
-        let interval = Every::Time(self.time / 600.0);
+        let interval = Every::StepAfter(self.time / 600.0);
         scene.run(self.time).step_size(swimmer.step).observe(interval, &mut recorder).go()?;
         let Some(last) = recorder.records().last() else { bail!("nothing was measured") };
         let seen = &last.observables;

@@ -178,7 +178,7 @@ impl Job {
 
     fn without_solids<H: Hydrodynamics>(&self, mut scene: Scene<H>, droplet: Handle<ActiveDroplet>) -> Result<Summary> {
         let mut recorder = TrajectoryRecorder::new(droplet);
-        scene.run(self.time).observe(Every::Time(self.time / 300.0), &mut recorder).go()?;
+        scene.run(self.time).observe(Every::StepAfter(self.time / 300.0), &mut recorder).go()?;
         measured(&recorder)
     }
 
@@ -206,8 +206,8 @@ impl Job {
         let mut passage = Passage::new(if self.purpose == Purpose::Passage { 3.0 } else { f64::INFINITY });
         let mut run = scene
             .run(self.time)
-            .observe(Every::Time(self.time / 300.0), &mut recorder)
-            .observe(Every::Time(self.time / 300.0), &mut history)
+            .observe(Every::StepAfter(self.time / 300.0), &mut recorder)
+            .observe(Every::StepAfter(self.time / 300.0), &mut history)
             .observe(Every::Steps(1), &mut gap);
         if self.purpose == Purpose::Passage {
             run = run.observe(Every::Steps(1), &mut passage);

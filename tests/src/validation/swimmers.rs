@@ -185,7 +185,7 @@ pub fn long_run(swimmer: &Swimmer, time: f64) -> Result<LongRun, StudyError> {
         records.push((system.time(), system.observe(droplet)?));
         Ok(())
     };
-    scene.run(time).observe(Every::Time(0.5), &mut watch).go()?;
+    scene.run(time).observe(Every::StepAfter(0.5), &mut watch).go()?;
     let late: Vec<_> = records.iter().filter(|(t, _)| *t >= 0.5 * time).collect();
     let (Some((t0, first)), Some((t1, last)), Some((_, start))) = (late.first(), late.last(), records.first()) else {
         return Err(StudyError::Reference("a run without records".to_owned()));

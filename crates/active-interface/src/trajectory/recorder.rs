@@ -51,7 +51,7 @@ impl TrajectoryRecord {
 /// use ib_core::Every;
 ///
 /// let mut recorder = TrajectoryRecorder::new(droplet);
-/// scene.run(500.0).observe(Every::Time(0.5), &mut recorder).go()?;
+/// scene.run(500.0).observe(Every::StepAfter(0.5), &mut recorder).go()?;
 /// let report = recorder.regime(&RegimeCriteria::default())?;
 /// println!("{}, amplitude {}", report.regime, report.evidence.amplitude);
 /// println!("closest to a wall: {:?}", recorder.minimum_gap());

@@ -1,6 +1,6 @@
 //! The solid as a body of a scene.
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepLimit, StepLimits, Vec2};
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, SavedState, StepLimit, StepLimits, Vec2};
 
 use crate::solid::surface_correction::SurfaceCorrection;
 use crate::{Solid, SolidError};
@@ -99,24 +99,24 @@ impl Body for Solid {
     }
 
     /// All points, pinned ones too, and the tethers.
-    fn save(&self) -> Record {
+    fn save(&self) -> SavedState {
         let mut reals: Vec<f64> = self.positions.iter().flat_map(|place| [place.x, place.y]).collect();
         reals.extend(self.tethers.iter().flat_map(|tether| [tether.anchor.x, tether.anchor.y, tether.stiffness]));
         let counts = vec![self.positions.len() as u64, self.tethers.len() as u64];
-        Record { reals, counts }
+        SavedState { reals, counts }
     }
 
-    fn load(&mut self, _medium: &Medium, record: &Record) -> Result<(), BodyError> {
-        let [points, tethers] = record.counts_of("an elastic solid")?;
-        let (split, found) = (2 * self.positions.len(), record.reals.len());
+    fn load(&mut self, _medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
+        let [points, tethers] = saved.counts_of("an elastic solid")?;
+        let (split, found) = (2 * self.positions.len(), saved.reals.len());
         let expected = split + 3 * self.tethers.len();
         if [points, tethers] != [self.positions.len() as u64, self.tethers.len() as u64] || expected != found {
-            return Err(BodyError::ForeignRecord { expected, found });
+            return Err(BodyError::ForeignState { expected, found });
         }
-        if let Some(index) = record.reals.iter().position(|value| !value.is_finite()) {
-            return Err(BodyError::NonFinite { what: "entry of the record", index, value: record.reals[index] });
+        if let Some(index) = saved.reals.iter().position(|value| !value.is_finite()) {
+            return Err(BodyError::NonFinite { what: "entry of the saved state", index, value: saved.reals[index] });
         }
-        let (positions, numbers) = record.reals.split_at(split);
+        let (positions, numbers) = saved.reals.split_at(split);
         for (place, pair) in self.positions.iter_mut().zip(positions.chunks_exact(2)) {
             *place = Vec2::new(pair[0], pair[1]);
         }

@@ -38,7 +38,7 @@ pub fn turning(swimmer: &Swimmer, time: f64) -> Result<Turning, StudyError> {
         records.push((system.time(), system.observe(droplet)?));
         Ok(())
     };
-    scene.run(time).observe(Every::Time(0.5), &mut watch).go()?;
+    scene.run(time).observe(Every::StepAfter(0.5), &mut watch).go()?;
     debug_assert_eq!(scene.system().hydrodynamics().work().stokes_solves, 0);
     let late: Vec<_> = records.iter().filter(|(t, _)| *t >= 0.5 * time).collect();
     let (Some((t0, first)), Some((t1, last)), Some((_, start))) = (late.first(), late.last(), records.first()) else {

@@ -30,19 +30,40 @@ where
 pub enum Every {
     /// After every n steps (0 counts as 1).
     Steps(usize),
-    /// At the end of the first step that reaches a multiple of this time.
+    /// At all multiples of this time, counted from the start of the run, exactly: steps are shortened to end there as
+    /// they are at the end of a run. At most ten million of them a run.
     Time(f64),
+    /// At the end of the first step that reaches a multiple of this time, counted from the start of the run; no step is
+    /// shortened for it.
+    StepAfter(f64),
 }
 
 struct Watch<'a, H> {
     every: Every,
-    due: f64,
+    /// Multiples of the interval that have been reached since the start of the run.
+    reached: f64,
     observer: &'a mut dyn Observer<H>,
+}
+
+/// Most reports of an observer at exact times.
+const MOST_REPORTS: f64 = 1e7;
+/// What of an interval is round-off of the summed steps.
+const NEGLIGIBLE: f64 = 1e-9;
+
+impl Every {
+    /// How many whole intervals have gone by at `elapsed` (time) since the start.
+    fn reached(self, elapsed: f64) -> f64 {
+        match self {
+            Self::Steps(_) => 0.0,
+            Self::Time(interval) | Self::StepAfter(interval) => (elapsed / interval + NEGLIGIBLE).floor(),
+        }
+    }
 }
 
 /// A run being set up; see [`Scene::run`].
 pub struct Run<'a, H, I> {
     scene: &'a mut Scene<H, I>,
+    start: f64,
     until: f64,
     step: StepSize,
     least: Option<f64>,
@@ -74,8 +95,8 @@ const LEAST: f64 = 1e-6;
 
 impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     pub(crate) fn new(scene: &'a mut Scene<H, I>, until: f64) -> Self {
-        let step = scene.step_size();
-        Self { scene, until, step, least: None, most: usize::MAX, watches: Vec::new(), saver: None, stop: None }
+        let (start, step) = (scene.time(), scene.step_size());
+        Self { scene, start, until, step, least: None, most: usize::MAX, watches: Vec::new(), saver: None, stop: None }
     }
 
     /// Sets the time step (default: the scene's, [`Scene::step_size`]).
@@ -118,7 +139,7 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     /// Adds an observer.
     #[must_use]
     pub fn observe(mut self, every: Every, observer: &'a mut dyn Observer<H>) -> Self {
-        self.watches.push(Watch { every, due: 0.0, observer });
+        self.watches.push(Watch { every, reached: 0.0, observer });
         self
     }
 
@@ -129,18 +150,11 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     /// [`Scene::step`]; those of observers.
     pub fn go(mut self) -> Result<(), SceneError> {
         self.check()?;
-        let start = self.scene.time();
-        for watch in &mut self.watches {
-            if let Every::Time(interval) = watch.every {
-                watch.due = start + interval;
-            }
-        }
+        self.start = self.scene.time();
         self.notify(true)?;
-        let least = self.least.or_else(|| self.scene.step_limit().map(|(limit, ..)| LEAST * limit)).unwrap_or(0.0);
-        // A remainder below this is round-off of the summed steps.
-        let negligible = 1e-9 * self.until.abs().max(f64::MIN_POSITIVE);
+        let least = self.least.unwrap_or_else(|| LEAST * self.limit().map_or(self.until - self.start, |(dt, ..)| dt));
         let mut taken = 0_usize;
-        while self.until - self.scene.time() > negligible {
+        while self.until - self.scene.time() > self.negligible() {
             if taken >= self.most {
                 return Err(SceneError::TooManySteps { time: self.scene.time(), most: self.most });
             }
@@ -165,9 +179,10 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     fn advance(&mut self, least: f64) -> Result<(), SceneError> {
         let mut cause = None;
         loop {
-            let (wanted, reason, body) = self.length()?;
             let time = self.scene.time();
-            let remaining = self.until - time;
+            let goal = self.goal();
+            let remaining = goal - time;
+            let (wanted, reason, body) = self.length(remaining)?;
             // The last two steps share what is left, so that none is tiny.
             let dt = if remaining <= wanted * (1.0 + 1e-9) {
                 remaining
@@ -182,6 +197,7 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
             let Some(tolerance) = self.tolerance() else {
                 self.scene.step(dt)?;
                 self.scene.report.count(dt, dt < wanted, reason, &body);
+                self.arrive(dt, remaining, goal);
                 return Ok(());
             };
             match self.scene.attempt(dt, Some(tolerance)) {
@@ -190,10 +206,11 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
                     let next = self.scene.control.next;
                     if self.scene.control.judge(dt, error) {
                         if shortened {
-                            // The end of the run says nothing about the steps that another run goes on with.
+                            // Where a step has to end says nothing about the steps that follow.
                             self.scene.control.next = next.max(self.scene.control.next);
                         }
                         self.scene.report.count(dt, shortened, reason, &body);
+                        self.arrive(dt, remaining, goal);
                         return Ok(());
                     }
                     self.scene.report.rejections += 1;
@@ -218,18 +235,48 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         }
     }
 
-    /// The length of the next step (time) but for the end of the run, what sets it, and of which body.
-    fn length(&mut self) -> Result<(f64, &'static str, String), SceneError> {
-        let remaining = self.until - self.scene.time();
-        let nothing = || (remaining, "the end of the run", String::new());
+    /// A remainder of the run below this is round-off of the summed steps (time).
+    fn negligible(&self) -> f64 {
+        NEGLIGIBLE * self.until.abs().max(f64::MIN_POSITIVE)
+    }
+
+    /// The next time that a step has to end at: that of a report or the end of the run.
+    fn goal(&self) -> f64 {
+        let due = self.watches.iter().filter_map(|watch| match watch.every {
+            Every::Time(interval) => Some(self.start + (watch.reached + 1.0) * interval),
+            Every::Steps(_) | Every::StepAfter(_) => None,
+        });
+        let next = due.fold(f64::INFINITY, f64::min);
+        if next < self.until - self.negligible() { next } else { self.until }
+    }
+
+    /// A step of length `dt` that had to take `remaining` ends at `goal`, without round-off.
+    fn arrive(&mut self, dt: f64, remaining: f64, goal: f64) {
+        if dt == remaining {
+            self.scene.system_mut().set_time(goal);
+        }
+    }
+
+    /// The bound on the next step (time), what sets it, and of which body; `None` where there is none.
+    fn limit(&self) -> Option<(f64, &'static str, String)> {
+        let limit = self.scene.step_limit().filter(|(dt, ..)| !dt.is_infinite());
+        limit.map(|(dt, reason, body)| (dt, reason, body.to_owned()))
+    }
+
+    /// The length of the next step (time) if it need not end after `remaining`, what sets it, and of which body.
+    fn length(&mut self, remaining: f64) -> Result<(f64, &'static str, String), SceneError> {
         if let StepSize::Fixed(dt) = self.step {
             self.scene.check_step(dt)?;
             return Ok((dt, "the run", String::new()));
         }
-        let limit = self.scene.step_limit().filter(|(dt, ..)| !dt.is_infinite());
-        let limit = limit.map(|(dt, reason, body)| (dt, reason, body.to_owned()));
         let part = if let StepSize::OfLimit(fraction) = self.step { fraction } else { OF_LIMIT };
-        let stable = limit.map_or_else(nothing, |(dt, reason, body)| (part * dt, reason, body));
+        let stable = match self.limit() {
+            Some((dt, reason, body)) => (part * dt, reason, body),
+            None => {
+                self.check_limit()?;
+                (remaining, "the end of the run", String::new())
+            }
+        };
         if self.tolerance().is_some() {
             let control = &mut self.scene.control;
             if control.next <= 0.0 {
@@ -258,12 +305,22 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
             });
         }
         for watch in &self.watches {
-            if let Every::Time(value) = watch.every
+            let name = "the interval of an observer";
+            if let Every::Time(value) | Every::StepAfter(value) = watch.every
                 && !(value.is_finite() && value > 0.0)
             {
-                let remedy = "a positive finite number";
-                return Err(SceneError::Time { name: "the interval of an observer", value, remedy });
+                return Err(SceneError::Time { name, value, remedy: "a positive finite number" });
             }
+            if let Every::Time(value) = watch.every
+                && (self.until - time) / value > MOST_REPORTS
+            {
+                let remedy = "at least a ten-millionth of the time of the run, or `Every::StepAfter`";
+                return Err(SceneError::Time { name, value, remedy });
+            }
+        }
+        if self.tolerance().is_some() && self.scene.integrator().error_constant().is_none() {
+            let integrator = self.scene.integrator().name();
+            return Err(SceneError::NoErrorEstimate { integrator });
         }
         match self.step {
             StepSize::Fixed(dt) => self.scene.check_step(dt),
@@ -275,24 +332,30 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
                 let remedy = "a number above 0 and below 1";
                 Err(SceneError::Time { name: "the tolerance of the steps", value: tolerance, remedy })
             }
-            StepSize::OfLimit(_) | StepSize::Adaptive { .. } => Ok(()),
+            StepSize::OfLimit(_) | StepSize::Adaptive { .. } => self.check_limit(),
         }
+    }
+
+    /// Refuses a step size that is a part of the stability limit where nothing that moves has one.
+    fn check_limit(&self) -> Result<(), SceneError> {
+        let moves = self.scene.system().state_len() > 0;
+        if matches!(self.step, StepSize::OfLimit(_)) && moves && self.limit().is_none() {
+            return Err(SceneError::NoStepLimit { time: self.scene.time() });
+        }
+        Ok(())
     }
 
     fn notify(&mut self, first: bool) -> Result<(), SceneError> {
         let (time, steps) = (self.scene.time(), self.scene.steps());
-        let last = self.until - time <= 1e-9 * self.until.abs();
+        let last = self.until - time <= self.negligible();
         for watch in &mut self.watches {
+            let reached = watch.every.reached(time - self.start);
             let due = match watch.every {
                 Every::Steps(n) => steps.is_multiple_of(n.max(1)),
-                Every::Time(interval) => {
-                    let due = time >= watch.due - 1e-9 * interval;
-                    while due && watch.due <= time + 1e-9 * interval {
-                        watch.due += interval;
-                    }
-                    due
-                }
+                // An interval too short to be counted is over at any time.
+                Every::Time(_) | Every::StepAfter(_) => reached > watch.reached || reached.is_infinite(),
             };
+            watch.reached = reached;
             if due || first || last {
                 watch
                     .observer
@@ -303,3 +366,6 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

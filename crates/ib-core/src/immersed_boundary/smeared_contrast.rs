@@ -4,7 +4,7 @@ use stokes_grid::{CentreField, Grid, NodeField, RealFft2, StaggeredField, Stokes
 
 use crate::contrast::other_viscosity;
 use crate::{
-    FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Medium, Record,
+    FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Medium, SavedState,
     Transfer, Vec2,
 };
 
@@ -196,21 +196,21 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
         self.flow.work()
     }
 
-    fn save(&self) -> Record {
-        let mut record = Record::default();
+    fn save(&self) -> SavedState {
+        let mut saved = SavedState::default();
         for solution in self.flow.solver().solutions() {
-            record.reals.extend_from_slice(solution.x());
-            record.reals.extend_from_slice(solution.y());
-            record.counts.push(solution.x().len() as u64);
+            saved.reals.extend_from_slice(solution.x());
+            saved.reals.extend_from_slice(solution.y());
+            saved.counts.push(solution.x().len() as u64);
         }
-        record
+        saved
     }
 
-    fn load(&mut self, record: &Record) {
+    fn load(&mut self, saved: &SavedState) {
         let grid = *self.centres.grid();
-        let mut values = record.reals.as_slice();
+        let mut values = saved.reals.as_slice();
         let mut solutions = Vec::new();
-        for _ in 0..record.counts.len().min(2) {
+        for _ in 0..saved.counts.len().min(2) {
             let mut solution = StaggeredField::zeros(grid);
             let (x, y) = solution.components_mut();
             if values.len() < x.len() + y.len() {

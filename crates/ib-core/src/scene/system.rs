@@ -7,11 +7,11 @@ mod state;
 
 pub use bodies::BodyFlow;
 
-use crate::contact::{ContactFinder, Gap};
-use crate::scene::SceneId;
+use super::SceneId;
+use crate::gap::{ContactFinder, Gap};
 use crate::{
-    Body, BodyError, FlowReport, FlowSample, Handle, Hydrodynamics, Markers, Record, Repulsion, SceneError, StepInfo,
-    StepLimit, Vec2,
+    Body, BodyError, FlowReport, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SavedState, SceneError,
+    StepInfo, StepLimit, Vec2,
 };
 use forces::write_forces;
 
@@ -81,6 +81,11 @@ impl<H: Hydrodynamics> System<H> {
         self.steps
     }
 
+    /// Takes the round-off of summed steps off the time.
+    pub(crate) fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
     /// A step is over and stays.
     pub(crate) fn commit(&mut self, dt: f64) {
         self.time += dt;
@@ -120,8 +125,8 @@ impl<H: Hydrodynamics> System<H> {
     /// Takes over the state of a checkpoint.
     pub(crate) fn load<'a>(
         &mut self,
-        bodies: impl Iterator<Item = &'a Record>,
-        flow: &Record,
+        bodies: impl Iterator<Item = &'a SavedState>,
+        flow: &SavedState,
         time: f64,
         steps: usize,
         [minimum_wall_gap, minimum_gap]: [Option<f64>; 2],
@@ -129,8 +134,8 @@ impl<H: Hydrodynamics> System<H> {
         self.current = false;
         self.hydrodynamics.load(flow);
         let medium = self.hydrodynamics.medium();
-        for (body, record) in self.bodies.iter_mut().zip(bodies) {
-            body.load(&medium, record).map_err(|source| body_error(time, body.as_ref(), source))?;
+        for (body, saved) in self.bodies.iter_mut().zip(bodies) {
+            body.load(&medium, saved).map_err(|source| body_error(time, body.as_ref(), source))?;
         }
         (self.time, self.steps) = (time, steps);
         (self.minimum_wall_gap, self.minimum_gap) = (minimum_wall_gap, minimum_gap);
@@ -141,7 +146,7 @@ impl<H: Hydrodynamics> System<H> {
     /// Takes over velocities that were computed at the present state, if there is one for each marker.
     pub(crate) fn take_flow(
         &mut self,
-        flow: &Record,
+        flow: &SavedState,
         velocities: impl ExactSizeIterator<Item = Vec2>,
         report: FlowReport,
     ) -> Result<(), SceneError> {

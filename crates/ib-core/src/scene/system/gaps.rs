@@ -1,7 +1,7 @@
 //! How near the bodies come to one another and to walls.
 
 use super::System;
-use crate::contact::Gap;
+use crate::gap::Gap;
 use crate::{Hydrodynamics, MarkerKind, Medium, Repulsion, SceneError, Vec2, wall_gap};
 
 /// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the

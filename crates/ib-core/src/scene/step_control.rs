@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::Record;
+use crate::SavedState;
 
 /// How long the steps of a run are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,7 +49,8 @@ pub struct StepReport {
     pub rejections: usize,
     /// Steps taken back because something went wrong in them, and taken anew with a shorter one.
     pub failures: usize,
-    /// The shortest step but the last one of a run, whose length its end sets (time; infinite before any).
+    /// The shortest step but for those that end a run or end at an exact report, which may be of any length (time;
+    /// infinite before any).
     pub shortest: f64,
     /// The longest step (time).
     pub longest: f64,
@@ -64,13 +65,13 @@ impl StepReport {
         self.limiting.iter().max_by_key(|limiting| limiting.steps)
     }
 
-    pub(crate) fn count(&mut self, dt: f64, last: bool, reason: &str, body: &str) {
+    pub(crate) fn count(&mut self, dt: f64, shortened: bool, reason: &str, body: &str) {
         if self.steps == 0 {
             self.shortest = f64::INFINITY;
         }
         self.steps += 1;
         self.longest = self.longest.max(dt);
-        if !last {
+        if !shortened {
             self.shortest = self.shortest.min(dt);
         }
         match self.limiting.iter_mut().find(|limiting| limiting.reason == reason && limiting.body == body) {
@@ -129,13 +130,13 @@ impl StepControl {
         self.retreated = true;
     }
 
-    pub(crate) fn save(&self, record: &mut Record) {
-        record.reals.extend([self.next, self.last[0], self.last[1]]);
-        record.counts.push(u64::from(self.retreated));
+    pub(crate) fn save(&self, saved: &mut SavedState) {
+        saved.reals.extend([self.next, self.last[0], self.last[1]]);
+        saved.counts.push(u64::from(self.retreated));
     }
 
-    pub(crate) fn load(record: &Record) -> Option<Self> {
-        match (record.reals.as_slice(), record.counts.as_slice()) {
+    pub(crate) fn load(saved: &SavedState) -> Option<Self> {
+        match (saved.reals.as_slice(), saved.counts.as_slice()) {
             (&[next, dt, error], &[retreated]) => Some(Self { next, last: [dt, error], retreated: retreated == 1 }),
             _ => None,
         }

@@ -2,9 +2,11 @@
 
 mod boundary;
 mod repulsion;
+mod wall_gap;
 
 pub use boundary::Boundary;
 pub use repulsion::Repulsion;
+pub use wall_gap::wall_gap;
 
 use crate::{Body, Domain, MarkerKind, Vec2};
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fourier::{ComplexTransform, RealTransform};
 use num_complex::Complex;
 
-use crate::mobility::{MobilityDeficit, normal_taper};
+use super::{MobilityDeficit, normal_taper};
 use crate::{FlowError, Vec2};
 
 /// The mobility correction of an interface, which turns the first-order error of its velocity into a second-order one
