@@ -44,7 +44,7 @@ pub enum Ending {
     BeyondWall,
     /// Area or particles changed too much.
     NotConserved,
-    /// A triangle turned inside out.
+    /// An inverted triangle.
     Inverted,
     /// Values that are not finite.
     NonFinite,
