@@ -10,13 +10,13 @@
 
 use std::process::ExitCode;
 
-use anyhow::{Result, ensure};
+use anyhow::{Context, Result, ensure};
 use clap::{Parser, ValueEnum};
 use motile::active_interface::{ActiveDroplet, curve::polygon_moments, observables::centroid_velocity};
-use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
+use motile::ib_core::{Body, Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
 use motile::{AnyFlow, Swimmer};
 use motile_examples::{DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say};
-use motile_output::{Progress, Trajectory, write_scene_picture};
+use motile_output::{CsvTable, Look, RunProgress, Snapshot};
 
 /// How the droplets start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -109,17 +109,12 @@ fn meet(flags: &Flags) -> Result<()> {
     flags.output.checkpoints.resume(&mut scene, &description, end)?;
     let directory = flags.output.directory("two_droplets")?;
     let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
-    let mut table = Trajectory::create(&directory.join("trajectory.csv"), &names)?;
-    let mut progress = Progress::new(end, flags.output.quiet);
-    let mut record = |system: &mut System<AnyFlow>| table.push(&look(system, droplets)?);
-    let mut tell = |system: &mut System<AnyFlow>| -> Result<()> {
-        let [_, _, _, speed, ..] = look(system, droplets)?;
-        progress.update(system.time(), system.steps(), speed);
-        Ok(())
-    };
-    let run = scene.run(end).observe(Every::Time(end / ROWS), &mut record).observe(Every::Steps(1), &mut tell);
+    let mut table = CsvTable::create(directory.join("trajectory.csv"), &names)?;
+    let mut progress = RunProgress::new(end, flags.output.quiet);
+    let mut record = |system: &mut System<AnyFlow>| -> Result<()> { Ok(table.push(&look(system, droplets)?)?) };
+    let run = scene.run(end).observe(Every::Time(end / ROWS), &mut record).observe(Every::Steps(1), &mut progress);
     let outcome = flags.output.checkpoints.watch(run, &description)?.go();
-    progress.finish();
+    let seconds = progress.finish();
     flags.output.checkpoints.save(&scene, &description, &outcome)?;
 
     // The results, also of a run that broke off.
@@ -142,14 +137,14 @@ fn meet(flags: &Flags) -> Result<()> {
     }
     summary.put("time", scene.time(), "simulated");
     summary.put("steps", scene.steps(), "");
-    summary.put("seconds", progress.seconds(), "of computation");
+    summary.put("seconds", seconds, "of computation");
     summary.put("failure", outcome.as_ref().err().map(SceneError::explanation), "if the run broke off");
     summary.write(&directory.join("summary.json"))?;
     say(summary.table().trim_end());
     if !flags.output.no_pictures {
-        let title = format!("t = {:.1}", scene.time());
-        let path = directory.join("final.png");
-        write_scene_picture(scene.system_mut(), first.spacing, first.mean_concentration, &title, &path)?;
+        let seen = Snapshot::take(scene.system_mut(), first.spacing)?;
+        let look = Look { concentration: Some(first.mean_concentration), ..Look::default() };
+        look.write_picture(&seen, &[], directory.join("final.png"))?;
     }
     say(format_args!("results in {}", directory.display()));
     Ok(outcome?)
@@ -161,7 +156,10 @@ fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> R
     let time = system.time();
     system.evaluate()?;
     let mut seen = [(Vec2::zeros(), 0.0); 2];
-    for ((place, speed), (body, droplet)) in seen.iter_mut().zip(motile_output::droplets(system).zip(droplets)) {
+    for ((place, speed), droplet) in seen.iter_mut().zip(droplets) {
+        let bodies: Vec<&dyn Body> = system.bodies().collect();
+        let body: &ActiveDroplet =
+            (bodies[droplet.index()] as &dyn std::any::Any).downcast_ref().context("a droplet")?;
         let state = body.interface_state(system, droplet.index());
         *place = polygon_moments(state.markers)?.centroid;
         *speed = centroid_velocity(state.markers, state.velocities)?.norm();

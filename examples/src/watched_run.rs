@@ -8,14 +8,13 @@ use motile::{
     active_interface::{
         ActiveDroplet,
         observables::{ConcentrationProfile, Frame, concentration_profile},
+        trajectory::TrajectoryRecord,
     },
     ib_core::{Every, Handle, Hydrodynamics, Integrator, Observer, Scene, SceneError, StepSize, System, Vec2},
 };
 
 use crate::{CheckpointFlags, Decided, OutputFlags, RunCost, Steadiness, Summary, droplet_summary, put_solids};
-use motile_output::{
-    Dial, Film, Look, Raster, Recorder, Snapshot, VtkOutput, concentration_plot, domain_raster, time_series,
-};
+use motile_output::{Film, Look, ParaView, RunProgress, Snapshot, TrajectoryCsv, concentration_plot, time_series};
 
 /// Rows of the trajectory and files for ParaView in a run.
 const ROWS: f64 = 1000.0;
@@ -23,8 +22,6 @@ const FILES: f64 = 20.0;
 /// Time between frames of the animation, of which there are some number in this range.
 const FRAME_INTERVAL: f64 = 1.2;
 const FRAMES: [f64; 2] = [50.0, 150.0];
-/// Most cells in a direction of the fields in pictures and files.
-const MOST_CELLS: usize = 512;
 /// Spacing of the fields over that of a grid where there is no grid: there each point costs a sum over the interface.
 const COARSER: f64 = 2.0;
 /// How deep a droplet may come into an elastic solid, in grid spacings, before its run ends with an error.
@@ -63,11 +60,10 @@ pub struct WatchedRun {
     swimmer: Swimmer,
     end: f64,
     directory: PathBuf,
-    raster: Raster,
     start: ConcentrationProfile,
-    recorder: Recorder,
-    dial: Dial,
-    pictures: Option<(Film, VtkOutput)>,
+    recorder: TrajectoryCsv,
+    progress: RunProgress,
+    pictures: Option<(Film, ParaView)>,
     cost: RunCost,
     gap: SolidGap,
     checkpoints: CheckpointFlags,
@@ -96,31 +92,28 @@ impl WatchedRun {
         let body = scene.body(droplet);
         let frame = Frame::new(Vec2::new(swimmer.offset[0], swimmer.offset[1]), swimmer.angle)?;
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
-        let domain = scene.system().hydrodynamics().medium().domain;
-        let raster = domain_raster(&domain, swimmer.spacing, MOST_CELLS)?;
-        let watched = match swimmer.method {
-            Method::BoundaryIntegral => domain_raster(&domain, COARSER * swimmer.spacing, MOST_CELLS)?,
-            Method::ImmersedBoundary => raster,
+        let spacing = match swimmer.method {
+            Method::BoundaryIntegral => COARSER * swimmer.spacing,
+            Method::ImmersedBoundary => swimmer.spacing,
         };
 
         let directory = output.directory(name)?;
-        let recorder = Recorder::create(&directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
+        let recorder = TrajectoryCsv::create(directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
         let pictures = if output.no_pictures {
             None
         } else {
-            let concentration = swimmer.mean_concentration;
-            let look = Look { caption, concentration, walls: domain.walls, streamline_spacing: STREAMLINES };
-            Some((Film::new(look, &watched)?, VtkOutput::create(&directory.join("vtk"), watched, droplet)?))
+            let concentration = Some(swimmer.mean_concentration);
+            let look = Look { caption, concentration, streamline_spacing: Some(STREAMLINES) };
+            Some((Film::new(look, spacing), ParaView::create(directory.join("vtk"), spacing)?))
         };
         Ok(Self {
             droplet,
             swimmer: swimmer.clone(),
             end,
             directory,
-            raster,
             start,
             recorder,
-            dial: Dial::new(end, output.quiet, droplet),
+            progress: RunProgress::new(end, output.quiet),
             pictures,
             cost: RunCost::default(),
             gap: SolidGap::new(SOLID_OVERLAP * swimmer.spacing),
@@ -161,7 +154,7 @@ impl WatchedRun {
             .observe(Every::Time(self.end / ROWS), &mut self.recorder)
             .observe(Every::Steps(1), &mut self.gap)
             .observe(Every::Steps(1), end)
-            .observe(Every::Steps(1), &mut self.dial);
+            .observe(Every::Steps(1), &mut self.progress);
         if let Some((film, vtk)) = &mut self.pictures {
             let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
             run = run.observe(Every::Time(self.end / frames), film).observe(Every::Time(self.end / FILES), vtk);
@@ -174,7 +167,7 @@ impl WatchedRun {
         self.cost = RunCost {
             time: scene.time(),
             steps: scene.steps(),
-            seconds: self.dial.finish(),
+            seconds: self.progress.finish(),
             work: scene.system().hydrodynamics().work(),
             report: scene.step_report().clone(),
             stages: scene.integrator_work().stages,
@@ -187,7 +180,7 @@ impl WatchedRun {
 
     /// What was measured.
     #[must_use]
-    pub fn recorder(&self) -> &Recorder {
+    pub fn recorder(&self) -> &TrajectoryCsv {
         &self.recorder
     }
 
@@ -202,7 +195,7 @@ impl WatchedRun {
     /// # Errors
     /// A run that has not been.
     pub fn summary(&self) -> Result<Summary> {
-        let (first, last) = self.recorder.first().zip(self.recorder.last()).context("nothing was measured")?;
+        let (first, last) = self.records().first().zip(self.records().last()).context("nothing was measured")?;
         let speeds = self.recorder.table().curve("time", "speed")?;
         let steadiness = Steadiness::of(&speeds, self.swimmer.diffusion / self.swimmer.radius.powi(2));
         let mut summary = droplet_summary(
@@ -230,20 +223,22 @@ impl WatchedRun {
     /// # Errors
     /// Files that cannot be written.
     pub fn write_pictures<H: Hydrodynamics, I: Integrator>(&self, scene: &mut Scene<H, I>) -> Result<()> {
-        let (Some((film, _)), Some(last)) = (&self.pictures, self.recorder.last()) else { return Ok(()) };
+        let (Some((film, _)), Some(last)) = (&self.pictures, self.records().last()) else { return Ok(()) };
         let (directory, trajectory) = (&self.directory, self.recorder.table());
         time_series(trajectory)?.write(directory, "time_series")?;
         let body = scene.body(self.droplet);
         let frame = Frame::of_motion(last.observables.centroid, last.observables.velocity)?;
         let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
-        concentration_plot(&self.start, &profile, self.cost.time, self.swimmer.mean_concentration)?
+        concentration_plot(&self.start, &profile, self.cost.time, self.swimmer.mean_concentration)
             .write(directory, "concentration_profile")?;
-        let times = trajectory.column("time")?;
-        let path: Vec<Vec2> = trajectory.curve("x", "y")?.into_iter().map(|(x, y)| Vec2::new(x, y)).collect();
-        let seen = Snapshot::take(scene.system_mut(), self.raster)?;
-        film.look().write_picture(&seen, &path, &directory.join("final.png"))?;
-        let track: Vec<(f64, Vec2)> = times.into_iter().zip(path).collect();
-        film.write(&track, &directory.join("swim.gif"))
+        let tracks = [self.recorder.track()];
+        let seen = Snapshot::take(scene.system_mut(), self.swimmer.spacing)?;
+        film.look().write_picture(&seen, &tracks, directory.join("final.png"))?;
+        Ok(film.write(&tracks, directory.join("swim.gif"))?)
+    }
+
+    fn records(&self) -> &[TrajectoryRecord] {
+        self.recorder.records().records()
     }
 }
 
