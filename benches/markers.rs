@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use motile::Swimmer;
-use motile::elastic_solids::{NeoHookean, Solid, fitted_strip};
+use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
 use motile::ib_core::{AnyKernel, Body, Hydrodynamics, ImmersedBoundary, Transfer, Vec2};
 use motile::stokes_grid::{Grid, PeriodicStokes, StaggeredField};
 use motile_timing::{PlainPair, print_ratios};

@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
-use motile::elastic_solids::Constriction;
+use motile::elastic_solids::channel::Constriction;
 use motile_examples::{
     DropletFlags, ElasticFlags, MethodFlags, OutputFlags, Passage, Preset, SurfaceRule, WatchedRun, caption, positive,
     say, wall_caption,

@@ -10,7 +10,10 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::{Parser, ValueEnum};
 use motile::ElasticChannel;
-use motile::elastic_solids::{BranchingChannel, Channel, Ratchet, SolidError};
+use motile::elastic_solids::{
+    Channel, SolidError,
+    channel::{BranchingChannel, Ratchet},
+};
 use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
 
 /// A channel whose walls are functions of x: bumps below, and a step to a narrower part above.
@@ -75,7 +78,7 @@ fn swim(flags: &Flags) -> Result<()> {
     };
     let (mut scene, droplet, solids) = channel.build_in(&shape)?;
     for solid in &solids {
-        say(format_args!("{}", scene.body(*solid).mesh().quality()));
+        say(format_args!("{}", scene.body(*solid)?.mesh().quality()));
     }
 
     // The run and its results.

@@ -37,7 +37,7 @@ fn swim(flags: &Flags) -> Result<()> {
     let swimmer = &channel.swimmer;
     let (mut scene, droplet, walls) = channel.build()?;
     for wall in &walls {
-        say(format_args!("{}: {}", scene.body(*wall).name(), scene.body(*wall).mesh().quality()));
+        say(format_args!("{}: {}", scene.body(*wall)?.name(), scene.body(*wall)?.mesh().quality()));
     }
 
     // The run, with all that watches it.

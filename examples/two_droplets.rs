@@ -10,10 +10,14 @@
 
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Result, ensure};
 use clap::{Parser, ValueEnum};
-use motile::active_interface::{ActiveDroplet, curve::polygon_moments, observables::centroid_velocity};
-use motile::ib_core::{Body, Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
+use motile::active_interface::{
+    ActiveDroplet,
+    curve::polygon_moments,
+    observables::{InterfaceState, centroid_velocity},
+};
+use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
 use motile::{AnyFlow, Swimmer};
 use motile_examples::{DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say};
 use motile_output::{CsvTable, Look, RunProgress, Snapshot};
@@ -112,7 +116,7 @@ fn meet(flags: &Flags) -> Result<()> {
     let mut table = CsvTable::create(directory.join("trajectory.csv"), &names)?;
     let mut progress = RunProgress::new(end, flags.output.quiet);
     let mut record = |system: &mut System<AnyFlow>| -> Result<()> { Ok(table.push(&look(system, droplets)?)?) };
-    let run = scene.run(end).observe(Every::Time(end / ROWS), &mut record).observe(Every::Steps(1), &mut progress);
+    let run = scene.run(end).observe(Every::StepAfter(end / ROWS), &mut record).observe(Every::Steps(1), &mut progress);
     let outcome = flags.output.checkpoints.watch(run, &description)?.go();
     let seconds = progress.finish();
     flags.output.checkpoints.save(&scene, &description, &outcome)?;
@@ -128,7 +132,7 @@ fn meet(flags: &Flags) -> Result<()> {
     summary.put("minimum_gap", scene.system().minimum_gap(), "between the interfaces, over the run (R0)");
     summary.put("repulsion", flags.repulsion.map(|values| values.to_vec()), "strength and range, if there was one");
     for (name, droplet) in ["first_area_change", "second_area_change"].into_iter().zip(droplets) {
-        let body = scene.body(droplet);
+        let body = scene.body(droplet)?;
         summary.put(
             name,
             polygon_moments(body.markers())?.area / body.initial_area() - 1.0,
@@ -157,10 +161,7 @@ fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> R
     system.evaluate()?;
     let mut seen = [(Vec2::zeros(), 0.0); 2];
     for ((place, speed), droplet) in seen.iter_mut().zip(droplets) {
-        let bodies: Vec<&dyn Body> = system.bodies().collect();
-        let body: &ActiveDroplet =
-            (bodies[droplet.index()] as &dyn std::any::Any).downcast_ref().context("a droplet")?;
-        let state = body.interface_state(system, droplet.index());
+        let state = InterfaceState::of(system, droplet)?;
         *place = polygon_moments(state.markers)?.centroid;
         *speed = centroid_velocity(state.markers, state.velocities)?.norm();
     }

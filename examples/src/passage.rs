@@ -127,7 +127,7 @@ impl Passage {
     }
 
     fn look<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<()> {
-        let droplet: &ActiveDroplet = system.find().context("a scene without a droplet")?;
+        let droplet = system.bodies::<ActiveDroplet>().next().context("a scene without a droplet")?.1;
         let x = polygon_moments(droplet.markers())?.centroid.x;
         // A second look at the same time, where a run starts.
         if self.track.last().is_none_or(|(time, _)| *time < system.time()) {

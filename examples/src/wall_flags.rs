@@ -2,7 +2,8 @@
 
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
-use motile::{ElasticChannel, Swimmer, WallMaterial, WallMesh, WallSurface, elastic_solids::Moduli};
+use motile::elastic_solids::Moduli;
+use motile::{ElasticChannel, Swimmer, WallMaterial, WallMesh, WallSurface};
 
 use crate::flags::RADIUS;
 use crate::method_flags::FlowMethod;

@@ -89,7 +89,7 @@ impl WatchedRun {
         // The time step may change on the way.
         let description = format!("{name}: {:?}", Swimmer { step: StepSize::default(), ..swimmer.clone() });
         output.checkpoints.resume(scene, &description, end)?;
-        let body = scene.body(droplet);
+        let body = scene.body(droplet)?;
         let frame = Frame::new(Vec2::new(swimmer.offset[0], swimmer.offset[1]), swimmer.angle)?;
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
         let spacing = match swimmer.method {
@@ -151,13 +151,14 @@ impl WatchedRun {
         let mut run = scene
             .run(self.end)
             .step_size(self.swimmer.step)
-            .observe(Every::Time(self.end / ROWS), &mut self.recorder)
+            .observe(Every::StepAfter(self.end / ROWS), &mut self.recorder)
             .observe(Every::Steps(1), &mut self.gap)
             .observe(Every::Steps(1), end)
             .observe(Every::Steps(1), &mut self.progress);
         if let Some((film, vtk)) = &mut self.pictures {
             let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
-            run = run.observe(Every::Time(self.end / frames), film).observe(Every::Time(self.end / FILES), vtk);
+            run =
+                run.observe(Every::StepAfter(self.end / frames), film).observe(Every::StepAfter(self.end / FILES), vtk);
         }
         let run = self.checkpoints.watch(run, &self.description)?;
         let outcome = match run.go() {
@@ -226,7 +227,7 @@ impl WatchedRun {
         let (Some((film, _)), Some(last)) = (&self.pictures, self.records().last()) else { return Ok(()) };
         let (directory, trajectory) = (&self.directory, self.recorder.table());
         time_series(trajectory)?.write(directory, "time_series")?;
-        let body = scene.body(self.droplet);
+        let body = scene.body(self.droplet)?;
         let frame = Frame::of_motion(last.observables.centroid, last.observables.velocity)?;
         let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
         concentration_plot(&self.start, &profile, self.cost.time, self.swimmer.mean_concentration)

@@ -3,7 +3,7 @@
 
 use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
 use clap::Parser;
-use elastic_solids::GmshMesh;
+use elastic_solids::mesh::GmshMesh;
 use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
 use stokes_grid::{Grid, PeriodicStokes};
 use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, OutputFlags};
@@ -111,7 +111,7 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
             files.clone().into_iter().chain(contents).collect()
         }
         "gmsh" => {
-            let strip = |columns, rows| elastic_solids::equilateral_block(ib_core::Vec2::zeros(), columns, rows, 0.5);
+            let strip = |columns, rows| elastic_solids::mesh::equilateral_block(ib_core::Vec2::zeros(), columns, rows, 0.5);
             [strip(2, 2), strip(4, 3)].into_iter().flatten().flat_map(|mesh| GmshMesh { mesh, groups: Vec::new() }.to_text()).map(String::into_bytes).collect()
         }
         _ => [

@@ -63,7 +63,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     say(format_args!("{} x {} cells, {} markers", cells[0], cells[1], markers.len()));
     median("elastic forces", &mut || {
         for wall in &walls {
-            let wall = scene.body_mut(*wall);
+            let wall = scene.body_mut(*wall)?;
             let count = wall.marker_count();
             wall.write_forces(&medium, &mut forces[..count])?;
         }

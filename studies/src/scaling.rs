@@ -12,7 +12,7 @@ use std::time::Duration;
 use allocation_counter::measure;
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::elastic_solids::{Solid, fitted_strip};
+use motile::elastic_solids::{Solid, mesh::fitted_strip};
 use motile::ib_core::{Body, CubicQuadratic, Hydrodynamics, ImmersedBoundary, Transfer, Vec2};
 use motile::stokes_grid::{Grid, PeriodicStokes, StaggeredField, StokesSolver};
 use motile_examples::{positive, say};

@@ -106,7 +106,7 @@ fn timed<H: Hydrodynamics, I: Integrator>(
     scene.run(until).step_size(step).go()?;
     let report = scene.step_report();
     Ok(Cost {
-        markers: scene.body(droplet).markers().to_vec(),
+        markers: scene.body(droplet)?.markers().to_vec(),
         steps: scene.steps(),
         taken_back: report.rejections + report.failures,
         evaluations: scene.system().hydrodynamics().work().evaluations,
@@ -163,13 +163,13 @@ const REFERENCE: f64 = 0.125;
 /// Whether `steps` steps of `dt` from a slightly rough start stay bounded.
 fn is_stable<I: Integrator>(integrator: I, dt: f64, steps: usize) -> Result<bool> {
     let (mut scene, droplet) = channel(integrator, 0.0)?;
-    let start = scene.body(droplet).markers().to_vec();
+    let start = scene.body(droplet)?.markers().to_vec();
     for _ in 0..steps {
         if scene.step(dt).is_err() {
             return Ok(false);
         }
     }
-    let moved = scene.body(droplet).markers().iter().zip(&start).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let moved = scene.body(droplet)?.markers().iter().zip(&start).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
     Ok(moved < 0.5)
 }
 

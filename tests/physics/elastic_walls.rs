@@ -27,7 +27,7 @@ fn rigid(activity: f64, width: f64) -> f64 {
     let swimmer = Swimmer { method: Method::BoundaryIntegral, ..swimmer(activity, width, 0.1) };
     let (mut scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient).expect("a scene");
     scene.run(TIME).go().expect("a run");
-    centre(scene.body(droplet))
+    centre(scene.body(droplet).unwrap())
 }
 
 /// How far it swims between walls of springs of the thesis' k = 1e6, over that.
@@ -36,7 +36,7 @@ fn error(activity: f64, width: f64, spacing: f64, surface: WallSurface) -> f64 {
     let channel = ElasticChannel { surface, ..ElasticChannel::new(swimmer(activity, width, spacing), moduli) };
     let (mut scene, droplet, _) = channel.build().expect("a scene");
     scene.run(TIME).go().expect("a run");
-    centre(scene.body(droplet)) / rigid(activity, width) - 1.0
+    centre(scene.body(droplet).unwrap()) / rigid(activity, width) - 1.0
 }
 
 /// Springs of 1e6 are not rigid: what is left at h = 0.05 is theirs, 0.1 and 0.3 %. The grid's part is what changes

@@ -64,12 +64,12 @@ fn a_step_above_the_limit_is_refused_before_any_work() {
 fn a_step_that_fails_is_taken_back() {
     let (mut scene, droplet) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build_on_grid().unwrap();
     scene.step(0.01).unwrap();
-    let before = scene.body(droplet).markers().to_vec();
+    let before = scene.body(droplet).unwrap().markers().to_vec();
     let error = (0..50).find_map(|_| scene.step(50.0).err()).expect("steps 500 times too large end in an error");
     assert!(matches!(error, SceneError::Body { .. } | SceneError::Flow { .. }), "{error}");
     // The state is one from which the scene can go on.
-    assert!(scene.body(droplet).markers().iter().all(|marker| marker.x.is_finite()));
-    assert_eq!(scene.body(droplet).markers().len(), before.len());
+    assert!(scene.body(droplet).unwrap().markers().iter().all(|marker| marker.x.is_finite()));
+    assert_eq!(scene.body(droplet).unwrap().markers().len(), before.len());
     scene.step(0.001).unwrap();
 }
 
@@ -78,7 +78,7 @@ fn markers_beyond_a_wall_are_named() {
     let swimmer = Swimmer { lengths: [6.0, 2.0], spacing: 0.1, ..Swimmer::default() };
     let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient).unwrap();
     use motile::ib_core::Body;
-    let body = scene.body_mut(droplet);
+    let body = scene.body_mut(droplet).unwrap();
     let mut state = vec![0.0; body.state_len()];
     body.write_state(&mut state);
     let markers = body.marker_count();

@@ -22,9 +22,9 @@ fn passive_droplet_in_poiseuille_flow() {
     let mut scene = Scene::new(ImmersedBoundary::new(solver, AnyKernel::BSpline4));
     let curve = Curve::circle(0.6).unwrap().translated(Vec2::new(0.0, 0.7));
     let droplet = scene.add(ActiveDroplet::passive(&curve.markers(80).unwrap(), 5.0).unwrap());
-    let start = gap(scene.body(droplet), 0.5 * w);
+    let start = gap(scene.body(droplet).unwrap(), 0.5 * w);
     scene.run(20.0).step_size(StepSize::OfLimit(0.25)).go().unwrap();
-    let body = scene.body(droplet);
+    let body = scene.body(droplet).unwrap();
     assert!(area_change(body).abs() < 1e-5, "{:e}", area_change(body));
     assert!(gap(body, 0.5 * w) > start, "it moves away from the wall");
     // Undisturbed flow at the centre of the channel: w^2/8 per unit gradient and viscosity; the droplet is slower.
@@ -45,13 +45,13 @@ fn swimmer_driven_into_a_wall() {
             ..Swimmer::default()
         };
         let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient).unwrap();
-        let particles: f64 = scene.body(droplet).particle_numbers().iter().sum();
+        let particles: f64 = scene.body(droplet).unwrap().particle_numbers().iter().sum();
         let mut closest = f64::INFINITY;
         for step in 1..=100 {
             scene.run(0.25 * f64::from(step)).step_size(StepSize::OfLimit(0.5)).go().unwrap();
-            closest = closest.min(gap(scene.body(droplet), 1.5));
+            closest = closest.min(gap(scene.body(droplet).unwrap(), 1.5));
         }
-        let body = scene.body(droplet);
+        let body = scene.body(droplet).unwrap();
         assert!(closest < 0.15 && closest > -0.25 * h, "h = {h}: {closest}");
         assert!(area_change(body).abs() < 1e-5, "h = {h}: {:e}", area_change(body));
         let left: f64 = body.particle_numbers().iter().sum();

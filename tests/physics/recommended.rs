@@ -1,6 +1,6 @@
 //! Recommended settings hold what they promise where they were not measured.
 
-use motile::active_interface::{ActiveDroplet, Convention, observe};
+use motile::active_interface::ActiveDroplet;
 use motile::ib_core::{Handle, Scene, StepSize};
 use motile::stokes_grid::Drive;
 use motile::{AnyFlow, Method, SceneKind, SetupError, Swimmer, recommend};
@@ -9,9 +9,7 @@ const STEADY: f64 = 40.0;
 
 fn speed((mut scene, droplet): (Scene<AnyFlow>, Handle<ActiveDroplet>)) -> f64 {
     scene.run(STEADY).go().expect("a good swimmer");
-    scene.system_mut().evaluate().expect("a good swimmer");
-    let state = scene.body(droplet).interface_state(scene.system(), droplet.index());
-    observe(&state, Convention::FarField).expect("a good swimmer").speed()
+    scene.observe(droplet).expect("a good swimmer").speed()
 }
 
 /// Far finer than anything that is recommended.

@@ -1,7 +1,7 @@
 //! Integrators and step sizes: order, stability, accuracy, and what is reported of them.
 
 use motile::active_interface::{ActiveDroplet, Motion, observables::centroid_velocity};
-use motile::elastic_solids::{Moduli, NeoHookean, Solid, equilateral_strip};
+use motile::elastic_solids::{Moduli, NeoHookean, Solid, mesh::equilateral_strip};
 use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
     SceneError, SpectralEstimate, StepSize, Vec2,
@@ -11,7 +11,7 @@ use motile::{ElasticChannel, Swimmer};
 use motile_tests::validation::order;
 
 fn state<B: Body, H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>, body: Handle<B>) -> Vec<f64> {
-    let body = scene.body(body);
+    let body = scene.body(body).unwrap();
     let mut state = vec![0.0; body.state_len()];
     body.write_state(&mut state);
     state
@@ -116,13 +116,13 @@ fn the_predicted_step_between_stiff_walls_is_stable() {
     for stages in [5, 8] {
         let (scene, droplet, _) = channel.build().expect("a scene");
         let mut scene = scene.advanced_by(RungeKuttaChebyshev::new().with_most_stages(stages));
-        let start = scene.body(droplet).markers().to_vec();
+        let start = scene.body(droplet).unwrap().markers().to_vec();
         let (limit, reason, _) = scene.step_limit().expect("a limit");
         assert_eq!(reason, "the elastic moduli");
         // Of fewer stages, whose number follows the step, the least are just enough.
         for part in [0.7, 0.99] {
             (0..30).for_each(|_| scene.step(part * limit).expect("a stable step"));
-            let moved = scene.body(droplet).markers().iter().zip(&start).map(|(a, b)| (a - b).norm());
+            let moved = scene.body(droplet).unwrap().markers().iter().zip(&start).map(|(a, b)| (a - b).norm());
             assert!(moved.fold(0.0, f64::max) < 0.2, "{stages} stages, {part} of the limit");
         }
     }
@@ -160,7 +160,7 @@ fn adaptive<I: Integrator>(integrator: I, tolerance: f64) -> (Scene<motile::Peri
 fn adaptive_steps_keep_the_error_they_are_asked_for() {
     let (scene, droplet) = adaptive(Midpoint::default(), 1e-7);
     let exact = state(&scene, droplet);
-    let positions = 2 * scene.body(droplet).marker_count();
+    let positions = 2 * scene.body(droplet).unwrap().marker_count();
     let mut last = (f64::INFINITY, 0);
     for tolerance in [1e-4, 1e-5, 1e-6] {
         let (scene, droplet) = adaptive(Midpoint::default(), tolerance);
@@ -181,7 +181,7 @@ fn both_integrators_come_to_the_same() {
     let (scene, droplet) = adaptive(Midpoint::default(), 1e-6);
     let (other, same) = adaptive(RungeKuttaChebyshev::new(), 1e-6);
     let (a, b) = (state(&scene, droplet), state(&other, same));
-    let positions = 2 * scene.body(droplet).marker_count();
+    let positions = 2 * scene.body(droplet).unwrap().marker_count();
     assert!(distance(&a[..positions], &b[..positions]) < 3e-4, "{:e}", distance(&a[..positions], &b[..positions]));
 }
 

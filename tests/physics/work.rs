@@ -42,8 +42,8 @@ fn a_passive_droplet_has_no_transport() {
     let curve = Curve::ellipse(1.2, 1.0 / 1.2).unwrap();
     let droplet = scene.add(ActiveDroplet::passive(&curve.markers(128).unwrap(), 1.0).unwrap());
     scene.step(0.01).unwrap();
-    assert!(scene.body(droplet).particle_numbers().is_empty());
-    let reasons: Vec<_> = Body::step_limits(scene.body(droplet), &scene.system().hydrodynamics().medium())
+    assert!(scene.body(droplet).unwrap().particle_numbers().is_empty());
+    let reasons: Vec<_> = Body::step_limits(scene.body(droplet).unwrap(), &scene.system().hydrodynamics().medium())
         .iter()
         .map(|limit| limit.reason)
         .collect();

@@ -332,9 +332,9 @@ fn handles_stay_valid() {
     let (mut scene, droplet): (_, Handle<ActiveDroplet>) = coarse().build().expect("a scene");
     scene.run(0.5).go().expect("a run");
     let saved = scene.checkpoint("");
-    let markers = scene.body(droplet).markers().to_vec();
+    let markers = scene.body(droplet).unwrap().markers().to_vec();
     scene.run(1.0).go().expect("a run");
     scene.resume(&saved).expect("the same scene");
-    assert_eq!(scene.body(droplet).markers(), markers);
-    assert_eq!(scene.body(droplet).marker_count(), markers.len());
+    assert_eq!(scene.body(droplet).unwrap().markers(), markers);
+    assert_eq!(scene.body(droplet).unwrap().marker_count(), markers.len());
 }

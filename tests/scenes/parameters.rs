@@ -9,8 +9,10 @@ use motile::active_interface::{
 };
 use motile::boundary_integral::{BoundaryIntegral, Channel, FreeSpace, PeriodicBox, Settings};
 use motile::elastic_solids::{
-    Constriction, Mesher, Moduli, MooneyRivlin, NeoHookean, Outline, SaintVenantKirchhoff, SinusoidalChannel, Solid,
-    StraightChannel, Valve, equilateral_block, equilateral_strip, fitted_strip,
+    Mesher, Moduli, NeoHookean, Outline, Solid,
+    channel::{Constriction, SinusoidalChannel, StraightChannel, Valve},
+    material::{MooneyRivlin, SaintVenantKirchhoff},
+    mesh::{equilateral_block, equilateral_strip, fitted_strip},
 };
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Repulsion, Scene, SmearedContrast, StepSize, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, TwoPhaseStokes, WallMotion};

@@ -4,20 +4,20 @@ mod body;
 mod filter;
 mod geometry;
 mod limits;
+mod observe;
 mod redistribution;
 mod spectral;
 mod warning;
 
 use std::sync::Arc;
 
-use ib_core::{BandLimit, Hydrodynamics, Medium, System, Vec2};
+use ib_core::{BandLimit, Medium, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::{
     Flux, InterfaceError, Tension,
     concentration::{Repair, Transport, cell_peclet},
     curve::CrossingFinder,
-    observables::InterfaceState,
 };
 use filter::WiggleFilter;
 use geometry::{Geometry, signed_area};
@@ -307,25 +307,6 @@ impl ActiveDroplet {
     #[must_use]
     pub fn viscosity_inside(&self) -> Option<f64> {
         self.viscosity_inside
-    }
-
-    /// What [`crate::observe`] needs, from the last evaluation of the system that the droplet is body number `index`
-    /// of. Call [`System::evaluate`] first: forces and velocities are those of the present state only then.
-    ///
-    /// # Panics
-    /// An index beyond the bodies of the system.
-    #[must_use]
-    pub fn interface_state<'a, H: Hydrodynamics>(&'a self, system: &'a System<H>, index: usize) -> InterfaceState<'a> {
-        let all = system.markers();
-        let range = all.groups()[index].range.clone();
-        let outside = system.hydrodynamics().medium().viscosity;
-        InterfaceState {
-            markers: &self.markers,
-            forces: &all.forces[range.clone()],
-            velocities: &all.velocities[range],
-            numbers: &self.numbers,
-            viscosities: [self.viscosity_inside.unwrap_or(outside), outside],
-        }
     }
 
     /// How often since the start particle numbers had to be kept from becoming negative, and what that took.

@@ -173,12 +173,6 @@ pub enum InterfaceError {
         /// Its value.
         value: f64,
     },
-    /// A body of a scene that is not an active droplet.
-    #[error("body {index} of the scene is not an active droplet: give the handle or the number of one")]
-    NotADroplet {
-        /// Number of the body, in the order of addition.
-        index: usize,
-    },
     /// The points do not determine what is fitted to them.
     #[error("{what} cannot be fitted to {points} points that lie as these do")]
     NoFit {

@@ -67,7 +67,7 @@ mod tests {
                 let mut scene = Scene::new(flow(20, 0.25));
                 let droplet = scene.add(active(angle, centre, Motion::default()));
                 (0..5).for_each(|_| scene.step(0.02).unwrap());
-                scene.body(droplet).markers().to_vec()
+                scene.body(droplet).unwrap().markers().to_vec()
             };
             let (here, there) = (run(0.0, Vec2::zeros()), run(turn, shift));
             let rotation = nalgebra::Rotation2::new(turn);
@@ -100,9 +100,9 @@ mod tests {
         for motion in [Motion::default(), Motion::WithFluid] {
             let mut scene = Scene::new(flow(24, 0.25));
             let droplet = scene.add(active(0.0, Vec2::zeros(), motion).with_area_constraint(true));
-            let before: f64 = scene.body(droplet).particle_numbers().iter().sum();
+            let before: f64 = scene.body(droplet).unwrap().particle_numbers().iter().sum();
             (0..60).for_each(|_| scene.step(0.05).unwrap());
-            let body = scene.body(droplet);
+            let body = scene.body(droplet).unwrap();
             let after: f64 = body.particle_numbers().iter().sum();
             assert!((after / before - 1.0).abs() < 1e-12);
             assert!(body.particle_numbers().iter().all(|&n| n >= 0.0));
@@ -110,7 +110,7 @@ mod tests {
             assert!((area / body.initial_area() - 1.0).abs() < 1e-12);
             if motion == Motion::WithFluid {
                 (0..300).for_each(|_| scene.step(0.05).unwrap());
-                let body = scene.body(droplet);
+                let body = scene.body(droplet).unwrap();
                 assert!(body.redistributed().0 + body.redistributed().1 > 0, "markers crowd at the rear");
                 let after: f64 = body.particle_numbers().iter().sum();
                 assert!((after / before - 1.0).abs() < 1e-12);
@@ -122,6 +122,17 @@ mod tests {
                 assert!(max / min < 1.01, "spacing stays equal: {}", max / min);
             }
         }
+    }
+
+    #[test]
+    fn the_speed_is_known_before_any_step() {
+        let mut scene = Scene::new(flow(48, 0.125));
+        let droplet = scene.add(active(0.0, Vec2::zeros(), Motion::default()));
+        let seen = scene.observe(droplet).unwrap();
+        assert!(seen.speed() > 0.01, "{}", seen.speed());
+        let mut other = Scene::new(flow(48, 0.125));
+        other.add(active(0.0, Vec2::zeros(), Motion::default()));
+        assert!(other.observe(droplet).is_err());
     }
 
     #[test]

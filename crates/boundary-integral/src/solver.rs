@@ -1,6 +1,8 @@
 //! The flow of interfaces by boundary integrals.
 
-use ib_core::{FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium, Record, Vec2};
+use ib_core::{
+    FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium, SavedState, Vec2,
+};
 use num_complex::Complex64;
 
 use crate::{
@@ -269,16 +271,16 @@ impl<D: FluidDomain> Hydrodynamics for BoundaryIntegral<D> {
         self.work
     }
 
-    fn save(&self) -> Record {
+    fn save(&self) -> SavedState {
         let (len, kept) = self.contrast.save();
         let mut reals = vec![self.stiffness];
         reals.extend_from_slice(&self.velocities);
         reals.extend_from_slice(&kept);
-        Record { reals, counts: vec![self.velocities.len() as u64, len as u64] }
+        SavedState { reals, counts: vec![self.velocities.len() as u64, len as u64] }
     }
 
-    fn load(&mut self, record: &Record) {
-        let ([stiffness, rest @ ..], &[count, len]) = (record.reals.as_slice(), record.counts.as_slice()) else {
+    fn load(&mut self, saved: &SavedState) {
+        let ([stiffness, rest @ ..], &[count, len]) = (saved.reals.as_slice(), saved.counts.as_slice()) else {
             return;
         };
         let count = usize::try_from(count).unwrap_or(usize::MAX);

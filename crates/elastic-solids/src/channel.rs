@@ -1,15 +1,21 @@
 //! Channels between two walls.
 
+mod shapes;
+mod width;
+
 use ib_core::Vec2;
 
 use crate::error::finite;
-use crate::segments::Segments;
+use crate::mesher::segments::Segments;
 use crate::{Mesher, Outline, Region, SolidError, TriangleMesh};
+
+pub use shapes::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, StraightChannel, Valve};
+pub use width::{Width, width_between};
 
 /// A channel along x, periodic: the lines that bound it below and above, and islands between them.
 ///
 /// ```
-/// use elastic_solids::*;
+/// use elastic_solids::{Channel, Mesher, SolidError};
 ///
 /// // A wavy channel, written as two functions of x.
 /// let wave = |x: f64| 0.2 * (std::f64::consts::PI * x / 3.0).cos();
@@ -31,7 +37,7 @@ pub struct Channel {
 
 /// Meshes of the walls of a channel.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ChannelWalls {
+pub struct Walls {
     /// The wall below.
     pub lower: TriangleMesh,
     /// The wall above.
@@ -157,8 +163,8 @@ impl Channel {
     ///
     /// # Errors
     /// Those of [`Mesher::mesh`].
-    pub fn walls(&self, bottom: f64, top: f64, mesher: &Mesher) -> Result<ChannelWalls, SolidError> {
-        Ok(ChannelWalls {
+    pub fn walls(&self, bottom: f64, top: f64, mesher: &Mesher) -> Result<Walls, SolidError> {
+        Ok(Walls {
             lower: self.lower_wall(bottom, mesher)?,
             upper: self.upper_wall(top, mesher)?,
             islands: (0..self.islands.len()).map(|number| self.island(number, mesher)).collect::<Result<_, _>>()?,

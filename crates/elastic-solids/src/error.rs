@@ -351,3 +351,8 @@ pub(crate) fn all_points_finite(name: &'static str, points: &[Vec2]) -> Result<(
 pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, SolidError> {
     if value.is_finite() { Ok(value) } else { Err(SolidError::NotFinite { name, value }) }
 }
+
+/// Whether lists of a value a point fit a mesh.
+pub(crate) fn fits(name: &'static str, found: usize, expected: usize) -> Result<(), SolidError> {
+    if found == expected { Ok(()) } else { Err(SolidError::WrongLength { name, expected, found }) }
+}

@@ -1,10 +1,20 @@
 //! Triangle meshes of the reference state.
 
+pub(crate) mod gmsh;
+pub(crate) mod lattice;
+mod quality;
+mod topology;
+
 use ib_core::Vec2;
 
 use crate::SolidError;
 use crate::error::{all_points_finite, positive};
-use crate::topology::{connect, loops};
+
+use topology::{connect, loops};
+
+pub use gmsh::{GmshMesh, PhysicalGroup};
+pub use lattice::{equilateral_block, equilateral_strip, fitted_strip};
+pub use quality::MeshQuality;
 
 /// An edge of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,12 +1,18 @@
 //! Uniform meshes of any region.
 
-use crate::boundary::Boundary;
+mod boundary;
+mod point_set;
+mod relaxation;
+mod seeds;
+pub(crate) mod segments;
+mod triangulation;
+
 use crate::error::{finite, positive};
-use crate::point_set::PointSet;
-use crate::relaxation::relax;
-use crate::seeds::{Fit, Lay};
-use crate::triangulation::refine;
 use crate::{Region, SolidError, TriangleMesh};
+use boundary::Boundary;
+use point_set::PointSet;
+use relaxation::relax;
+use seeds::{Fit, Lay};
 
 /// Makes uniform triangle meshes.
 ///
@@ -21,7 +27,7 @@ use crate::{Region, SolidError, TriangleMesh};
 /// stretch.
 ///
 /// ```
-/// use elastic_solids::*;
+/// use elastic_solids::{Outline, SolidError};
 /// use ib_core::Vec2;
 ///
 /// let disc = Outline::circle(Vec2::zeros(), 1.0)?.mesh(0.1)?;
@@ -32,13 +38,8 @@ use crate::{Region, SolidError, TriangleMesh};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mesher {
     spacing: f64,
-    method: Method,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Method {
-    Relaxed { sweeps: usize, angle: f64 },
-    Refined,
+    sweeps: usize,
+    angle: f64,
 }
 
 /// Sweeps of the default.
@@ -58,16 +59,13 @@ impl Mesher {
     /// # Errors
     /// A spacing that is not positive and finite.
     pub fn new(spacing: f64) -> Result<Self, SolidError> {
-        Ok(Self {
-            spacing: positive("the mesh spacing", spacing)?,
-            method: Method::Relaxed { sweeps: SWEEPS, angle: 0.0 },
-        })
+        Ok(Self { spacing: positive("the mesh spacing", spacing)?, sweeps: SWEEPS, angle: 0.0 })
     }
 
     /// The same with another number of relaxation sweeps (180 otherwise; 0 to leave the seeds where they are).
     #[must_use]
     pub fn sweeps(mut self, sweeps: usize) -> Self {
-        self.method = Method::Relaxed { sweeps, angle: self.angle() };
+        self.sweeps = sweeps;
         self
     }
 
@@ -77,21 +75,8 @@ impl Mesher {
     /// # Errors
     /// An angle that is not finite.
     pub fn turned(mut self, angle: f64) -> Result<Self, SolidError> {
-        let sweeps = if let Method::Relaxed { sweeps, .. } = self.method { sweeps } else { SWEEPS };
-        self.method = Method::Relaxed { sweeps, angle: finite("the angle of the seeds", angle)? };
+        self.angle = finite("the angle of the seeds", angle)?;
         Ok(self)
-    }
-
-    fn angle(&self) -> f64 {
-        if let Method::Relaxed { angle, .. } = self.method { angle } else { 0.0 }
-    }
-
-    /// The same by Delaunay refinement instead of seeds and relaxation: for odd shapes. Its edges are much less even.
-    /// Not for periodic regions.
-    #[must_use]
-    pub fn refinement(mut self) -> Self {
-        self.method = Method::Refined;
-        self
     }
 
     /// Meshes a region.
@@ -100,23 +85,18 @@ impl Mesher {
     /// Outlines that cross or touch; a hole or part narrower than the spacing; a wall thinner than the spacing; a
     /// period shorter than six spacings; more than 1e7 points; a triangulation that failed.
     pub fn mesh(&self, region: &Region) -> Result<TriangleMesh, SolidError> {
-        let boundary = Boundary::new(region, self.spacing, matches!(self.method, Method::Relaxed { angle: 0.0, .. }))?;
-        match self.method {
-            Method::Refined if region.period().is_some() => Err(SolidError::Unsupported {
-                what: "refining a periodic region",
-                remedy: "mesh it by relaxation, the default",
-            }),
-            Method::Refined => {
-                let (points, triangles) = refine(&boundary.point_set(Vec::new()), self.spacing)?;
-                complete(TriangleMesh::new(points, triangles)?, &boundary)
-            }
-            Method::Relaxed { sweeps, .. } => most_even(&boundary, &self.ways(region), sweeps),
-        }
+        self.mesh_counting(region).map(|(mesh, _)| mesh)
+    }
+
+    /// The mesh, and how often a point was moved for it.
+    fn mesh_counting(&self, region: &Region) -> Result<(TriangleMesh, usize), SolidError> {
+        let boundary = Boundary::new(region, self.spacing, self.angle == 0.0)?;
+        most_even(&boundary, &self.ways(region), self.sweeps)
     }
 
     /// Ways to lay the seeds.
     fn ways(&self, region: &Region) -> Vec<Lay> {
-        let angle = self.angle();
+        let angle = self.angle;
         let lay = |fit, offset, margin| Lay { fit, angle, offset, margin };
         let still = [0.0, 0.0];
         match region.period() {
@@ -143,11 +123,13 @@ impl Mesher {
 }
 
 /// The most even of the meshes from different seeds, of as many as are soon made.
-fn most_even(boundary: &Boundary<'_>, ways: &[Lay], sweeps: usize) -> Result<TriangleMesh, SolidError> {
+fn most_even(boundary: &Boundary<'_>, ways: &[Lay], sweeps: usize) -> Result<(TriangleMesh, usize), SolidError> {
     let mut best: Option<(f64, TriangleMesh)> = None;
-    let mut points = 0;
+    let (mut points, mut moves) = (0, 0);
     for &lay in ways {
-        let Ok(mesh) = relaxed(boundary, boundary.point_set(boundary.seeds(lay)?), sweeps) else { continue };
+        let seeds = boundary.point_set(boundary.seeds(lay)?);
+        let Ok((mesh, more)) = relaxed(boundary, seeds, sweeps) else { continue };
+        moves += more;
         let size = mesh.points().len();
         points += size;
         let deviation = mesh.quality().edge_deviation;
@@ -159,19 +141,19 @@ fn most_even(boundary: &Boundary<'_>, ways: &[Lay], sweeps: usize) -> Result<Tri
         }
     }
     match best {
-        Some((_, mesh)) => Ok(mesh),
+        Some((_, mesh)) => Ok((mesh, moves)),
         // In a sharp tip points that slide may fold the boundary.
         None => relaxed(boundary, boundary.point_set(boundary.seeds(ways[0])?).with_fixed_boundary(), sweeps),
     }
 }
 
-fn relaxed(boundary: &Boundary<'_>, mut set: PointSet<'_>, sweeps: usize) -> Result<TriangleMesh, SolidError> {
-    let triangles = relax(&mut set, sweeps, boundary.spacing)?;
+fn relaxed(boundary: &Boundary<'_>, mut set: PointSet<'_>, sweeps: usize) -> Result<(TriangleMesh, usize), SolidError> {
+    let (triangles, moves) = relax(&mut set, sweeps, boundary.spacing)?;
     let mesh = match set.period {
         None => TriangleMesh::new(set.points, triangles),
         Some((_, period)) => TriangleMesh::periodic(set.points, triangles, period),
     };
-    complete(mesh?, boundary)
+    Ok((complete(mesh?, boundary)?, moves))
 }
 
 /// The mesh, where it has the boundary that was asked for: no triangle is missing or too many.

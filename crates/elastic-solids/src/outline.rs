@@ -10,10 +10,12 @@ use crate::error::{all_points_finite, at_least, finite, positive};
 
 mod fillet;
 mod piece;
+mod region;
 mod track;
 
 use piece::{Piece, is_corner};
 
+pub use region::Region;
 pub(crate) use track::{Place, Track};
 
 /// A line that bounds a solid: closed, or repeating itself in x with a period (the surface of a channel wall).
@@ -23,7 +25,7 @@ pub(crate) use track::{Place, Track};
 /// point ([`Region`](crate::Region)).
 ///
 /// ```
-/// use elastic_solids::*;
+/// use elastic_solids::{Outline, SolidError};
 /// use ib_core::Vec2;
 ///
 /// let post = Outline::rectangle(Vec2::new(-0.5, 0.0), Vec2::new(0.5, 2.0))?.filleted(0.2)?;

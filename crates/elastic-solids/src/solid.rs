@@ -1,13 +1,22 @@
 //! An elastic solid: a mesh, its forces, and where its points are now.
 
+mod body;
+mod gap;
+mod observables;
+mod rounded_kink;
+mod surface_correction;
+
 use std::sync::Arc;
 
-use ib_core::{MobilityDeficit, Vec2};
+use ib_core::Vec2;
 
-use crate::error::{all_points_finite, at_least, positive};
-use crate::forces::fits;
-use crate::surface_correction::SurfaceCorrection;
-use crate::{ElasticForces, EnergyDensity, Hyperelastic, SolidError, Springs, TriangleMesh};
+use crate::error::{all_points_finite, at_least, fits, positive};
+use crate::forces::{Hyperelastic, Springs};
+use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
+use surface_correction::SurfaceCorrection;
+
+pub use gap::SurfaceGap;
+pub use observables::LargestDisplacement;
 
 /// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid
 /// and move with it. It is made of springs along the edges of its mesh (thesis section 4.1), of a hyperelastic material
@@ -17,7 +26,8 @@ use crate::{ElasticForces, EnergyDensity, Hyperelastic, SolidError, Springs, Tri
 /// the reference state.
 ///
 /// ```
-/// use elastic_solids::*;
+/// use elastic_solids::channel::StraightChannel;
+/// use elastic_solids::{Mesher, NeoHookean, Solid, SolidError};
 /// use ib_core::Vec2;
 ///
 /// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest row pinned.
@@ -46,6 +56,8 @@ pub struct Solid {
     /// Mean edge of the mesh.
     pub(crate) spacing: f64,
     pub(crate) may_invert: bool,
+    pub(crate) corrected: bool,
+    /// Made at the first evaluation, when the kernel is known.
     pub(crate) surface: Option<SurfaceCorrection>,
 }
 
@@ -64,7 +76,8 @@ impl Solid {
     /// A solid of springs with one shear modulus everywhere (force per length), in its reference state.
     ///
     /// ```
-    /// use elastic_solids::*;
+    /// use elastic_solids::mesh::equilateral_strip;
+    /// use elastic_solids::{Moduli, Solid, SolidError};
     /// use ib_core::Vec2;
     ///
     /// let mesh = equilateral_strip(Vec2::new(-6.0, -2.5), 120, 17, 0.1)?;
@@ -131,6 +144,7 @@ impl Solid {
             forces: vec![Vec2::zeros(); count],
             spacing: mesh.quality().mean_edge,
             may_invert: false,
+            corrected: false,
             surface: None,
             mesh,
         }
@@ -162,9 +176,7 @@ impl Solid {
         let points = self.mesh.points();
         self.free.retain(|&point| !condition(points[point]));
         at_least("free points", self.free.len(), 1)?;
-        // The correction knows the points that are free.
-        let free = &self.free;
-        self.surface = self.surface.map(|surface| surface.with_free(free));
+        self.surface = None;
         Ok(self)
     }
 
@@ -182,11 +194,12 @@ impl Solid {
         Ok(self)
     }
 
-    /// The same with the mobility correction of its surface, for the kernel by which markers and grid are coupled.
+    /// The same with the mobility correction of its surface, for the kernel and grid of the flow in which it is (known
+    /// from the first evaluation on, which fails where there is no grid).
     ///
     /// Spreading and interpolation round off the kink that tangential forces at the surface leave in the velocity, so
     /// that points at the distance d from it lack `(h/eta) phi(d/h) f_t`, f_t being the force per length along the
-    /// surface and `phi(0)` the deficit of a flat interface ([`MobilityDeficit::flat`], and the grid's harmonic where
+    /// surface and `phi(0)` the deficit of a flat interface ([`ib_core::MobilityDeficit::flat`], and the grid's harmonic where
     /// the surface runs along the grid). Points within some four grid spacings of the surface are moved by that, by a
     /// flow without divergence, and by an operator that is symmetric and positive in the forces. Measured with the
     /// default kernel: a stiff wall stops the fluid 0.31 to 0.44 h in front of its surface, with the correction within
@@ -197,19 +210,19 @@ impl Solid {
     /// that to each other or to a no-slip wall are corrected as if they stood alone.
     ///
     /// ```
-    /// use elastic_solids::*;
-    /// use ib_core::{CubicQuadratic, MobilityDeficit, Vec2};
+    /// use elastic_solids::mesh::equilateral_strip;
+    /// use elastic_solids::{Solid, SolidError};
+    /// use ib_core::Vec2;
     ///
-    /// let deficit = MobilityDeficit::new(&CubicQuadratic::default());
     /// let mesh = equilateral_strip(Vec2::zeros(), 20, 10, 0.1)?;
-    /// let wall = Solid::springs(mesh, 1000.0)?.pinned(|s| s.y < 0.01)?.surface_corrected(&deficit);
+    /// let wall = Solid::springs(mesh, 1000.0)?.pinned(|s| s.y < 0.01)?.surface_corrected();
     /// println!("{} points move", wall.free_points().len()); // 200
     /// assert_eq!(wall.free_points().len(), 200);
     /// # Ok::<(), SolidError>(())
     /// ```
     #[must_use]
-    pub fn surface_corrected(mut self, deficit: &MobilityDeficit) -> Self {
-        self.surface = Some(SurfaceCorrection::new(&self.mesh, &self.free, deficit));
+    pub fn surface_corrected(mut self) -> Self {
+        self.corrected = true;
         self
     }
 

@@ -1,8 +1,9 @@
 //! How even the meshes of the ready shapes are.
 
 use elastic_solids::{
-    BranchingChannel, Channel, Constriction, MeshQuality, Mesher, Outline, Ratchet, SinusoidalChannel, TriangleMesh,
-    Valve,
+    Channel, Mesher, Outline, TriangleMesh,
+    channel::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, Valve},
+    mesh::MeshQuality,
 };
 use ib_core::Vec2;
 

@@ -1,8 +1,26 @@
 //! What a body is: markers that put forces on the fluid and move with it.
 
+mod marker_body;
+mod step_limit;
+
+pub use marker_body::MarkerBody;
+pub use step_limit::{StepCause, StepLimit, StepLimits};
+
 use std::any::Any;
 
-use crate::{BodyError, Boundary, MarkerKind, Medium, Record, StepLimits, Vec2};
+use crate::{BodyError, BodyFlow, Boundary, MarkerKind, Medium, SavedState, Vec2};
+
+/// What can be seen of a body beyond its markers: the speed of a droplet, say.
+pub trait Observe: Body {
+    /// All that is seen of it at one time.
+    type Observables;
+
+    /// What is seen of it in its present state, from the flow at its markers in that state.
+    ///
+    /// # Errors
+    /// A state in which it cannot be computed.
+    fn observables(&self, medium: &Medium, flow: &BodyFlow<'_>) -> Result<Self::Observables, BodyError>;
+}
 
 /// A step that is about to be taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,20 +122,20 @@ pub trait Body: Any + std::fmt::Debug + Send {
 
     /// Everything from which [`Body::load`] makes the present state again, bit for bit: by default what
     /// [`Body::write_state`] writes. A body whose next step depends on more must save that too.
-    fn save(&self) -> Record {
+    fn save(&self) -> SavedState {
         let mut reals = vec![0.0; self.state_len()];
         self.write_state(&mut reals);
-        Record { reals, counts: Vec::new() }
+        SavedState { reals, counts: Vec::new() }
     }
 
     /// Takes back what [`Body::save`] of a body made in the same way wrote.
     ///
     /// # Errors
-    /// A record of another body, or a state that cannot be.
-    fn load(&mut self, _medium: &Medium, record: &Record) -> Result<(), BodyError> {
-        if record.reals.len() != self.state_len() {
-            return Err(BodyError::ForeignRecord { expected: self.state_len(), found: record.reals.len() });
+    /// The state of another body, or a state that cannot be.
+    fn load(&mut self, _medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
+        if saved.reals.len() != self.state_len() {
+            return Err(BodyError::ForeignState { expected: self.state_len(), found: saved.reals.len() });
         }
-        self.read_state(&record.reals)
+        self.read_state(&saved.reals)
     }
 }

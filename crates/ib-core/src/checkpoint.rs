@@ -2,12 +2,14 @@
 
 mod error;
 mod file;
+mod saved_state;
 
 pub use error::CheckpointError;
+pub use saved_state::{ForeignState, SavedState};
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Domain, FlowReport, Hydrodynamics, Integrator, MarkerKind, Record, Scene, SceneError, StepReport, Vec2};
+use crate::{Domain, FlowReport, Hydrodynamics, Integrator, MarkerKind, Scene, SceneError, StepReport, Vec2};
 
 /// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
 ///
@@ -44,11 +46,11 @@ pub struct Checkpoint {
     minimum_gap: Option<f64>,
     region: Region,
     bodies: Vec<Part>,
-    flow: Record,
+    flow: SavedState,
     /// The flow at the markers, where it was known: x and y of all velocities, and what its evaluation found.
     known: Option<(Vec<[f64; 2]>, Found)>,
     integrator: Part,
-    control: Record,
+    control: SavedState,
     report: StepReport,
 }
 
@@ -70,12 +72,12 @@ struct Found {
     mean_pressure_gradient: [f64; 2],
 }
 
-/// A named record.
+/// A named state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Part {
     name: String,
     kind: u8,
-    record: Record,
+    saved: SavedState,
 }
 
 /// What kind of markers a body has, as it stands in a file.
@@ -114,9 +116,9 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     #[must_use]
     pub fn checkpoint(&self, description: impl Into<String>) -> Checkpoint {
         let (system, integrator) = (self.system(), self.integrator());
-        let mut kept = Record::default();
+        let mut kept = SavedState::default();
         integrator.save(&mut kept);
-        let mut control = Record::default();
+        let mut control = SavedState::default();
         self.control.save(&mut control);
         let report = system.report();
         let found = Found {
@@ -124,7 +126,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             residual: report.residual,
             mean_pressure_gradient: report.mean_pressure_gradient,
         };
-        let part = |name: &str, kind, record| Part { name: name.to_owned(), kind, record };
+        let part = |name: &str, kind, saved| Part { name: name.to_owned(), kind, saved };
         Checkpoint {
             description: description.into(),
             time: system.time(),
@@ -132,7 +134,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             minimum_wall_gap: system.minimum_wall_gap(),
             minimum_gap: system.minimum_gap(),
             region: system.hydrodynamics().medium().domain.into(),
-            bodies: system.bodies().map(|body| part(body.name(), kind(body.kind()), body.save())).collect(),
+            bodies: system.all_bodies().map(|(_, body)| part(body.name(), kind(body.kind()), body.save())).collect(),
             flow: system.hydrodynamics().save(),
             known: system
                 .is_evaluated()
@@ -168,11 +170,11 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             };
             return foreign(format!("its domain has {}, this one {}", describe(checkpoint.region), describe(region)));
         }
-        let (expected, found) = (system.bodies().count(), checkpoint.bodies.len());
+        let (expected, found) = (system.all_bodies().len(), checkpoint.bodies.len());
         if expected != found {
             return foreign(format!("it has {found} bodies, this scene {expected}"));
         }
-        for (index, (body, part)) in system.bodies().zip(&checkpoint.bodies).enumerate() {
+        for (index, ((_, body), part)) in system.all_bodies().zip(&checkpoint.bodies).enumerate() {
             if body.name() != part.name || kind(body.kind()) != part.kind {
                 let (here, there) = (body.name(), &part.name);
                 return foreign(format!(
@@ -187,13 +189,13 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     }
 
     fn take(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
-        let records = checkpoint.bodies.iter().map(|part| &part.record);
+        let records = checkpoint.bodies.iter().map(|part| &part.saved);
         let gaps = [checkpoint.minimum_wall_gap, checkpoint.minimum_gap];
         self.system_mut().load(records, &checkpoint.flow, checkpoint.time, checkpoint.steps as usize, gaps)?;
         if checkpoint.integrator.name == self.integrator().name() {
-            self.load_integrator(&checkpoint.integrator.record)?;
-            self.control = crate::step_control::StepControl::load(&checkpoint.control).ok_or_else(|| {
-                SceneError::ForeignCheckpoint { problem: "it has no record of its time steps".to_owned() }
+            self.load_integrator(&checkpoint.integrator.saved)?;
+            self.control = crate::scene::StepControl::load(&checkpoint.control).ok_or_else(|| {
+                SceneError::ForeignCheckpoint { problem: "it has no state of its time steps".to_owned() }
             })?;
         }
         self.report = checkpoint.report.clone();

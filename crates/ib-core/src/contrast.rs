@@ -13,7 +13,7 @@ mod wall_flow;
 mod wall_points;
 mod walls;
 
-use crate::{FlowError, MarkerKind, Markers, Record, Vec2};
+use crate::{FlowError, MarkerKind, Markers, SavedState, Vec2};
 
 use double_layer::DoubleLayer;
 pub(crate) use droplet::Droplet;
@@ -116,13 +116,13 @@ impl Contrast {
     }
 
     /// The last solutions, from which the next ones start.
-    pub(crate) fn save(&self) -> Record {
+    pub(crate) fn save(&self) -> SavedState {
         let counts = [self.count, self.nodes, self.left.len()].map(|count| count as u64).to_vec();
-        Record { reals: [self.left.as_slice(), &self.velocities].concat(), counts }
+        SavedState { reals: [self.left.as_slice(), &self.velocities].concat(), counts }
     }
 
     /// Takes back what [`Contrast::save`] wrote.
-    pub(crate) fn restore(&mut self, record: &Record) {
+    pub(crate) fn restore(&mut self, record: &SavedState) {
         let Ok([count, nodes, split]) = record.counts_of("droplets of another viscosity") else { return };
         let split = usize::try_from(split).unwrap_or(usize::MAX);
         let (Some(left), Some(velocities)) = (record.reals.get(..split), record.reals.get(split..)) else { return };

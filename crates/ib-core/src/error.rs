@@ -128,11 +128,11 @@ pub enum BodyError {
         /// What is allowed.
         bound: f64,
     },
-    /// A record of another body, or of one made otherwise.
+    /// The state of another body, or of one made otherwise.
     #[error(
-        "a record of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
+        "a saved state of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
     )]
-    ForeignRecord {
+    ForeignState {
         /// Numbers needed.
         expected: usize,
         /// Numbers found.
@@ -219,6 +219,21 @@ pub enum SceneError {
         /// Which body.
         body: String,
     },
+    /// A step size that is a part of the stability limit, where no body states a finite one.
+    #[error(
+        "at time {time} no body states a bound on the time step that a run could take a part of: give the run \
+         `StepSize::Fixed` or `StepSize::Adaptive`, or have a body state one (`Body::step_limits`)"
+    )]
+    NoStepLimit {
+        /// When (time).
+        time: f64,
+    },
+    /// Adaptive steps with an integrator whose errors cannot be estimated.
+    #[error("the error of a step of {integrator} cannot be estimated: use another step size than `StepSize::Adaptive`")]
+    NoErrorEstimate {
+        /// The integrator's name.
+        integrator: &'static str,
+    },
     /// Adaptive steps have become shorter than the bound that was set.
     #[error(
         "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: the state cannot be followed any \
@@ -271,6 +286,15 @@ pub enum SceneError {
     ForeignCheckpoint {
         /// How it differs.
         problem: String,
+    },
+    /// A handle of another scene.
+    #[error("the handle is of a body of another scene: use the one that this scene gave when the body was added")]
+    ForeignHandle,
+    /// The flow of the present state is asked for before it has been computed.
+    #[error("the flow at {body} is not known in the present state: call `evaluate` first, or `observe`, which does")]
+    NotEvaluated {
+        /// The body's name.
+        body: String,
     },
     /// An observer failed.
     #[error("an observer failed at time {time}")]

@@ -1,8 +1,12 @@
 //! From forces at markers to velocities at markers.
 
+mod markers;
+
+pub use markers::{MarkerGroup, MarkerKind, Markers, Vec2};
+
 use std::sync::Arc;
 
-use crate::{FlowError, Markers, MobilityDeficit, Record, Vec2};
+use crate::{FlowError, MobilityDeficit, SavedState};
 
 /// The region that the fluid fills.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,12 +111,12 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 
     /// What the next evaluation depends on besides its arguments, such as the last solution, from which an iteration
     /// starts; by default nothing.
-    fn save(&self) -> Record {
-        Record::default()
+    fn save(&self) -> SavedState {
+        SavedState::default()
     }
 
     /// Takes back what [`Hydrodynamics::save`] wrote. What another flow wrote is of no use and ignored.
-    fn load(&mut self, _record: &Record) {}
+    fn load(&mut self, _saved: &SavedState) {}
 }
 
 /// Hydrodynamics that were chosen at run time.
@@ -133,11 +137,11 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
         self.as_ref().work()
     }
 
-    fn save(&self) -> Record {
+    fn save(&self) -> SavedState {
         self.as_ref().save()
     }
 
-    fn load(&mut self, record: &Record) {
-        self.as_mut().load(record);
+    fn load(&mut self, saved: &SavedState) {
+        self.as_mut().load(saved);
     }
 }

@@ -1,18 +1,20 @@
 //! The immersed boundary method: a grid between markers.
 
 mod contrast_flow;
+mod sampling;
+mod smeared_contrast;
+
+pub use smeared_contrast::SmearedContrast;
 
 use std::sync::Arc;
 
 use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, StokesSolver};
 
-use crate::clearance::Clearance;
 use crate::contrast::other_viscosity;
-use crate::correction::MobilityCorrection;
-use crate::sampling;
+use crate::mobility::{Clearance, MobilityCorrection};
 use crate::{
     Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, Kernel, MarkerKind, Markers, Medium,
-    MobilityDeficit, Record, Transfer, Vec2,
+    MobilityDeficit, SavedState, Transfer, Vec2,
 };
 use contrast_flow::ContrastFlow;
 
@@ -297,16 +299,16 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         self.work
     }
 
-    fn save(&self) -> Record {
-        self.contrast.as_ref().map_or_else(Record::default, ContrastFlow::save)
+    fn save(&self) -> SavedState {
+        self.contrast.as_ref().map_or_else(SavedState::default, ContrastFlow::save)
     }
 
-    fn load(&mut self, record: &Record) {
-        if record.counts.is_empty() {
+    fn load(&mut self, saved: &SavedState) {
+        if saved.counts.is_empty() {
             // Nothing was known of droplets of another viscosity.
             self.contrast = None;
         } else if let Ok(mut flow) = self.take_contrast() {
-            flow.restore(record.clone());
+            flow.restore(saved.clone());
             self.contrast = Some(flow);
         }
     }

@@ -1,13 +1,15 @@
 //! Time steps.
 
 mod chebyshev;
+mod error_estimate;
 mod midpoint;
 mod spectral_radius;
 
 pub use chebyshev::{RungeKuttaChebyshev, SpectralEstimate};
+pub(crate) use error_estimate::ErrorEstimate;
 pub use midpoint::Midpoint;
 
-use crate::{Hydrodynamics, Record, SceneError, System};
+use crate::{Hydrodynamics, SavedState, SceneError, System};
 
 /// Work of an integrator since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -43,8 +45,14 @@ pub trait Integrator: std::fmt::Debug + Send {
         true
     }
 
+    /// The constant C of an error of a step of about `C dt^3 y'''`, from which it is estimated for
+    /// [`crate::StepSize::Adaptive`]; `None`, the default, where the error is of another form. No dimension.
+    fn error_constant(&self) -> Option<f64> {
+        None
+    }
+
     /// Largest error of a step, in the measure of [`crate::StepSize::Adaptive`], that runs with
-    /// [`crate::StepSize::OfLimit`] accept; by default none is estimated. For integrators whose stability limit is so
+    /// [`crate::StepSize::OfLimit`] accept; needs [`Integrator::error_constant`]; by default none is estimated. For integrators whose stability limit is so
     /// long that it says nothing of accuracy.
     fn error_bound(&self) -> Option<f64> {
         None
@@ -56,13 +64,13 @@ pub trait Integrator: std::fmt::Debug + Send {
     }
 
     /// Writes what it keeps from step to step, so that it can go on bit for bit; most keep nothing.
-    fn save(&self, _record: &mut Record) {}
+    fn save(&self, _record: &mut SavedState) {}
 
     /// Takes back what [`Integrator::save`] wrote.
     ///
     /// # Errors
-    /// A record that another kind of integrator wrote.
-    fn load(&mut self, _record: &Record) -> Result<(), SceneError> {
+    /// A state that another kind of integrator wrote.
+    fn load(&mut self, _saved: &SavedState) -> Result<(), SceneError> {
         Ok(())
     }
 }

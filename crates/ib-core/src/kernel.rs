@@ -63,7 +63,7 @@ fn cosine_transform(f: impl Fn(f64) -> f64, reach: f64, theta: f64) -> f64 {
     let width = reach / panels as f64;
     let mut sum = 0.0;
     for p in 0..panels {
-        for (x, w) in crate::quadrature::GAUSS_10 {
+        for (x, w) in crate::mobility::GAUSS_10 {
             let r = width * (p as f64 + 0.5 * (1.0 + x));
             sum += 0.5 * width * w * f(r) * (theta * r).cos();
         }

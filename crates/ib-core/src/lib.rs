@@ -47,48 +47,30 @@
 mod band_limit;
 mod body;
 mod checkpoint;
-mod clearance;
-mod contact;
 mod contrast;
-mod correction;
 mod error;
+mod gap;
 mod hydrodynamics;
 mod immersed_boundary;
 mod integrator;
 mod kernel;
-mod markers;
 mod mobility;
-mod quadrature;
-mod record;
-mod run;
-mod sampling;
 mod scene;
-mod smeared_contrast;
-mod step_control;
-mod step_limit;
-mod system;
 mod transfer;
-mod wall_gap;
 
 pub use band_limit::BandLimit;
-pub use body::{Body, StepInfo};
-pub use checkpoint::{Checkpoint, CheckpointError};
-pub use contact::{Boundary, Repulsion};
+pub use body::{Body, MarkerBody, Observe, StepCause, StepInfo, StepLimit, StepLimits};
+pub use checkpoint::{Checkpoint, CheckpointError, ForeignState, SavedState};
 pub use error::{BodyError, FlowError, SceneError};
-pub use hydrodynamics::{Domain, FlowReport, FlowSample, FlowWork, Hydrodynamics, Medium};
-pub use immersed_boundary::ImmersedBoundary;
+pub use gap::{Boundary, Repulsion, wall_gap};
+pub use hydrodynamics::{
+    Domain, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerGroup, MarkerKind, Markers, Medium, Vec2,
+};
+pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
 pub use integrator::{Integrator, IntegratorWork, Midpoint, RungeKuttaChebyshev, SpectralEstimate};
 pub use kernel::{
     AnyKernel, CompositeBSpline, CubicQuadratic, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3,
 };
-pub use markers::{MarkerGroup, MarkerKind, Markers, Vec2};
 pub use mobility::{Deficit, MobilityDeficit};
-pub use record::{ForeignRecord, Record};
-pub use run::{Every, Observer, Run};
-pub use scene::{Handle, Scene};
-pub use smeared_contrast::SmearedContrast;
-pub use step_control::{Limiting, StepReport, StepSize};
-pub use step_limit::{StepCause, StepLimit, StepLimits};
-pub use system::System;
+pub use scene::{BodyFlow, Every, Handle, Limiting, Observer, Run, Scene, StepReport, StepSize, System};
 pub use transfer::Transfer;
-pub use wall_gap::wall_gap;

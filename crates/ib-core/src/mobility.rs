@@ -1,6 +1,13 @@
 //! What spreading, the grid and interpolation take from the mobility of an interface.
 
-use crate::quadrature::GAUSS_10;
+mod clearance;
+mod correction;
+mod quadrature;
+
+pub(crate) use clearance::Clearance;
+pub(crate) use correction::{MobilityCorrection, Setting};
+pub(crate) use quadrature::GAUSS_10;
+
 use crate::{Kernel, Role, Vec2};
 
 /// Largest tabulated wave number (in units of 1/h); above it the grid does not respond at all.

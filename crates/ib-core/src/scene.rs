@@ -1,39 +1,21 @@
 //! Scenes: bodies in a fluid, advanced in time.
 
-use std::marker::PhantomData;
+mod handle;
+mod run;
+mod step_control;
+mod system;
 
-use crate::step_control::StepControl;
+pub use handle::Handle;
+pub(crate) use handle::SceneId;
+pub use run::{Every, Observer, Run};
+pub(crate) use step_control::StepControl;
+pub use step_control::{Limiting, StepReport, StepSize};
+pub use system::{BodyFlow, System};
+
+use crate::integrator::ErrorEstimate;
 use crate::{
-    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Record, Repulsion, Run, SceneError, StepInfo,
-    StepReport, StepSize, System,
+    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Observe, Repulsion, SavedState, SceneError, StepInfo,
 };
-
-/// Where a body of type B stands in its scene.
-pub struct Handle<B> {
-    index: usize,
-    body: PhantomData<fn() -> B>,
-}
-
-// Derived implementations would ask B to be copied and printed too.
-impl<B> Clone for Handle<B> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-impl<B> Copy for Handle<B> {}
-impl<B> std::fmt::Debug for Handle<B> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Handle({})", self.index)
-    }
-}
-
-impl<B> Handle<B> {
-    /// Number of the body, in the order of addition; also that of its group in [`System::markers`].
-    #[must_use]
-    pub fn index(&self) -> usize {
-        self.index
-    }
-}
 
 /// Bodies coupled by a fluid, and the integrator that advances them.
 #[derive(Debug)]
@@ -47,21 +29,6 @@ pub struct Scene<H, I = Midpoint> {
     saved_lengths: Vec<usize>,
     error: ErrorEstimate,
 }
-
-/// What the error of a step is estimated from.
-#[derive(Debug, Default)]
-struct ErrorEstimate {
-    rate_before: Vec<f64>,
-    /// The state before anything is done at the end of the step, and the rate after.
-    after: Vec<f64>,
-    rate_after: Vec<f64>,
-    lengths_after: Vec<usize>,
-    scales: Vec<f64>,
-}
-
-/// The defect of the trapezoidal rule, twelvefold, is dt^3 times the third derivative; the integrators' errors are
-/// about this part of that.
-const DEFECT: f64 = 1.0 / 15.0;
 
 impl<H: Hydrodynamics> Scene<H> {
     /// A scene without bodies, advanced by the midpoint rule.
@@ -119,24 +86,32 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
 
     /// Adds a body; the handle gives it back.
     pub fn add<B: Body>(&mut self, body: B) -> Handle<B> {
-        Handle { index: self.system.push(Box::new(body)), body: PhantomData }
+        self.system.push(body)
     }
 
     /// A body.
     ///
-    /// # Panics
-    /// A handle of another scene.
-    #[must_use]
-    pub fn body<B: Body>(&self, handle: Handle<B>) -> &B {
-        self.system.body_at(handle.index).downcast_ref().expect("a handle belongs to the scene that gave it")
+    /// # Errors
+    /// [`SceneError::ForeignHandle`] for a handle of another scene.
+    pub fn body<B: Body>(&self, handle: Handle<B>) -> Result<&B, SceneError> {
+        self.system.body(handle)
     }
 
     /// A body, to be changed between steps.
     ///
-    /// # Panics
-    /// A handle of another scene.
-    pub fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> &mut B {
-        self.system.body_at_mut(handle.index).downcast_mut().expect("a handle belongs to the scene that gave it")
+    /// # Errors
+    /// [`SceneError::ForeignHandle`] for a handle of another scene.
+    pub fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> Result<&mut B, SceneError> {
+        self.system.body_mut(handle)
+    }
+
+    /// What is seen of a body in the present state, whose flow is computed if it is not known yet: all observables of
+    /// a droplet, say.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`] for a handle of another scene; those of the flow and of the body.
+    pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
+        self.system.observe(handle)
     }
 
     /// The bodies, the fluid and the time.
@@ -212,43 +187,28 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             return outcome;
         }
         self.system.restore(&self.saved_lengths, &self.saved)?;
-        // What the bodies keep of the flow is that of the present state again.
-        self.error.rate_before.resize(self.saved.len(), 0.0);
-        let known = self.system.present_rate(&mut self.error.rate_before);
+        let known = self.error.return_to(&mut self.system, &self.saved);
         outcome.and_then(|error| known.map(|()| error))
     }
 
     fn advance(&mut self, dt: f64, tolerance: Option<f64>) -> Result<f64, SceneError> {
         let Self { system, integrator, error, saved, saved_lengths, .. } = self;
+        let estimated = tolerance.zip(integrator.error_constant());
         system.begin_step(StepInfo { dt, stabilised: integrator.stabilised() })?;
-        if tolerance.is_some() {
-            error.rate_before.resize(saved.len(), 0.0);
-            system.whole_rate(saved, &mut error.rate_before)?;
-            error.scales.resize(saved.len(), 1.0);
-            system.write_scales(&mut error.scales);
+        if estimated.is_some() {
+            error.begin(system, saved)?;
         }
         integrator.step(system, dt)?;
-        if tolerance.is_some() {
-            system.write_state(&mut error.after);
+        if estimated.is_some() {
+            error.advanced(system);
         }
         system.end_step(dt)?;
         system.check_gaps()?;
         // The flow at the end of a step is that at the start of the next.
         system.evaluate()?;
-        let Some(tolerance) = tolerance else { return Ok(0.0) };
-        system.write_lengths(&mut error.lengths_after);
-        error.rate_after.resize(system.state_len(), 0.0);
-        if error.lengths_after != *saved_lengths {
-            // Markers were inserted or removed: the states cannot be compared, and the next step is judged again.
-            system.present_rate(&mut error.rate_after)?;
-            return Ok(1.0);
-        }
-        system.whole_rate(&error.after, &mut error.rate_after)?;
-        let ErrorEstimate { rate_before, after, rate_after, scales, .. } = error;
-        for (((rate, before), y0), y1) in rate_after.iter_mut().zip(&*rate_before).zip(&*saved).zip(&*after) {
-            *rate = DEFECT * (12.0 * (y0 - y1) + 6.0 * dt * (before + *rate));
-        }
-        Ok(system.error_norm(rate_after, scales) / tolerance)
+        let Some((tolerance, constant)) = estimated else { return Ok(0.0) };
+        // Where the states cannot be compared, the step stays and the next one is judged again.
+        Ok(error.end(system, (saved, saved_lengths), dt, constant)?.map_or(1.0, |error| error / tolerance))
     }
 
     /// The steps of the runs of this scene.
@@ -263,8 +223,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         self.integrator.work()
     }
 
-    pub(crate) fn load_integrator(&mut self, record: &Record) -> Result<(), SceneError> {
-        self.integrator.load(record)
+    pub(crate) fn load_integrator(&mut self, saved: &SavedState) -> Result<(), SceneError> {
+        self.integrator.load(saved)
     }
 
     /// The integrator.
@@ -291,3 +251,6 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         Run::new(self, until)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -127,7 +127,7 @@ fn present_and_least_gap() {
     assert_eq!(gaps, [0.875, 0.75, 0.625, 0.5, 0.625, 0.75, 0.875, 1.0]);
     assert_eq!(scene.system().minimum_wall_gap(), Some(0.5));
     // A change by hand shows at once, and in the record with the next step.
-    scene.body_mut(low).positions[0].y = 1.75;
+    scene.body_mut(low).unwrap().positions[0].y = 1.75;
     assert_eq!(scene.system_mut().wall_gap(), Some(0.25));
     assert_eq!(scene.system().minimum_wall_gap(), Some(0.5));
     scene.step(0.125).unwrap();

@@ -6,11 +6,14 @@ mod solids;
 
 use std::path::Path;
 
-use motile::ib_core::{Hydrodynamics, Observer, System};
+use motile::{
+    active_interface::{ActiveDroplet, observables::InterfaceState},
+    ib_core::{Hydrodynamics, Observer, System},
+};
 
 use crate::{
     Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries,
-    snapshot::{MOST_CELLS, at_markers, droplets},
+    snapshot::{MOST_CELLS, at_markers},
 };
 
 /// Writes the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`) and, where there are some, all
@@ -64,7 +67,7 @@ impl ParaView {
             .cell_scalars("vorticity", seen.flow.iter().map(|sample| sample.gradient[1][0] - sample.gradient[0][1]));
         self.fields.push(seen.time, &file)?;
 
-        self.interface.push(seen.time, &interfaces(system, &seen))?;
+        self.interface.push(seen.time, &interfaces(system, &seen)?)?;
         match solids::file(system) {
             Some(file) => self.solids.push(seen.time, &file),
             None => Ok(()),
@@ -73,21 +76,21 @@ impl ParaView {
 }
 
 /// All interfaces, each droplet's markers with its own forces and velocities.
-fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> VtkFile {
+fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<VtkFile, Error> {
     let (mut tension, mut velocity, mut force): (Vec<f64>, Vec<Vec2>, Vec<Vec2>) = Default::default();
-    for (index, droplet) in droplets(system) {
-        let state = droplet.interface_state(system, index);
+    for (handle, droplet) in system.bodies::<ActiveDroplet>() {
+        let state = InterfaceState::of(system, handle)?;
         tension.extend(at_markers(droplet.tensions()));
         velocity.extend(state.velocities);
         force.extend(state.forces);
     }
     let lines: Vec<Vec<Vec2>> = seen.droplets.iter().map(|droplet| droplet.markers.clone()).collect();
-    VtkFile::closed_lines(&lines)
+    Ok(VtkFile::closed_lines(&lines)
         .point_scalars("concentration", seen.droplets.iter().flat_map(|droplet| droplet.concentration.clone()))
         .point_scalars("tension", tension)
         .point_vectors("velocity", velocity)
         .point_vectors("force", force)
-        .cell_scalars("droplet", (0..lines.len()).map(|number| number as f64))
+        .cell_scalars("droplet", (0..lines.len()).map(|number| number as f64)))
 }
 
 impl<H: Hydrodynamics> Observer<H> for ParaView {

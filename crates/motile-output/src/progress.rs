@@ -8,11 +8,12 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use motile::{
-    active_interface::{DropletWarning, observables::centroid_velocity},
+    active_interface::{
+        ActiveDroplet, DropletWarning,
+        observables::{InterfaceState, centroid_velocity},
+    },
     ib_core::{Hydrodynamics, Observer, System},
 };
-
-use crate::snapshot::droplets;
 
 /// Least time between two updates of the bar, and between two lines where there is no terminal.
 const BAR_INTERVAL: Duration = Duration::from_millis(80);
@@ -113,14 +114,14 @@ impl<H: Hydrodynamics> Observer<H> for RunProgress {
         // The flow at the end of a step is that at the start of the next, so that this costs nothing.
         system.evaluate()?;
         let mut speed = None;
-        for (index, droplet) in droplets(system) {
+        for (handle, droplet) in system.bodies::<ActiveDroplet>() {
             for warning in droplet.warnings() {
                 if !self.warned.iter().any(|known| discriminant(known) == discriminant(&warning)) {
                     self.progress.note(&format!("warning: at t = {:.3}, {warning}", system.time()));
                     self.warned.push(warning);
                 }
             }
-            let state = droplet.interface_state(system, index);
+            let state = InterfaceState::of(system, handle)?;
             speed = speed.or(Some(centroid_velocity(state.markers, state.velocities)?.norm()));
         }
         let (time, end, steps, seconds) = (system.time(), self.end, system.steps(), self.progress.seconds());

@@ -5,10 +5,7 @@ use motile::{
     ib_core::{FlowSample, Hydrodynamics, System},
 };
 
-use crate::{
-    Error, Raster, SolidShape, Vec2,
-    solids::{solid_shape, solids},
-};
+use crate::{Error, Raster, SolidShape, Vec2, solids::solid_shape};
 
 /// Most cells in a direction of the rasters that snapshots make.
 pub(crate) const MOST_CELLS: usize = 512;
@@ -60,7 +57,7 @@ impl Snapshot {
         let points = raster.points();
         let mut flow = vec![FlowSample::default(); points.len()];
         system.sample(&points, &mut flow)?;
-        let shape = |(_, droplet): (usize, &ActiveDroplet)| {
+        let shape = |(_, droplet): (_, &ActiveDroplet)| {
             let markers = droplet.markers().to_vec();
             let concentration = at_markers(droplet.concentrations());
             Ok(DropletShape { concentration, centroid: polygon_moments(&markers)?.centroid, markers })
@@ -69,8 +66,8 @@ impl Snapshot {
             time: system.time(),
             raster,
             flow,
-            droplets: droplets(system).map(shape).collect::<Result<_, Error>>()?,
-            solids: solids(system).map(solid_shape).collect(),
+            droplets: system.bodies().map(shape).collect::<Result<_, Error>>()?,
+            solids: system.bodies().map(|(_, solid)| solid_shape(solid)).collect(),
             walls: system.hydrodynamics().medium().domain.walls,
         })
     }
@@ -86,12 +83,6 @@ impl Snapshot {
     pub fn velocity(&self) -> Vec<Vec2> {
         self.flow.iter().map(|sample| sample.velocity).collect()
     }
-}
-
-/// The droplets of a system with their numbers among its bodies.
-pub(crate) fn droplets<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = (usize, &ActiveDroplet)> {
-    let bodies = system.bodies().enumerate();
-    bodies.filter_map(|(index, body)| Some((index, (body as &dyn std::any::Any).downcast_ref()?)))
 }
 
 /// The mean of the values of the two segments that meet at each marker.

@@ -1,10 +1,8 @@
 //! What is seen of the elastic solids of a scene.
 
-use std::any::Any;
-
 use motile::{
     SolidGap,
-    elastic_solids::{Solid, width_between},
+    elastic_solids::{Solid, channel::width_between},
     ib_core::{Hydrodynamics, System},
 };
 
@@ -12,7 +10,7 @@ use crate::{Error, SolidShape, Vec2};
 
 /// The solids of a system, in the order of addition.
 pub(crate) fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &Solid> {
-    system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
+    system.bodies().map(|(_, solid)| solid)
 }
 
 /// A solid where it is now; of a periodic wall one period.

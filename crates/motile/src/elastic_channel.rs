@@ -2,7 +2,9 @@
 
 use active_interface::{ActiveDroplet, Curve};
 use elastic_solids::{
-    Channel, ChannelWalls, Mesher, Moduli, NeoHookean, Solid, SolidError, StraightChannel, SurfaceGap, TriangleMesh,
+    Channel, Mesher, Moduli, NeoHookean, Solid, SolidError, TriangleMesh,
+    channel::{StraightChannel, Walls},
+    solid::SurfaceGap,
 };
 use ib_core::{Handle, MobilityDeficit, Scene, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid};
@@ -50,7 +52,7 @@ pub enum WallSurface {
 /// width of the channel between the elastic walls.
 ///
 /// ```
-/// use motile::elastic_solids::{Moduli, width_between};
+/// use motile::elastic_solids::{Moduli, channel::width_between};
 /// use motile::prelude::*;
 ///
 /// // Soft walls, k = 1e4 in the thesis, and a coarse grid.
@@ -59,8 +61,8 @@ pub enum WallSurface {
 /// let (mut scene, droplet, walls) = channel.build()?;
 /// scene.run(1.0).go()?;
 ///
-/// let width = width_between(scene.body(walls[0]), scene.body(walls[1]))?;
-/// println!("width from {:.3} to {:.3}, {} markers", width.minimum, width.maximum, scene.body(droplet).markers().len());
+/// let width = width_between(scene.body(walls[0])?, scene.body(walls[1])?)?;
+/// println!("width from {:.3} to {:.3}, {} markers", width.minimum, width.maximum, scene.body(droplet)?.markers().len());
 /// assert!(width.minimum < 2.0 && width.maximum > 2.1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -206,11 +208,10 @@ impl ElasticChannel {
         let mesher = if self.mesh == WallMesh::Unstructured { mesher.turned(TURN)? } else { mesher };
         let set_back = self.set_back();
         let widened = if set_back > 0.0 { shape.widened(2.0 * set_back)? } else { shape.clone() };
-        let ChannelWalls { lower, upper, islands } = widened.walls(-half, half, &mesher)?;
-        let deficit = MobilityDeficit::new(&self.swimmer.kernel);
+        let Walls { lower, upper, islands } = widened.walls(-half, half, &mesher)?;
         let finished = |solid: Solid| {
             let solid = if self.may_invert { solid.allow_inversion() } else { solid };
-            if self.surface == WallSurface::Corrected { solid.surface_corrected(&deficit) } else { solid }
+            if self.surface == WallSurface::Corrected { solid.surface_corrected() } else { solid }
         };
         let mut solids = Vec::new();
         for (name, mesh) in [("lower wall", lower), ("upper wall", upper)] {

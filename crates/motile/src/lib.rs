@@ -14,8 +14,7 @@
 //! let (mut scene, droplet) = swimmer.build()?;
 //! scene.run(20.0).go()?;
 //!
-//! scene.system_mut().evaluate()?;
-//! let seen = observe(&scene.body(droplet).interface_state(scene.system(), droplet.index()), Convention::FarField)?;
+//! let seen = scene.observe(droplet)?;
 //! println!("speed {:.3} R0 per time, aspect ratio {:.3}", seen.speed(), seen.aspect_ratio_moments);
 //! assert!((seen.speed() - 0.130).abs() < 0.002);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -42,6 +41,7 @@
 mod elastic_channel;
 mod method;
 mod recommend;
+pub mod setup;
 mod setup_error;
 mod solid_gap;
 mod swimmer;

@@ -1,9 +1,8 @@
 //! The gap between a droplet and elastic solids during a run.
 
 use active_interface::ActiveDroplet;
-use elastic_solids::{Solid, SolidError, SurfaceGap};
+use elastic_solids::{Solid, SolidError, solid::SurfaceGap};
 use ib_core::{Hydrodynamics, Observer, System};
-use std::any::Any;
 
 /// Measures the gap between the first droplet of a system and all its solids, keeps the smallest
 /// one, and ends the run where the droplet enters a solid deeper than it may.
@@ -86,16 +85,12 @@ impl SolidGap {
         let period = system.hydrodynamics().medium().domain.periods[0];
         let surfaces = self.surfaces.get_or_insert_with(|| SurfaceGap::new(period));
         surfaces.clear();
-        let (mut any, mut droplet) = (false, None);
-        for body in system.bodies() {
-            let body: &dyn Any = body;
-            if let Some(solid) = body.downcast_ref::<Solid>() {
-                surfaces.add(solid)?;
-                any = true;
-            }
-            droplet = droplet.or(body.downcast_ref::<ActiveDroplet>());
+        let mut any = false;
+        for (_, solid) in system.bodies::<Solid>() {
+            surfaces.add(solid)?;
+            any = true;
         }
-        let Some(droplet) = droplet.filter(|_| any) else { return Ok(None) };
+        let Some((_, droplet)) = system.bodies::<ActiveDroplet>().next().filter(|_| any) else { return Ok(None) };
         surfaces.sort();
         let (gap, marker) = surfaces.smallest(droplet.markers())?;
         Ok(Some((gap - self.set_back, marker)))
@@ -113,7 +108,7 @@ impl<H: Hydrodynamics> Observer<H> for SolidGap {
             self.smallest = Some((gap, system.time()));
         }
         if gap < -self.allowed
-            && let Some(droplet) = system.find::<ActiveDroplet>()
+            && let Some((_, droplet)) = system.bodies::<ActiveDroplet>().next()
         {
             let place = droplet.markers()[marker];
             let (x, y, allowed) = (place.x, place.y, self.allowed);

@@ -110,7 +110,7 @@ impl Job {
         swimmer: &Swimmer,
     ) -> Result<Summary> {
         let mut recorder = TrajectoryRecorder::new(droplet);
-        let interval = Every::Time(self.time / 600.0);
+        let interval = Every::StepAfter(self.time / 600.0);
         scene.run(self.time).step_size(swimmer.step).observe(interval, &mut recorder).go()?;
         let Some(last) = recorder.records().last() else { bail!("nothing was measured") };
         let seen = &last.observables;
@@ -144,7 +144,7 @@ impl Job {
         summary.put("stresslet_xx", seen.get("stresslet_xx"), "");
         summary.put("beta", seen.get("beta"), "");
         summary.put("gap", last.gap, "");
-        summary.put("area_relative_change", seen.area / scene.body(droplet).initial_area() - 1.0, "");
+        summary.put("area_relative_change", seen.area / scene.body(droplet)?.initial_area() - 1.0, "");
         summary.put("steps", scene.steps(), "");
         Ok(summary)
     }

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use motile::active_interface::{ActiveDroplet, Curve, InitialConcentration};
-use motile::elastic_solids::{Solid, fitted_strip};
+use motile::elastic_solids::{Solid, mesh::fitted_strip};
 use motile::ib_core::{Body, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile::{Swimmer, boundary_integral};

@@ -1,11 +1,10 @@
 //! Speed of the droplet and width of the channel over the time of a run.
 
-use std::any::Any;
 use std::error::Error;
 
 use anyhow::Result;
-use motile::active_interface::{ActiveDroplet, Convention, observe};
-use motile::elastic_solids::{Solid, width_between};
+use motile::active_interface::ActiveDroplet;
+use motile::elastic_solids::{Solid, channel::width_between};
 use motile::ib_core::{Handle, Hydrodynamics, Observer, System};
 use motile_examples::Summary;
 use serde_json::Value;
@@ -91,11 +90,8 @@ fn six_figures(value: f64) -> f64 {
 
 impl<H: Hydrodynamics> Observer<H> for History {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn Error + Send + Sync>> {
-        system.evaluate()?;
-        let droplet = self.droplet.index();
-        let body: &ActiveDroplet = system.find().ok_or("a scene without a droplet")?;
-        let seen = observe(&body.interface_state(system, droplet), Convention::FarField)?;
-        let walls: Vec<&Solid> = system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref()).collect();
+        let seen = system.observe(self.droplet)?;
+        let walls: Vec<&Solid> = system.bodies().map(|(_, wall)| wall).collect();
         let [lower, upper, ..] = walls[..] else { return Err("a channel without walls".into()) };
         let width = width_between(lower, upper)?;
         let [minimum, maximum] = [width.minimum, width.maximum].map(|width| width - 2.0 * self.set_back);

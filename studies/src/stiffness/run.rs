@@ -6,7 +6,10 @@ use motile::active_interface::{
     ActiveDroplet, Motion,
     trajectory::{RegimeCriteria, TrajectoryRecorder},
 };
-use motile::elastic_solids::{Channel, Constriction, Moduli, Solid, StraightChannel, width_between};
+use motile::elastic_solids::{
+    Channel, Moduli, Solid,
+    channel::{Constriction, StraightChannel, width_between},
+};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
 use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, WallSurface, stokes_grid::Drive};
 use motile_examples::{Decided, Passage, Steadiness, Summary};
@@ -174,7 +177,7 @@ impl Job {
 
     fn without_solids<H: Hydrodynamics>(&self, mut scene: Scene<H>, droplet: Handle<ActiveDroplet>) -> Result<Summary> {
         let mut recorder = TrajectoryRecorder::new(droplet);
-        scene.run(self.time).observe(Every::Time(self.time / 300.0), &mut recorder).go()?;
+        scene.run(self.time).observe(Every::StepAfter(self.time / 300.0), &mut recorder).go()?;
         measured(&recorder)
     }
 
@@ -202,8 +205,8 @@ impl Job {
         let mut passage = Passage::new(if self.purpose == Purpose::Passage { 3.0 } else { f64::INFINITY });
         let mut run = scene
             .run(self.time)
-            .observe(Every::Time(self.time / 300.0), &mut recorder)
-            .observe(Every::Time(self.time / 300.0), &mut history)
+            .observe(Every::StepAfter(self.time / 300.0), &mut recorder)
+            .observe(Every::StepAfter(self.time / 300.0), &mut history)
             .observe(Every::Steps(1), &mut gap);
         if self.purpose == Purpose::Passage {
             run = run.observe(Every::Steps(1), &mut passage);
@@ -242,7 +245,7 @@ impl Job {
         set_back: f64,
         summary: &mut Summary,
     ) -> Result<()> {
-        let [lower, upper] = [scene.body(walls[0]), scene.body(walls[1])];
+        let [lower, upper] = [scene.body(walls[0])?, scene.body(walls[1])?];
         let width = width_between(lower, upper)?;
         summary.put("channel_width_min", width.minimum - 2.0 * set_back, "");
         summary.put("channel_width_max", width.maximum - 2.0 * set_back, "");

@@ -2,7 +2,7 @@
 
 use anyhow::Result;
 use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, Convention, observe};
+use motile::active_interface::{ActiveDroplet, Convention, observables::InterfaceState, observe};
 use motile::ib_core::{Handle, Hydrodynamics, Scene, SceneError};
 use motile_examples::Summary;
 
@@ -81,7 +81,7 @@ impl Job {
         let early = scene.run(middle).go().and_then(|()| speed(&mut scene, droplet));
         let ended = early.and_then(|early| scene.run(self.time).go().map(|()| early));
         scene.system_mut().evaluate()?;
-        let state = scene.body(droplet).interface_state(scene.system(), droplet.index());
+        let state = InterfaceState::of(scene.system(), droplet)?;
         let seen = observe(&state, Convention::FarField)?;
         let printed = observe(&state, Convention::AsPrinted)?;
         let (rate, outcome) = match &ended {
@@ -118,7 +118,7 @@ impl Job {
 
 fn speed<H: Hydrodynamics>(scene: &mut Scene<H>, droplet: Handle<ActiveDroplet>) -> Result<f64, SceneError> {
     scene.system_mut().evaluate()?;
-    let state = scene.body(droplet).interface_state(scene.system(), droplet.index());
+    let state = InterfaceState::of(scene.system(), droplet)?;
     Ok(observe(&state, Convention::FarField).map_or(f64::NAN, |seen| seen.speed()))
 }
 

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use anyhow::{Result, anyhow, bail};
 use motile::active_interface::{ActiveDroplet, Curve, curve::polygon_moments};
 use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
-use motile::elastic_solids::{NeoHookean, Solid, fitted_strip};
-use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, MobilityDeficit, Scene, Vec2};
+use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
+use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile::{AnyFlow, Swimmer};
 use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes};
@@ -92,7 +92,7 @@ pub(crate) fn relaxation(settings: &Settings) -> Result<(f64, Cost)> {
         Ok(scene)
     };
     let (cost, ratio) = march(make, settings.stepper, 2.0, |system| {
-        let body: &ActiveDroplet = system.find().ok_or_else(|| anyhow!("no droplet"))?;
+        let (_, body) = system.bodies::<ActiveDroplet>().next().ok_or_else(|| anyhow!("no droplet"))?;
         let moments = polygon_moments(body.markers())?;
         Ok((moments.xx / moments.yy).sqrt())
     })?;
@@ -118,7 +118,7 @@ pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
         let solid = Solid::hyperelastic(mesh, NeoHookean::new(SHEAR, 3.0 * SHEAR)?)
             .pinned(|s| s.y < -0.5 * HEIGHT + 1e-9)?
             .deformed(|s| s + Vec2::new(AMPLITUDE * (s.y + 0.5 * HEIGHT), 0.0))?;
-        Ok(if settings.corrected { solid.surface_corrected(&MobilityDeficit::new(&settings.kernel)) } else { solid })
+        Ok(if settings.corrected { solid.surface_corrected() } else { solid })
     };
     let make = || {
         let flow = ImmersedBoundary::new(ChannelStokes::new(grid, VISCOSITY)?, settings.kernel);
@@ -129,8 +129,8 @@ pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
     let start = slide(&solid()?);
     let time = VISCOSITY / SHEAR;
     let (cost, end) = march(make, settings.stepper, time, |system| {
-        let body: &Solid = system.find().ok_or_else(|| anyhow!("no solid"))?;
-        Ok(slide(body))
+        let (_, layer) = system.bodies::<Solid>().next().ok_or_else(|| anyhow!("no solid"))?;
+        Ok(slide(layer))
     })?;
     let rate = -(end / start).ln();
     let per_time = Cost { seconds: cost.seconds * time, pairs: cost.pairs * time, steps: cost.steps * time, ..cost };

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use anyhow::{Result, anyhow};
-use motile::active_interface::{ActiveDroplet, Convention, observe};
+use motile::active_interface::ActiveDroplet;
 use motile::ib_core::{StepSize, System};
 use motile::stokes_grid::Drive;
 use motile::{AnyFlow, Swimmer};
@@ -33,9 +33,8 @@ fn boxed(settings: &Settings, activity: f64, outside: Option<f64>) -> Swimmer {
 
 /// Speed at present of the only droplet.
 fn speed(system: &mut System<AnyFlow>) -> Result<f64> {
-    system.evaluate()?;
-    let body: &ActiveDroplet = system.find().ok_or_else(|| anyhow!("no droplet"))?;
-    Ok(observe(&body.interface_state(system, 0), Convention::FarField)?.speed())
+    let (droplet, _) = system.bodies::<ActiveDroplet>().next().ok_or_else(|| anyhow!("no droplet"))?;
+    Ok(system.observe(droplet)?.speed())
 }
 
 fn against(swimmer: &Swimmer, settings: &Settings, reference: f64) -> Result<(f64, Cost)> {

@@ -1,6 +1,5 @@
 //! Runs a scene and measures what changed.
 
-use std::any::Any;
 use std::f64::consts::PI;
 use std::time::Instant;
 
@@ -20,7 +19,7 @@ pub struct Drift {
 }
 
 fn droplets<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = &ActiveDroplet> {
-    system.bodies().filter_map(|body| (body as &dyn Any).downcast_ref())
+    system.bodies().map(|(_, droplet)| droplet)
 }
 
 /// The area that a droplet keeps (length squared): that of the polygon of its markers on a grid, and without one that

@@ -111,7 +111,7 @@ fn narrow_box(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseE
 fn filled(way: Way, extent: Extent, look: Look<'_>, density: impl FnMut(f64) -> f64) -> Result<Outcome, CaseError> {
     let swimmer = swimmer(way, &coarse());
     let (mut scene, handle) = swimmer.build()?;
-    let body = scene.body(handle);
+    let body = scene.body(handle)?;
     let count = body.markers().len();
     let shares: Vec<f64> = (0..count).map(|k| (k as f64 + 0.5) / count as f64).map(density).collect();
     let unit = body.particle_numbers().iter().sum::<f64>() / shares.iter().sum::<f64>();
@@ -120,7 +120,7 @@ fn filled(way: Way, extent: Extent, look: Look<'_>, density: impl FnMut(f64) -> 
         .with_motion(swimmer.motion)
         .with_flux(swimmer.flux)?
         .with_area_constraint(swimmer.area_constraint);
-    *scene.body_mut(handle) = droplet;
+    *scene.body_mut(handle)? = droplet;
     let until = extent.pick(1.0, 20.0);
     match way {
         // The start is over in a thousandth of the time that the rest takes.

@@ -1,6 +1,10 @@
 //! Elastic walls: stiff, narrow, badly meshed.
 
-use motile::elastic_solids::{Constriction, Mesher, Moduli, Solid, Springs, StraightChannel, TriangleMesh};
+use motile::elastic_solids::{
+    Mesher, Moduli, Solid, TriangleMesh,
+    channel::{Constriction, StraightChannel},
+    forces::Springs,
+};
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid};
 use motile::{AnyFlow, ElasticChannel, Swimmer, WallSurface};

@@ -153,14 +153,14 @@ pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SwimmerErrors, StudyError>
         .select("w", &format!("{width}"))
         .select("zeta_dmu", &format!("{:.1}", swimmer.activity));
     let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient)?;
-    let particles: f64 = scene.body(droplet).particle_numbers().iter().sum();
+    let particles: f64 = scene.body(droplet)?.particle_numbers().iter().sum();
     scene.run(time).go()?;
     let seen = look(&mut scene, droplet)?;
     let relative = |value: f64, name: &str| -> Result<f64, StudyError> {
         let exact = reference.value(name)?;
         Ok((value - exact) / exact.abs())
     };
-    let body = scene.body(droplet);
+    let body = scene.body(droplet)?;
     let extent = body.markers().iter().fold(0.0_f64, |a, marker| a.max(marker.y.abs()));
     Ok(SwimmerErrors {
         speed: relative(seen.speed(), "speed")?,

@@ -63,9 +63,9 @@ pub fn rate_in_box(swimmer: &Swimmer, mode: Mode) -> Result<f64, StudyError> {
 fn amplitudes(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<(f64, f64), StudyError> {
     let mut scene = swimmer.scene()?;
     let droplet: Handle<ActiveDroplet> = scene.add(perturbed(swimmer, mode, epsilon)?);
-    let start = amplitude(scene.body(droplet), mode)?;
+    let start = amplitude(scene.body(droplet)?, mode)?;
     scene.run(DURATION).step_size(StepSize::Fixed(DURATION / 20.0)).go()?;
-    Ok((start, amplitude(scene.body(droplet), mode)?))
+    Ok((start, amplitude(scene.body(droplet)?, mode)?))
 }
 
 /// A round droplet with a small perturbation.

@@ -42,10 +42,10 @@ pub fn run_with_ratio(h: f64, dt: f64, ratio: u32) -> Result<Relaxation, StudyEr
     let droplet = if ratio == 1 { droplet } else { droplet.with_viscosity_inside(f64::from(ratio))? };
     let droplet = scene.add(droplet);
     scene.run(2.0).step_size(StepSize::Fixed(dt)).go()?;
-    let moments = polygon_moments(scene.body(droplet).markers())?;
+    let moments = polygon_moments(scene.body(droplet)?.markers())?;
     Ok(Relaxation {
         aspect_ratio_error: (moments.xx / moments.yy).sqrt() - expected,
-        area_change: moments.area / scene.body(droplet).initial_area() - 1.0,
+        area_change: moments.area / scene.body(droplet)?.initial_area() - 1.0,
         steps: scene.steps(),
     })
 }

@@ -61,7 +61,7 @@ pub fn marker_spacing(ds: f64) -> Result<MarkerSpacing, StudyError> {
     let (mut scene, droplet) = swimmer.build_on_grid()?;
     scene.run(3.0).step_size(StepSize::OfLimit(0.25)).go()?;
     let speed = look(&mut scene, droplet)?.speed();
-    let body = scene.body(droplet);
+    let body = scene.body(droplet)?;
     let warned = body.warnings().iter().any(|warning| matches!(warning, DropletWarning::CellPeclet { .. }));
     Ok(MarkerSpacing { speed, peclet: body.cell_peclet()?, warned })
 }

@@ -1,11 +1,13 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
 use motile::elastic_solids::{
-    DeformationGradient, ElasticForces, EnergyDensity, ForceBalance, Hyperelastic, InnerPoints, Mat2, MeasuredModuli,
-    Mesher, MooneyRivlin, NeoHookean, Outline, Region, SaintVenantKirchhoff, Solid, SolidError, Springs, TriangleMesh,
-    equilateral_block, equilateral_strip, fitted_strip, force_balance, measured_moduli, patch_residual, stress_error,
+    ElasticForces, EnergyDensity, Mesher, NeoHookean, Outline, Region, Solid, SolidError, TriangleMesh,
+    check::{ForceBalance, InnerPoints, MeasuredModuli, force_balance, measured_moduli, patch_residual, stress_error},
+    forces::{Hyperelastic, Springs},
+    material::{DeformationGradient, Mat2, MooneyRivlin, SaintVenantKirchhoff},
+    mesh::{equilateral_block, equilateral_strip, fitted_strip},
 };
-use motile::ib_core::{CubicQuadratic, ImmersedBoundary, MobilityDeficit, Scene, Vec2};
+use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid};
 
 use crate::validation::StudyError;
@@ -195,14 +197,13 @@ impl Layer {
         let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
         let above = |s: Vec2| s.y + 0.5 * HEIGHT;
         let solid = solid.pinned(|s| above(s) < 1e-9)?.deformed(|s| s + Vec2::new(shear * above(s), 0.0))?;
-        let deficit = MobilityDeficit::new(&CubicQuadratic::default());
-        let handle = scene.add(if self.corrected { solid.surface_corrected(&deficit) } else { solid });
-        let start = slide(scene.body(handle));
+        let handle = scene.add(if self.corrected { solid.surface_corrected() } else { solid });
+        let start = slide(scene.body(handle)?);
         let time = VISCOSITY / LAYER_SHEAR;
         for _ in 0..50 {
             scene.step(time / 50.0)?;
         }
-        let rate = -(slide(scene.body(handle)) / start).ln();
+        let rate = -(slide(scene.body(handle)?) / start).ln();
         Ok(rate / (1.0 - THICKNESS / HEIGHT) - 1.0)
     }
 }

@@ -1,7 +1,7 @@
 //! Swimmers against boundary-integral values.
 
 use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, Convention, Observables, observe};
+use motile::active_interface::{ActiveDroplet, Observables};
 use motile::ib_core::{Every, Handle, Hydrodynamics, Integrator, Scene, StepSize};
 
 use crate::validation::{Reference, ReferenceFile, StudyError};
@@ -14,9 +14,7 @@ pub fn look<H: Hydrodynamics, I: Integrator>(
     scene: &mut Scene<H, I>,
     droplet: Handle<ActiveDroplet>,
 ) -> Result<Observables, StudyError> {
-    scene.system_mut().evaluate()?;
-    let state = scene.body(droplet).interface_state(scene.system(), droplet.index());
-    Ok(observe(&state, Convention::FarField)?)
+    Ok(scene.observe(droplet)?)
 }
 
 /// Relative errors of a steady swimmer.
@@ -113,7 +111,7 @@ fn compare<H: Hydrodynamics>(
         beta: relative(seen.squirmer.beta().unwrap_or(f64::NAN), "beta_co")?,
         active_fraction: relative(seen.active_region.map_or(f64::NAN, |region| region.fraction), "active_frac")?,
         concentration_max: relative(seen.concentration_range.map_or(f64::NAN, |[max, _]| max / c0), "cmax")?,
-        area_change: seen.area / scene.body(droplet).initial_area() - 1.0,
+        area_change: seen.area / scene.body(droplet)?.initial_area() - 1.0,
         steps: scene.steps(),
         dt,
     })
@@ -184,14 +182,10 @@ pub fn long_run(swimmer: &Swimmer, time: f64) -> Result<LongRun, StudyError> {
     let (mut scene, droplet) = swimmer.build_on_grid()?;
     let mut records: Vec<(f64, Observables)> = Vec::new();
     let mut watch = |system: &mut motile::ib_core::System<motile::PeriodicBox>| -> Result<(), StudyError> {
-        system.evaluate()?;
-        if let Some(body) = system.find::<ActiveDroplet>() {
-            records
-                .push((system.time(), observe(&body.interface_state(system, droplet.index()), Convention::FarField)?));
-        }
+        records.push((system.time(), system.observe(droplet)?));
         Ok(())
     };
-    scene.run(time).observe(Every::Time(0.5), &mut watch).go()?;
+    scene.run(time).observe(Every::StepAfter(0.5), &mut watch).go()?;
     let late: Vec<_> = records.iter().filter(|(t, _)| *t >= 0.5 * time).collect();
     let (Some((t0, first)), Some((t1, last)), Some((_, start))) = (late.first(), late.last(), records.first()) else {
         return Err(StudyError::Reference("a run without records".to_owned()));

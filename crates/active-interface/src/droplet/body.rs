@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, Record, StepInfo, StepLimits, Vec2};
+use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
 
 use super::geometry::{equidistribute, outward, signed_area};
 use super::redistribution::redistribute;
@@ -236,29 +236,29 @@ impl Body for ActiveDroplet {
         numbers.fill(if mean > 0.0 { mean } else { 1.0 });
     }
 
-    fn save(&self) -> Record {
+    fn save(&self) -> SavedState {
         let Self { target_spacing, initial_area, initial_number, repair, redistributed, .. } = self;
         let mut reals = vec![0.0; self.state_len()];
         self.write_state(&mut reals);
         reals.extend_from_slice(&self.slip);
         reals.extend([*target_spacing, *initial_area, *initial_number, repair.moved]);
         let counts = [self.markers.len(), repair.segments, repair.furthest, redistributed.0, redistributed.1];
-        Record { reals, counts: counts.map(|count| count as u64).to_vec() }
+        SavedState { reals, counts: counts.map(|count| count as u64).to_vec() }
     }
 
-    fn load(&mut self, medium: &Medium, record: &Record) -> Result<(), BodyError> {
-        let [count, segments, furthest, inserted, removed] = record.counts_of("an active droplet")?;
+    fn load(&mut self, medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
+        let [count, segments, furthest, inserted, removed] = saved.counts_of("an active droplet")?;
         let per_marker = if self.transport.is_some() { 4 } else { 3 };
-        let found = record.reals.len();
+        let found = saved.reals.len();
         let count = usize::try_from(count).unwrap_or(usize::MAX).min(found);
         let expected = per_marker * count + 4;
         if count < MINIMUM_MARKERS || expected != found {
-            return Err(BodyError::ForeignRecord { expected, found });
+            return Err(BodyError::ForeignState { expected, found });
         }
-        if let Some(index) = record.reals.iter().position(|value| !value.is_finite()) {
-            return Err(BodyError::NonFinite { what: "entry of the record", index, value: record.reals[index] });
+        if let Some(index) = saved.reals.iter().position(|value| !value.is_finite()) {
+            return Err(BodyError::NonFinite { what: "entry of the saved state", index, value: saved.reals[index] });
         }
-        let (state, rest) = record.reals.split_at((per_marker - 1) * count);
+        let (state, rest) = saved.reals.split_at((per_marker - 1) * count);
         let (slip, numbers) = rest.split_at(count);
         self.resize(count)?;
         self.read_state(state)?;

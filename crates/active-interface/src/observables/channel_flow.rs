@@ -4,7 +4,11 @@ use ib_core::{BodyError, FlowError, FlowReport, FlowSample, Handle, Hydrodynamic
 
 use crate::curve::polygon::edges;
 use crate::error::{finite, positive};
-use crate::{ActiveDroplet, InterfaceError, curve::polygon_moments, observables::centroid_velocity};
+use crate::{
+    ActiveDroplet, InterfaceError,
+    curve::polygon_moments,
+    observables::{InterfaceState, centroid_velocity},
+};
 
 /// The pressure drop along a channel of the length `length` (length): how much lower the pressure is at its right end
 /// (force per length in 2D), `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.
@@ -87,27 +91,21 @@ impl GapFlow {
 /// as long as the gaps are some cells wide.
 ///
 /// # Errors
-/// A fluid without walls, a body that is no active droplet, those of an evaluation and of sampling.
+/// A fluid without walls, a handle of another scene, those of an evaluation and of sampling.
 pub fn gap_flow<H: Hydrodynamics>(
     system: &mut System<H>,
     droplet: Handle<ActiveDroplet>,
 ) -> Result<GapFlow, SceneError> {
-    gap_flow_of(system, droplet.index())
-}
-
-/// [`gap_flow`] of the body number `index`.
-pub(crate) fn gap_flow_of<H: Hydrodynamics>(system: &mut System<H>, index: usize) -> Result<GapFlow, SceneError> {
     let (medium, time) = (system.hydrodynamics().medium(), system.time());
     let [bottom, top] = walls(&medium, time)?;
     system.evaluate()?;
-    let droplet = droplet(system, index).map_err(|source| named(system, index, source))?;
-    let markers = droplet.markers();
-    let state = droplet.interface_state(system, index);
+    let state = InterfaceState::of(system, droplet)?;
+    let markers = state.markers;
     let moving = polygon_moments(markers).and_then(|area| {
         let velocity = centroid_velocity(markers, state.velocities)?;
         Ok((area.centroid.x, velocity.x))
     });
-    let (x, velocity) = moving.map_err(|source| named(system, index, source))?;
+    let (x, velocity) = moving.map_err(|source| named(system, droplet, source))?;
     let [low, high] = crossings(markers, x).map(|y| y.clamp(bottom, top));
     let line = Line::new(&medium, &[bottom, low, high, top]);
     let [below, inside, above] = line.integrals(system, x)?;
@@ -120,15 +118,14 @@ pub(crate) fn gap_flow_of<H: Hydrodynamics>(system: &mut System<H>, index: usize
     })
 }
 
-/// The active droplet that is body number `index`.
-pub(crate) fn droplet<H: Hydrodynamics>(system: &System<H>, index: usize) -> Result<&ActiveDroplet, InterfaceError> {
-    let body = system.bodies().nth(index).map(|body| body as &dyn std::any::Any);
-    body.and_then(|body| body.downcast_ref()).ok_or(InterfaceError::NotADroplet { index })
-}
-
-fn named<H: Hydrodynamics>(system: &System<H>, index: usize, source: InterfaceError) -> SceneError {
-    let body = system.bodies().nth(index).map_or_else(|| format!("body {index}"), |body| body.name().to_owned());
-    SceneError::Body { time: system.time(), body, source: BodyError::from(source) }
+fn named<H: Hydrodynamics>(system: &System<H>, droplet: Handle<ActiveDroplet>, source: InterfaceError) -> SceneError {
+    match system.any_body(droplet) {
+        Ok(body) => {
+            let body = body.name().to_owned();
+            SceneError::Body { time: system.time(), body, source: BodyError::from(source) }
+        }
+        Err(error) => error,
+    }
 }
 
 fn walls(medium: &Medium, time: f64) -> Result<[f64; 2], SceneError> {

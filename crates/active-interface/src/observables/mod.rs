@@ -13,7 +13,6 @@ mod squirmer;
 
 pub use active_region::{ActiveRegion, active_curvature, active_region};
 pub use channel_flow::{GapFlow, gap_flow, net_flux, pressure_drop};
-pub(crate) use channel_flow::{droplet, gap_flow_of};
 pub use circle_fit::fitted_curvature;
 pub use ellipse_fit::{EllipseFit, fit_ellipse};
 pub use fourier::{FourierModes, concentration_modes, shape_modes};

@@ -4,10 +4,9 @@ use std::error::Error;
 
 use ib_core::{Handle, Hydrodynamics, Observer, System, wall_gap};
 
-use crate::observables::{droplet, gap_flow_of};
 use crate::{
     ActiveDroplet, Convention, InterfaceError, Observables,
-    observables::GapFlow,
+    observables::{GapFlow, InterfaceState, gap_flow},
     observe,
     trajectory::{RegimeCriteria, RegimeReport, Trajectory},
 };
@@ -52,7 +51,7 @@ impl TrajectoryRecord {
 /// use ib_core::Every;
 ///
 /// let mut recorder = TrajectoryRecorder::new(droplet);
-/// scene.run(500.0).observe(Every::Time(0.5), &mut recorder).go()?;
+/// scene.run(500.0).observe(Every::StepAfter(0.5), &mut recorder).go()?;
 /// let report = recorder.regime(&RegimeCriteria::default())?;
 /// println!("{}, amplitude {}", report.regime, report.evidence.amplitude);
 /// println!("closest to a wall: {:?}", recorder.minimum_gap());
@@ -61,7 +60,7 @@ impl TrajectoryRecord {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrajectoryRecorder {
-    index: usize,
+    droplet: Handle<ActiveDroplet>,
     convention: Convention,
     with_gap_flow: bool,
     centre_line: Option<f64>,
@@ -73,15 +72,9 @@ impl TrajectoryRecorder {
     /// A recorder of a droplet, with force moments in the far-field convention.
     #[must_use]
     pub fn new(droplet: Handle<ActiveDroplet>) -> Self {
-        Self::of_body(droplet.index())
-    }
-
-    /// A recorder of the droplet that is body number `index`, in the order of addition.
-    #[must_use]
-    pub fn of_body(index: usize) -> Self {
         let convention = Convention::FarField;
         let records = Vec::new();
-        Self { index, convention, with_gap_flow: false, centre_line: None, minimum_gap: None, records }
+        Self { droplet, convention, with_gap_flow: false, centre_line: None, minimum_gap: None, records }
     }
 
     /// The same recorder with force moments in another convention.
@@ -160,10 +153,10 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
     /// can be continued.
     ///
     /// # Errors
-    /// A body that is no active droplet, a time before that of the last record, those of an evaluation.
+    /// A handle of another scene, a time before that of the last record, those of an evaluation.
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn Error + Send + Sync>> {
         let time = system.time();
-        droplet(system, self.index)?;
+        system.body(self.droplet)?;
         match self.records.last() {
             Some(last) if last.time > time => {
                 let index = self.records.len();
@@ -178,11 +171,11 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
         }
         system.evaluate()?;
         let pressure_gradient = system.report().mean_pressure_gradient[0];
-        let flow = self.with_gap_flow.then(|| gap_flow_of(system, self.index)).transpose()?;
-        let body = droplet(system, self.index)?;
-        let observables = observe(&body.interface_state(system, self.index), self.convention)?;
+        let flow = self.with_gap_flow.then(|| gap_flow(system, self.droplet)).transpose()?;
+        let state = InterfaceState::of(system, self.droplet)?;
+        let observables = observe(&state, self.convention)?;
         let walls = system.hydrodynamics().medium().domain.walls;
-        let gap = walls.map(|walls| wall_gap(body.markers(), walls));
+        let gap = walls.map(|walls| wall_gap(state.markers, walls));
         if let Some(gap) = gap {
             self.minimum_gap = Some(self.minimum_gap.map_or(gap, |least| least.min(gap)));
         }

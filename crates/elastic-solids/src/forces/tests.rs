@@ -2,10 +2,11 @@
 
 use proptest::prelude::*;
 
-use crate::{
-    ElasticForces, Hyperelastic, Mat2, MooneyRivlin, NeoHookean, Outline, Region, SaintVenantKirchhoff, SolidError,
-    Springs, TriangleMesh, equilateral_strip, force_balance, patch_residual,
-};
+use crate::check::{force_balance, patch_residual};
+use crate::forces::{Hyperelastic, Springs};
+use crate::material::{Mat2, MooneyRivlin, SaintVenantKirchhoff};
+use crate::mesh::equilateral_strip;
+use crate::{ElasticForces, NeoHookean, Outline, Region, SolidError, TriangleMesh};
 use ib_core::Vec2;
 
 fn blob() -> TriangleMesh {
@@ -104,7 +105,7 @@ proptest! {
 fn a_uniform_deformation_gives_no_force_inside() {
     let deformation = Mat2::new(1.1, 0.2, -0.1, 0.9);
     let residual = |mesh: &TriangleMesh, law: &dyn ElasticForces| patch_residual(mesh, law, deformation).unwrap();
-    let (unstructured, lattice) = (blob(), crate::equilateral_block(Vec2::zeros(), 6, 5, 0.2).unwrap());
+    let (unstructured, lattice) = (blob(), crate::mesh::equilateral_block(Vec2::zeros(), 6, 5, 0.2).unwrap());
     // The first two laws are springs, the fourth is not uniform.
     for law in laws(&unstructured).iter().enumerate().filter(|(number, _)| ![0, 1, 3].contains(number)).map(|l| l.1) {
         assert!(residual(&unstructured, law.as_ref()) < 1e-13, "{law:?}");

@@ -3,7 +3,10 @@
 use ib_core::{Body, BodyError, Domain, MarkerKind, Medium};
 
 use super::*;
-use crate::{Constriction, Mat2, Mesher, NeoHookean, equilateral_block, equilateral_strip, width_between};
+use crate::channel::{Constriction, width_between};
+use crate::material::Mat2;
+use crate::mesh::{equilateral_block, equilateral_strip};
+use crate::{Mesher, NeoHookean};
 
 fn medium() -> Medium {
     let domain = Domain { origin: [-2.0, -2.0], periods: [Some(4.0), None], walls: Some([-2.0, 2.0]) };
@@ -151,7 +154,7 @@ fn observables_of_a_uniform_deformation() {
     let shift = Vec2::new(0.3, -0.2);
     let solid = Solid::hyperelastic(block(), NeoHookean::new(2.0, 5.0).unwrap()).deformed(|s| a * s + shift).unwrap();
     assert!(solid.jacobians().all(|jacobian| (jacobian - 0.99).abs() < 1e-12));
-    let gradient = crate::DeformationGradient::new(a).unwrap();
+    let gradient = crate::material::DeformationGradient::new(a).unwrap();
     let material = NeoHookean::new(2.0, 5.0).unwrap();
     let expected = material.cauchy_stress(&gradient);
     for (triangle, stress) in solid.stresses().unwrap().iter().enumerate() {

@@ -3,7 +3,7 @@ use stokes_grid::{Grid, PeriodicStokes};
 use super::*;
 use crate::{CubicQuadratic, ImmersedBoundary};
 
-/// What is wrong here comes to light only after the flow has taken its record over.
+/// What is wrong here comes to light only after the flow has taken its state over.
 #[test]
 fn a_refusal_leaves_the_flow_as_it_was() {
     let solver = PeriodicStokes::new(Grid::periodic(16, 16, 0.25).unwrap(), 1.0).unwrap();
@@ -11,7 +11,7 @@ fn a_refusal_leaves_the_flow_as_it_was() {
     let before = scene.checkpoint("");
     let found = Found { iterations: 0, residual: 0.0, mean_pressure_gradient: [0.0; 2] };
     let other = Checkpoint {
-        flow: Record { reals: vec![1.0; 6], counts: vec![0, 0, 0, 6] },
+        flow: SavedState { reals: vec![1.0; 6], counts: vec![0, 0, 0, 6] },
         known: Some((vec![[0.0; 2]], found)),
         time: 1.0,
         ..before.clone()

@@ -2,11 +2,10 @@
 
 use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
 
-use super::{ImmersedBoundary, add};
-use crate::clearance::Clearance;
+use super::{ImmersedBoundary, add, sampling};
 use crate::contrast::{Contrast, Droplet, EquivalentForces, Images, Nearby, Outcome, RigidWalls};
-use crate::correction::Setting;
-use crate::{FlowError, FlowReport, FlowSample, Kernel, Markers, Record, Transfer, Vec2, sampling};
+use crate::mobility::{Clearance, Setting};
+use crate::{FlowError, FlowReport, FlowSample, Kernel, Markers, SavedState, Transfer, Vec2};
 
 /// What interfaces to other viscosities need beside the grid.
 #[derive(Debug)]
@@ -46,20 +45,20 @@ struct Nodes {
 
 impl<K: Kernel> ContrastFlow<K> {
     /// The last solutions, from which the next ones start.
-    pub(super) fn save(&self) -> Record {
-        let mut record = self.contrast.save();
-        record.counts.push(self.equivalent.guess().len() as u64);
-        record.reals.extend_from_slice(self.equivalent.guess());
-        record
+    pub(super) fn save(&self) -> SavedState {
+        let mut saved = self.contrast.save();
+        saved.counts.push(self.equivalent.guess().len() as u64);
+        saved.reals.extend_from_slice(self.equivalent.guess());
+        saved
     }
 
     /// Takes back what [`ContrastFlow::save`] wrote.
-    pub(super) fn restore(&mut self, mut record: Record) {
-        let last = record.counts.pop().and_then(|count| usize::try_from(count).ok());
-        let Some(start) = last.and_then(|count| record.reals.len().checked_sub(count)) else { return };
-        self.equivalent.start_from(&record.reals[start..]);
-        record.reals.truncate(start);
-        self.contrast.restore(&record);
+    pub(super) fn restore(&mut self, mut saved: SavedState) {
+        let last = saved.counts.pop().and_then(|count| usize::try_from(count).ok());
+        let Some(start) = last.and_then(|count| saved.reals.len().checked_sub(count)) else { return };
+        self.equivalent.start_from(&saved.reals[start..]);
+        saved.reals.truncate(start);
+        self.contrast.restore(&saved);
     }
 
     /// Takes over the droplets.

@@ -6,7 +6,7 @@ use coefficients::{Coefficients, interval, stages_for};
 
 use super::spectral_radius::PowerMethod;
 use super::{Integrator, IntegratorWork};
-use crate::{Hydrodynamics, Record, SceneError, System};
+use crate::{Hydrodynamics, SavedState, SceneError, System};
 
 /// Where the fastest rate of decay comes from, which says how many stages a step needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,6 +23,8 @@ pub enum SpectralEstimate {
 const MARGIN: f64 = 1.05;
 /// Range in which a measurement may correct a prediction.
 const CORRECTION: [f64; 2] = [1.0, 20.0];
+/// That of many stages (Sommeijer, Shampine and Verwer 1998).
+const ERROR_CONSTANT: f64 = 1.0 / 15.0;
 /// Largest error of a step of a fraction of the stability limit: where decays do not bound the step, the limit says
 /// nothing of accuracy.
 const ERROR_BOUND: f64 = 3e-4;
@@ -227,6 +229,10 @@ impl Integrator for RungeKuttaChebyshev {
         false
     }
 
+    fn error_constant(&self) -> Option<f64> {
+        Some(ERROR_CONSTANT)
+    }
+
     fn error_bound(&self) -> Option<f64> {
         Some(ERROR_BOUND)
     }
@@ -235,19 +241,19 @@ impl Integrator for RungeKuttaChebyshev {
         self.work
     }
 
-    fn save(&self, record: &mut Record) {
+    fn save(&self, saved: &mut SavedState) {
         let IntegratorWork { stages, most_stages, estimates } = self.work;
-        record.counts.extend([self.due, stages, most_stages, estimates].map(|count| count as u64));
-        record.reals.push(self.measured);
-        record.reals.extend_from_slice(&self.power.direction);
+        saved.counts.extend([self.due, stages, most_stages, estimates].map(|count| count as u64));
+        saved.reals.push(self.measured);
+        saved.reals.extend_from_slice(&self.power.direction);
     }
 
-    fn load(&mut self, record: &Record) -> Result<(), SceneError> {
-        let [due, stages, most_stages, estimates] = record.counts_of(self.name())?;
+    fn load(&mut self, saved: &SavedState) -> Result<(), SceneError> {
+        let [due, stages, most_stages, estimates] = saved.counts_of(self.name())?;
         let [stages, most_stages, estimates] = [stages, most_stages, estimates].map(|count| count as usize);
         self.due = due as usize;
         self.work = IntegratorWork { stages, most_stages, estimates };
-        if let [measured, direction @ ..] = record.reals.as_slice() {
+        if let [measured, direction @ ..] = saved.reals.as_slice() {
             self.measured = *measured;
             self.power.direction.clear();
             self.power.direction.extend_from_slice(direction);

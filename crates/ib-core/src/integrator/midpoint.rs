@@ -1,7 +1,10 @@
 //! The midpoint rule.
 
 use super::{Integrator, IntegratorWork};
-use crate::{Hydrodynamics, Record, SceneError, System};
+use crate::{Hydrodynamics, SavedState, SceneError, System};
+
+/// Between the 1/24 of a rate that depends on time alone and the 1/6 of a decay.
+const ERROR_CONSTANT: f64 = 1.0 / 15.0;
 
 /// The midpoint rule (thesis (2.37)), second order, two evaluations a step, with the bodies' implicit parts by backward
 /// Euler in the first half step and by the trapezoidal rule over the whole step:
@@ -45,16 +48,20 @@ impl Integrator for Midpoint {
         2.0
     }
 
+    fn error_constant(&self) -> Option<f64> {
+        Some(ERROR_CONSTANT)
+    }
+
     fn work(&self) -> IntegratorWork {
         IntegratorWork { stages: 2 * self.steps, most_stages: 2 * self.steps.min(1), estimates: 0 }
     }
 
-    fn save(&self, record: &mut Record) {
-        record.counts.push(self.steps as u64);
+    fn save(&self, saved: &mut SavedState) {
+        saved.counts.push(self.steps as u64);
     }
 
-    fn load(&mut self, record: &Record) -> Result<(), SceneError> {
-        let [steps] = record.counts_of(self.name())?;
+    fn load(&mut self, saved: &SavedState) -> Result<(), SceneError> {
+        let [steps] = saved.counts_of(self.name())?;
         self.steps = steps as usize;
         Ok(())
     }

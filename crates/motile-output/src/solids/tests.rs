@@ -1,5 +1,6 @@
 use super::*;
-use motile::{ElasticChannel, Swimmer, elastic_solids::Moduli};
+use motile::elastic_solids::Moduli;
+use motile::{ElasticChannel, Swimmer};
 
 #[test]
 fn walls_of_a_channel() {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::{ElasticChannel, Swimmer};
-use elastic_solids::{Moduli, NeoHookean, Solid, Springs, equilateral_strip};
+use elastic_solids::{Moduli, NeoHookean, Solid, forces::Springs, mesh::equilateral_strip};
 use ib_core::Vec2;
 
 #[test]
@@ -11,7 +11,7 @@ fn a_droplet_inside_a_wall_is_an_error() {
     let mut gap = SolidGap::new(0.05).with_set_back(channel.set_back());
     gap.observe(scene.system_mut()).unwrap();
     assert!((gap.present().unwrap() - 0.1).abs() < 2e-3, "{gap:?}");
-    let lower = scene.body_mut(walls[0]);
+    let lower = scene.body_mut(walls[0]).unwrap();
     let raised: Vec<_> = lower.positions().iter().map(|p| p + Vec2::new(0.0, 0.3)).collect();
     Solid::set_positions(lower, &raised).unwrap();
     let error = gap.observe(scene.system_mut()).unwrap_err();

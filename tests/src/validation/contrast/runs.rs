@@ -57,9 +57,9 @@ pub fn growth(swimmer: &Swimmer, way: Way) -> Result<f64, StudyError> {
 fn run<H: Hydrodynamics>(scene: &mut Scene<H>, swimmer: &Swimmer, epsilon: f64) -> Result<(f64, f64), StudyError> {
     let mode = Mode::Concentration(1);
     let droplet = scene.add(perturbed(swimmer, mode, epsilon)?);
-    let start = amplitude(scene.body(droplet), mode)?;
+    let start = amplitude(scene.body(droplet)?, mode)?;
     scene.run(DURATION).step_size(StepSize::Fixed(DURATION / 20.0)).go()?;
-    Ok((start, amplitude(scene.body(droplet), mode)?))
+    Ok((start, amplitude(scene.body(droplet)?, mode)?))
 }
 
 /// Speeds of a swimmer at given times, by the method that it names.

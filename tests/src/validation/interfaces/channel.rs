@@ -41,7 +41,7 @@ pub fn steady_in_channel(swimmer: &Swimmer, time: f64) -> Result<ChannelErrors, 
         let exact = reference.value(name)?;
         Ok((value - exact) / exact.abs())
     };
-    let body = scene.body(droplet);
+    let body = scene.body(droplet)?;
     let extent = body.markers().iter().fold(0.0_f64, |a, marker| a.max(marker.y.abs()));
     Ok(ChannelErrors {
         speed: relative(seen.speed(), "speed")?,

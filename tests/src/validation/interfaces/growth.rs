@@ -27,9 +27,9 @@ pub fn growth_rate(swimmer: &Swimmer, mode: Mode, cells: usize) -> Result<f64, S
         let settings = Settings { nodes: swimmer.nodes, tolerance: 1e-11, ..Settings::default() };
         let mut scene = Scene::new(BoundaryIntegral::new(FreeSpace, swimmer.viscosity, settings)?);
         let droplet = scene.add(perturbed(&swimmer, mode, epsilon)?);
-        amplitudes[0] += epsilon.signum() * amplitude(scene.body(droplet), mode)?;
+        amplitudes[0] += epsilon.signum() * amplitude(scene.body(droplet)?, mode)?;
         scene.run(DURATION).step_size(StepSize::Fixed(DURATION / STEPS)).go()?;
-        amplitudes[1] += epsilon.signum() * amplitude(scene.body(droplet), mode)?;
+        amplitudes[1] += epsilon.signum() * amplitude(scene.body(droplet)?, mode)?;
     }
     Ok((amplitudes[1] / amplitudes[0]).ln() / DURATION)
 }

@@ -1,7 +1,7 @@
 //! Long runs in a box: what turns a swimmer is the lattice of its images.
 
 use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, Convention, Observables, observe};
+use motile::active_interface::Observables;
 use motile::ib_core::{Every, Hydrodynamics, System};
 
 use crate::validation::StudyError;
@@ -35,14 +35,10 @@ pub fn turning(swimmer: &Swimmer, time: f64) -> Result<Turning, StudyError> {
     let (mut scene, droplet) = swimmer.build_without_grid()?;
     let mut records: Vec<(f64, Observables)> = Vec::new();
     let mut watch = |system: &mut System<motile::IntegralBox>| -> Result<(), StudyError> {
-        system.evaluate()?;
-        if let Some(body) = system.find::<ActiveDroplet>() {
-            let state = body.interface_state(system, droplet.index());
-            records.push((system.time(), observe(&state, Convention::FarField)?));
-        }
+        records.push((system.time(), system.observe(droplet)?));
         Ok(())
     };
-    scene.run(time).observe(Every::Time(0.5), &mut watch).go()?;
+    scene.run(time).observe(Every::StepAfter(0.5), &mut watch).go()?;
     debug_assert_eq!(scene.system().hydrodynamics().work().stokes_solves, 0);
     let late: Vec<_> = records.iter().filter(|(t, _)| *t >= 0.5 * time).collect();
     let (Some((t0, first)), Some((t1, last)), Some((_, start))) = (late.first(), late.last(), records.first()) else {

@@ -35,9 +35,9 @@ pub fn relax(ratio: u32, nodes: usize, markers: usize, dt: f64) -> Result<Integr
     start.iter_mut().for_each(|marker| *marker /= factor);
     let droplet = ActiveDroplet::passive(&start, 1.0)?.with_viscosity_inside(f64::from(ratio))?;
     let droplet = scene.add(droplet);
-    let area = moments(scene.body(droplet).markers())?[0];
+    let area = moments(scene.body(droplet)?.markers())?[0];
     scene.run(2.0).step_size(StepSize::Fixed(dt)).go()?;
-    let end = scene.body(droplet).markers();
+    let end = scene.body(droplet)?.markers();
     let [last, xx, yy] = moments(end)?;
     Ok(IntegralRelaxation {
         aspect_ratio: (xx / yy).sqrt() - reference.value("AR_moment")?,

@@ -77,26 +77,26 @@ fn run<D: FluidDomain + 'static>(
             None => droplet,
         }));
     }
-    let particles = |scene: &Scene<_>, droplet: Handle<ActiveDroplet>| -> f64 {
-        scene.body(droplet).particle_numbers().iter().sum()
+    let particles = |scene: &Scene<_>, droplet: Handle<ActiveDroplet>| -> Result<f64, StudyError> {
+        Ok(scene.body(droplet)?.particle_numbers().iter().sum())
     };
-    let start: Vec<f64> = droplets.iter().map(|&droplet| particles(&scene, droplet)).collect();
+    let start = droplets.iter().map(|&droplet| particles(&scene, droplet)).collect::<Result<Vec<_>, _>>()?;
     let (mut least, mut area_change, mut particle_change) = (f64::INFINITY, 0.0_f64, 0.0_f64);
     let looks = (4.0 * time).ceil() as u32;
     for look in 1..=looks {
         scene.run(time * f64::from(look) / f64::from(looks)).go()?;
         for (k, &droplet) in droplets.iter().enumerate() {
-            let body = scene.body(droplet);
+            let body = scene.body(droplet)?;
             area_change = area_change.max((polygon_moments(body.markers())?.area / body.initial_area() - 1.0).abs());
-            particle_change = particle_change.max((particles(&scene, droplet) / start[k] - 1.0).abs());
+            particle_change = particle_change.max((particles(&scene, droplet)? / start[k] - 1.0).abs());
             for &other in &droplets[..k] {
-                least = least.min(gap(body.markers(), scene.body(other).markers(), periods));
+                least = least.min(gap(body.markers(), scene.body(other)?.markers(), periods));
             }
         }
     }
     let centroids = droplets
         .iter()
-        .map(|&droplet| Ok(polygon_moments(scene.body(droplet).markers())?.centroid))
+        .map(|&droplet| Ok(polygon_moments(scene.body(droplet)?.markers())?.centroid))
         .collect::<Result<_, StudyError>>()?;
     let work = motile::ib_core::Hydrodynamics::work(scene.system().hydrodynamics());
     let iterations = work.iterations as f64 / work.evaluations as f64;

@@ -65,9 +65,9 @@ fn records_columns_and_gap() {
     let mut recorder = TrajectoryRecorder::new(droplet).with_gap_flow();
     assert!(recorder.is_empty() && recorder.minimum_gap().is_none() && recorder.column("time").is_none());
     let step = StepSize::Fixed(0.05);
-    scene.run(5.0).step_size(step).observe(Every::Time(0.5), &mut recorder).go().unwrap();
+    scene.run(5.0).step_size(step).observe(Every::StepAfter(0.5), &mut recorder).go().unwrap();
     // Continued: the end of the first run is the start of the second one.
-    scene.run(10.0).step_size(step).observe(Every::Time(0.5), &mut recorder).go().unwrap();
+    scene.run(10.0).step_size(step).observe(Every::StepAfter(0.5), &mut recorder).go().unwrap();
     assert_eq!(recorder.len(), 21);
 
     let column = |name: &str| -> Vec<f64> {
@@ -96,7 +96,7 @@ fn records_columns_and_gap() {
 fn feeds_the_analysis() {
     let (mut scene, droplet) = scene(0.25, -0.1, true);
     let mut recorder = TrajectoryRecorder::new(droplet);
-    scene.run(40.0).step_size(StepSize::Fixed(0.05)).observe(Every::Time(0.5), &mut recorder).go().unwrap();
+    scene.run(40.0).step_size(StepSize::Fixed(0.05)).observe(Every::StepAfter(0.5), &mut recorder).go().unwrap();
     let trajectory = recorder.trajectory().unwrap();
     // Heights are measured from the centre line, y = 1.
     assert_relative_eq!(trajectory.heights()[0], 0.8, max_relative = 1e-9);
@@ -118,23 +118,25 @@ fn without_walls() {
     // From its first height.
     assert!(recorder.trajectory().unwrap().heights().iter().all(|y| y.abs() < 1e-12));
     assert_eq!(recorder.regime(&RegimeCriteria::default()).unwrap().regime, Regime::AtRest);
-    assert!(TrajectoryRecorder::of_body(0).regime(&RegimeCriteria::default()).is_err());
+    assert!(TrajectoryRecorder::new(droplet).regime(&RegimeCriteria::default()).is_err());
 }
 
 #[test]
 fn what_cannot_be_recorded_ends_the_run() {
-    let (mut first, _) = scene(0.0, 0.0, false);
-    let mut stranger = TrajectoryRecorder::of_body(3);
-    let error = first.run(1.0).observe(Every::Time(0.5), &mut stranger).go().unwrap_err();
-    assert!(matches!(error, SceneError::Observer { .. }) && error.explanation().contains("body 3"), "{error}");
+    let (mut first, droplet) = scene(0.0, 0.0, false);
+    let (_, other) = scene(0.0, 0.0, false);
+    let mut stranger = TrajectoryRecorder::new(other);
+    let error = first.run(1.0).observe(Every::StepAfter(0.5), &mut stranger).go().unwrap_err();
+    assert!(matches!(error, SceneError::Observer { .. }) && error.explanation().contains("another scene"), "{error}");
 
-    let mut recorder = TrajectoryRecorder::of_body(0);
-    first.run(1.0).observe(Every::Time(0.5), &mut recorder).go().unwrap();
-    let (mut second, _) = scene(0.0, 0.0, false);
-    let error = second.run(1.0).observe(Every::Time(0.5), &mut recorder).go().unwrap_err();
+    let mut recorder = TrajectoryRecorder::new(droplet);
+    let start = first.checkpoint("");
+    first.run(1.0).observe(Every::StepAfter(0.5), &mut recorder).go().unwrap();
+    first.resume(&start).unwrap();
+    let error = first.run(1.0).observe(Every::StepAfter(0.5), &mut recorder).go().unwrap_err();
     assert!(error.explanation().contains("the times of the records"), "{error}");
 
-    let mut greedy = TrajectoryRecorder::of_body(0).with_gap_flow();
-    let error = second.run(1.0).observe(Every::Time(0.5), &mut greedy).go().unwrap_err();
+    let mut greedy = TrajectoryRecorder::new(droplet).with_gap_flow();
+    let error = first.run(1.0).observe(Every::StepAfter(0.5), &mut greedy).go().unwrap_err();
     assert!(error.explanation().contains("walls"), "{error}");
 }

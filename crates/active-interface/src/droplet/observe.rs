@@ -1,0 +1,38 @@
+//! What is seen of a droplet of a scene.
+
+use ib_core::{BodyError, BodyFlow, Handle, Hydrodynamics, Medium, Observe, SceneError, System};
+
+use crate::observables::InterfaceState;
+use crate::{ActiveDroplet, Convention, Observables, observe};
+
+impl Observe for ActiveDroplet {
+    type Observables = Observables;
+
+    /// All observables ([`observe`]) in the far-field convention; for another one see [`InterfaceState::of`].
+    fn observables(&self, medium: &Medium, flow: &BodyFlow<'_>) -> Result<Observables, BodyError> {
+        Ok(observe(&InterfaceState::new(self, medium, flow), Convention::FarField)?)
+    }
+}
+
+impl<'a> InterfaceState<'a> {
+    /// The state of a droplet with the flow at its markers.
+    fn new(droplet: &'a ActiveDroplet, medium: &Medium, flow: &BodyFlow<'a>) -> Self {
+        let outside = medium.viscosity;
+        Self {
+            markers: droplet.markers(),
+            forces: flow.forces,
+            velocities: flow.velocities,
+            numbers: droplet.particle_numbers(),
+            viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
+        }
+    }
+
+    /// The present state of a droplet of a system, for [`observe`].
+    ///
+    /// # Errors
+    /// A handle of another scene; [`SceneError::NotEvaluated`] where the flow of the present state is not known.
+    pub fn of<H: Hydrodynamics>(system: &'a System<H>, droplet: Handle<ActiveDroplet>) -> Result<Self, SceneError> {
+        let medium = system.hydrodynamics().medium();
+        Ok(Self::new(system.body(droplet)?, &medium, &system.flow_at(droplet)?))
+    }
+}

@@ -1,0 +1,149 @@
+//! Areas and widths of the ready channels, and their meshes.
+
+use super::*;
+use crate::channel::Walls;
+use crate::{Mesher, TriangleMesh};
+
+const BOTTOM: f64 = -2.6;
+const TOP: f64 = 2.4;
+
+/// Meshes both walls and compares their area with the box less the channel's.
+fn walls(channel: &Channel, spacing: f64, channel_area: f64, tolerance: f64) -> Walls {
+    let walls = channel.walls(BOTTOM, TOP, &Mesher::new(spacing).unwrap()).unwrap();
+    let solid = walls.lower.area() + walls.upper.area();
+    let expected = channel.period() * (TOP - BOTTOM) - channel_area;
+    assert!((solid - expected).abs() < tolerance, "{solid} {expected}");
+    for mesh in [&walls.lower, &walls.upper] {
+        assert_eq!(mesh.period(), Some(channel.period()));
+        let mut advances: Vec<i32> = mesh.boundary_loops().iter().map(|l| l.periods).collect();
+        advances.sort_unstable();
+        assert_eq!(advances, [-1, 1]);
+    }
+    walls
+}
+
+fn highest(mesh: &TriangleMesh) -> Vec2 {
+    mesh.points().iter().copied().max_by(|a, b| a.y.total_cmp(&b.y)).unwrap()
+}
+
+#[test]
+fn a_straight_channel() {
+    let channel = StraightChannel { period: 6.0, width: 2.0 }.channel().unwrap();
+    let walls = walls(&channel, 0.1, 12.0, 1e-12);
+    assert!((highest(&walls.lower).y + 1.0).abs() < 1e-14);
+}
+
+#[test]
+fn the_constriction_of_the_thesis() {
+    let channel = Constriction::thesis().channel().unwrap();
+    // 6 x 2 + 4 x 1 + two ramps of mean width 1.5.
+    let walls = walls(&channel, 0.1, 19.0, 0.01);
+    assert!((highest(&walls.lower).y + 0.5).abs() < 1e-12);
+    for mesh in [&walls.lower, &walls.upper] {
+        let quality = mesh.quality();
+        assert!(quality.edge_deviation < 0.04 && quality.smallest_angle > 33.0, "{quality}");
+    }
+    // The same half a period further, across the seam.
+    let moved = Constriction { centre: 6.0, ..Constriction::thesis() }.channel().unwrap();
+    let seam = moved.walls(BOTTOM, TOP, &Mesher::new(0.1).unwrap()).unwrap();
+    assert!((seam.lower.area() - walls.lower.area()).abs() < 1e-3);
+}
+
+#[test]
+fn a_valve_keeps_its_sharp_tips_and_rounds_them_on_request() {
+    let valve = Valve { period: 8.0, width: 2.0, gap: 0.2, base: 1.2, radius: 0.0, centre: 0.5 };
+    // The channel less two triangles of base 1.2 and height 0.9.
+    let sharp = walls(&valve.channel().unwrap(), 0.07, 16.0 - 1.08, 1e-10);
+    assert!((highest(&sharp.lower) - Vec2::new(0.5, -0.1)).norm() < 1e-12);
+    let rounded = Valve { radius: 0.1, ..valve }.channel().unwrap();
+    let rounded = rounded.walls(BOTTOM, TOP, &Mesher::new(0.05).unwrap()).unwrap();
+    let tip = highest(&rounded.lower).y;
+    // A circle of radius r in a tip of half angle a stands off it by r (1/sin a - 1).
+    let expected = -0.1 - 0.1 * ((0.6_f64.hypot(0.9)) / 0.6 - 1.0);
+    assert!((tip - expected).abs() < 0.01, "{tip} {expected}");
+}
+
+#[test]
+fn ratchets_narrow_over_their_rise() {
+    let smooth = Ratchet { period: 12.0, width: 2.0, throat: 1.0, teeth: 3, rise: 0.75, sharp: false };
+    // Means of the cosine ramps and of the straight flanks are both 1.5.
+    let smooth_walls = walls(&smooth.channel().unwrap(), 0.1, 18.0, 0.02);
+    let sharp = Ratchet { sharp: true, ..smooth };
+    let sharp_walls = walls(&sharp.channel().unwrap(), 0.1, 18.0, 1e-10);
+    for mesh in [&smooth_walls.lower, &sharp_walls.lower] {
+        let tip = highest(mesh);
+        assert!((tip.y + 0.5).abs() < 2e-3 && ((tip.x + 6.0).rem_euclid(4.0) - 3.0).abs() < 0.06, "{tip}");
+        let quality = mesh.quality();
+        assert!(quality.edge_deviation < 0.06 && quality.smallest_angle > 28.0, "{quality}");
+    }
+}
+
+#[test]
+fn a_sinusoidal_channel() {
+    let shape = SinusoidalChannel { period: 10.0, width: 2.0, amplitude: 0.3, waves: 2, phase: 0.0 };
+    let narrowing = walls(&shape.channel().unwrap(), 0.1, 20.0, 0.01);
+    assert!((highest(&narrowing.lower).y + 0.7).abs() < 2e-3);
+    let winding = SinusoidalChannel { phase: PI, ..shape };
+    walls(&winding.channel().unwrap(), 0.1, 20.0, 0.01);
+    let closed = SinusoidalChannel { amplitude: 1.1, ..shape };
+    assert!(matches!(closed.channel(), Err(SolidError::Crossing { .. })));
+}
+
+#[test]
+fn a_channel_that_branches_around_an_island() {
+    let shape = BranchingChannel {
+        period: 14.0,
+        width: 2.0,
+        branches: [1.0, 0.6],
+        island_length: 5.0,
+        island_thickness: 1.2,
+        ramp: 1.5,
+    };
+    let channel = shape.channel().unwrap();
+    let walls = channel.walls(-3.0, 3.0, &Mesher::new(0.08).unwrap()).unwrap();
+    assert_eq!(walls.islands.len(), 1);
+    let island = &walls.islands[0];
+    assert_eq!((island.boundary_loops().len(), island.period()), (1, None));
+    // int sqrt(1 - u^4) du over -1..1 is 1.74803836953.
+    assert!((island.area() - 2.0 * 2.5 * 0.6 * 1.748_038_37).abs() < 0.01, "{}", island.area());
+    for (mesh, deviation) in [(&walls.lower, 0.05), (&walls.upper, 0.05), (island, 0.08)] {
+        let quality = mesh.quality();
+        assert!(quality.edge_deviation < deviation && quality.smallest_angle > 30.0, "{quality}");
+    }
+    let lowest = walls.lower.points().iter().filter(|p| p.x.abs() < 0.1).map(|p| p.y).fold(-9.0, f64::max);
+    assert!((lowest + 1.6).abs() < 1e-12);
+    // Each alone is the same mesh.
+    let mesher = Mesher::new(0.08).unwrap();
+    assert_eq!(channel.lower_wall(-3.0, &mesher).unwrap(), walls.lower);
+    assert_eq!(channel.upper_wall(3.0, &mesher).unwrap(), walls.upper);
+    assert_eq!(channel.island(0, &mesher).unwrap(), walls.islands[0]);
+    assert!(matches!(channel.island(1, &mesher), Err(SolidError::TooFew { found: 1, minimum: 2, .. })));
+}
+
+#[test]
+fn bad_shapes_are_refused() {
+    let constriction = Constriction { throat_length: 11.0, ..Constriction::thesis() };
+    assert!(matches!(constriction.channel(), Err(SolidError::DoesNotFit { .. })));
+    let constriction = Constriction { throat: 0.0, ..Constriction::thesis() };
+    assert!(matches!(constriction.channel(), Err(SolidError::NotPositive { .. })));
+    let straight = StraightChannel { period: f64::NAN, width: 1.0 };
+    assert!(matches!(straight.channel(), Err(SolidError::NotPositive { .. })));
+    let valve = Valve { period: 8.0, width: 2.0, gap: 2.5, base: 1.2, radius: 0.0, centre: 0.0 };
+    assert!(matches!(valve.channel(), Err(SolidError::NotPositive { .. })));
+    let valve = Valve { gap: 0.1, radius: 5.0, ..valve };
+    assert!(matches!(valve.channel(), Err(SolidError::FilletTooLarge { .. })));
+    let ratchet = Ratchet { period: 12.0, width: 2.0, throat: 1.0, teeth: 0, rise: 0.5, sharp: true };
+    assert!(matches!(ratchet.channel(), Err(SolidError::TooFew { .. })));
+    let ratchet = Ratchet { teeth: 2, rise: 1.0, ..ratchet };
+    assert!(matches!(ratchet.channel(), Err(SolidError::OutOfRange { .. })));
+    let (flat, circle) = (|y| Outline::flat(0.0, 4.0, y).unwrap(), Outline::circle(Vec2::zeros(), 0.2).unwrap());
+    assert!(matches!(Channel::new(flat(1.0), flat(-1.0)), Err(SolidError::NotBetween { .. })));
+    assert!(matches!(Channel::new(flat(-1.0), circle.clone()), Err(SolidError::DifferentPeriods { .. })));
+    assert!(matches!(Channel::new(circle.clone(), flat(1.0)), Err(SolidError::Unsupported { .. })));
+    let outside = circle.translated(Vec2::new(0.0, 3.0)).unwrap();
+    let channel = Channel::with_islands(flat(-1.0), flat(1.0), vec![outside]);
+    assert!(matches!(channel, Err(SolidError::NotBetween { .. })));
+    let channel = Channel::new(flat(-1.0), flat(1.0)).unwrap();
+    assert!(matches!(channel.widened(-2.5), Err(SolidError::NotBetween { .. } | SolidError::Crossing { .. })));
+    assert!(matches!(channel.walls(-1.05, 3.0, &Mesher::new(0.1).unwrap()), Err(SolidError::WallTooThin { .. })));
+}

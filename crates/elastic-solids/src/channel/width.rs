@@ -1,0 +1,86 @@
+//! The width of a channel between deformed walls.
+
+use ib_core::Vec2;
+
+use crate::error::{all_points_finite, at_least, positive};
+use crate::{Solid, SolidError};
+
+/// The narrowest and the widest place of a channel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Width {
+    /// Smallest width (length).
+    pub minimum: f64,
+    /// x of that place (length), within one period from the leftmost point of the lower side.
+    pub minimum_at: f64,
+    /// Largest width (length).
+    pub maximum: f64,
+    /// x of that place (length), within one period from the leftmost point of the lower side.
+    pub maximum_at: f64,
+}
+
+/// The vertical width of the channel between two walls of a scene, the smallest and the largest over x.
+///
+/// # Errors
+/// Walls that are not periodic in x, or with different periods.
+pub fn width_between(lower: &Solid, upper: &Solid) -> Result<Width, SolidError> {
+    let (first, second) = (lower.mesh().period().unwrap_or(0.0), upper.mesh().period().unwrap_or(0.0));
+    let (Some(below), Some(above), true) = (lower.upper_surface(), upper.lower_surface(), first == second) else {
+        return Err(SolidError::DifferentPeriods { first, second });
+    };
+    vertical_width(&below, &above, first)
+}
+
+/// The vertical distance between two lines through the points `lower` and `upper` (length), each repeated with `period`
+/// (length): the smallest and the largest over x. Where a line overhangs, the part next to the other counts.
+///
+/// Its extremes lie at points of one of the lines.
+///
+/// # Errors
+/// Empty lists, points that are not finite, a period that is not positive.
+fn vertical_width(lower: &[Vec2], upper: &[Vec2], period: f64) -> Result<Width, SolidError> {
+    positive("the period", period)?;
+    for (name, line) in [("points of the lower side", lower), ("points of the upper side", upper)] {
+        at_least(name, line.len(), 1)?;
+        all_points_finite(name, line)?;
+    }
+    let mut width = Width { minimum: f64::INFINITY, minimum_at: 0.0, maximum: f64::NEG_INFINITY, maximum_at: 0.0 };
+    let start = lower.iter().map(|point| point.x).fold(f64::INFINITY, f64::min);
+    for x in lower.iter().chain(upper).map(|point| point.x) {
+        let here = heights(upper, period, x).fold(f64::INFINITY, f64::min)
+            - heights(lower, period, x).fold(f64::NEG_INFINITY, f64::max);
+        let place = start + (x - start).rem_euclid(period);
+        if here < width.minimum {
+            (width.minimum, width.minimum_at) = (here, place);
+        }
+        if here > width.maximum && here.is_finite() {
+            (width.maximum, width.maximum_at) = (here, place);
+        }
+    }
+    Ok(width)
+}
+
+/// Heights at which a periodic line crosses the vertical through x.
+fn heights(line: &[Vec2], period: f64, x: f64) -> impl Iterator<Item = f64> {
+    let count = line.len();
+    // Which way the line runs.
+    let total = line[count - 1].x - line[0].x;
+    let advance = if total < 0.0 { -period } else { period };
+    (0..count).filter_map(move |k| {
+        let from = line[k];
+        let mut step = line[(k + 1) % count] - from;
+        if k + 1 == count {
+            step.x += advance;
+        }
+        // The image of x in front of the segment's start; edges are shorter than half a period.
+        let mut ahead = x - from.x;
+        ahead -= period * ((ahead - 0.5 * step.x) / period).round();
+        if step.x == 0.0 {
+            return (ahead == 0.0).then_some(from.y);
+        }
+        let fraction = ahead / step.x;
+        (-1e-12..=1.0 + 1e-12).contains(&fraction).then_some(from.y + step.y * fraction)
+    })
+}
+
+#[cfg(test)]
+mod tests;

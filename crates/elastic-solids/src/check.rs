@@ -1,0 +1,90 @@
+//! What every energy and every law of forces must satisfy, as figures: for materials of one's own.
+
+mod moduli;
+
+use ib_core::Vec2;
+
+use crate::error::{all_points_finite, fits, positive};
+use crate::material::{DeformationGradient, Mat2};
+use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
+
+pub use moduli::{InnerPoints, MeasuredModuli, measured_moduli};
+
+/// The largest entry of `P - dW/dA` (force per length) at the deformation gradient `deformation`, dW/dA by central
+/// differences of width `step` (dimensionless; at 5e-6 round-off and truncation are about equal).
+///
+/// ```
+/// use elastic_solids::check::stress_error;
+/// use elastic_solids::material::Mat2;
+/// use elastic_solids::{NeoHookean, SolidError};
+///
+/// let material = NeoHookean::new(1.0, 2.0)?;
+/// let error = stress_error(&material, Mat2::new(1.2, 0.3, 0.0, 0.9), 5e-6)?;
+/// assert!(error < 1e-8);
+/// # Ok::<(), SolidError>(())
+/// ```
+///
+/// # Errors
+/// A step that is not positive; a deformation, or one a step away, whose determinant is not positive.
+pub fn stress_error(energy: &dyn EnergyDensity, deformation: Mat2, step: f64) -> Result<f64, SolidError> {
+    positive("the step", step)?;
+    let stress = energy.stress(&DeformationGradient::new(deformation)?);
+    let mut largest = 0.0_f64;
+    for entry in 0..4 {
+        let at = |shift: f64| {
+            let mut moved = deformation;
+            moved[entry] += shift;
+            DeformationGradient::new(moved).map(|gradient| energy.energy(&gradient))
+        };
+        let difference = (at(step)? - at(-step)?) / (2.0 * step);
+        largest = largest.max((stress[entry] - difference).abs());
+    }
+    Ok(largest)
+}
+
+/// What is left of the sum of the elastic forces and of their torque, over the sum of their sizes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ForceBalance {
+    /// Size of the sum of the forces (dimensionless).
+    pub sum: f64,
+    /// Torque about the origin (length). Without meaning for a periodic mesh.
+    pub torque: f64,
+}
+
+/// The balance of the elastic forces of a mesh with its points at `positions` (length): both are zero to round-off,
+/// whatever the deformation.
+///
+/// # Errors
+/// Positions that are not finite; those of [`ElasticForces::add_forces`].
+pub fn force_balance(law: &dyn ElasticForces, positions: &[Vec2]) -> Result<ForceBalance, SolidError> {
+    all_points_finite("the positions", positions)?;
+    let mut forces = vec![Vec2::zeros(); positions.len()];
+    law.add_forces(positions, &mut forces)?;
+    let size = forces.iter().map(Vec2::norm).sum::<f64>().max(f64::MIN_POSITIVE);
+    let torque: f64 = positions.iter().zip(&forces).map(|(position, force)| position.perp(force)).sum();
+    Ok(ForceBalance { sum: forces.iter().sum::<Vec2>().norm() / size, torque: torque.abs() / size })
+}
+
+/// The patch test: the largest force on a point inside a mesh under the uniform deformation `X = A s`, over the largest
+/// on its boundary (dimensionless). Zero to round-off for uniform hyperelastic material on any mesh that is not
+/// periodic, and for springs on a lattice of equilateral triangles.
+///
+/// # Errors
+/// Forces made for another mesh; a deformation that is not finite; those of [`ElasticForces::add_forces`].
+pub fn patch_residual(mesh: &TriangleMesh, law: &dyn ElasticForces, deformation: Mat2) -> Result<f64, SolidError> {
+    fits("the mesh of the forces", law.point_count(), mesh.points().len())?;
+    let positions: Vec<Vec2> = mesh.points().iter().map(|s| deformation * s).collect();
+    all_points_finite("the deformed points", &positions)?;
+    let mut forces = vec![Vec2::zeros(); positions.len()];
+    law.add_forces(&positions, &mut forces)?;
+    let mut inside = vec![true; positions.len()];
+    mesh.boundary_loops().iter().flat_map(|boundary| &boundary.points).for_each(|&point| inside[point] = false);
+    let largest = |wanted: bool| {
+        let chosen = forces.iter().zip(&inside).filter(|(_, inside)| **inside == wanted);
+        chosen.map(|(force, _)| force.norm()).fold(0.0, f64::max)
+    };
+    Ok(largest(true) / largest(false).max(f64::MIN_POSITIVE))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,150 @@
+//! Forces of hyperelastic material.
+
+use ib_core::Vec2;
+
+use crate::error::fits;
+use crate::material::{DeformationGradient, Mat2};
+use crate::{ElasticForces, EnergyDensity, Moduli, SolidError, TriangleMesh};
+
+/// Elastic forces of a hyperelastic material on a triangle mesh (thesis section 4.2.1.1): the deformation gradient A is
+/// constant in each triangle, the energy is the sum of W(A) A_ref over the triangles (4.11), and the force on a point
+/// is minus its derivative (4.12).
+#[derive(Debug, Clone)]
+pub struct Hyperelastic<E> {
+    elements: Vec<Element>,
+    /// One for all triangles, or one each.
+    materials: Vec<E>,
+    points: usize,
+}
+
+impl<E: EnergyDensity> Hyperelastic<E> {
+    /// One material everywhere.
+    #[must_use]
+    pub fn new(mesh: &TriangleMesh, material: E) -> Self {
+        Self { elements: Element::all(mesh), materials: vec![material], points: mesh.points().len() }
+    }
+
+    /// The material of each triangle as a function of its centroid in the reference state (length).
+    ///
+    /// # Errors
+    /// Those of the function.
+    pub fn graded(
+        mesh: &TriangleMesh,
+        mut material: impl FnMut(Vec2) -> Result<E, SolidError>,
+    ) -> Result<Self, SolidError> {
+        let triangles = 0..mesh.triangles().len();
+        let materials = triangles.map(|triangle| material(mesh.centroid(triangle))).collect::<Result<_, _>>()?;
+        Ok(Self { elements: Element::all(mesh), materials, points: mesh.points().len() })
+    }
+
+    /// The material of a triangle.
+    ///
+    /// # Panics
+    /// A triangle beyond the last.
+    #[must_use]
+    pub fn material(&self, triangle: usize) -> &E {
+        &self.materials[if self.materials.len() == 1 { 0 } else { triangle }]
+    }
+}
+
+impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
+    fn point_count(&self) -> usize {
+        self.points
+    }
+
+    fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError> {
+        fits("the positions", positions.len(), self.points)?;
+        fits("the forces", forces.len(), self.points)?;
+        for (triangle, element) in self.elements.iter().enumerate() {
+            let gradient = DeformationGradient::checked(element.gradient(positions))
+                .ok_or_else(|| element.inverted(triangle, positions))?;
+            element.add_forces(&self.material(triangle).stress(&gradient), forces);
+        }
+        Ok(())
+    }
+
+    fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError> {
+        fits("the positions", positions.len(), self.points)?;
+        let mut energy = 0.0;
+        for (triangle, element) in self.elements.iter().enumerate() {
+            let gradient = DeformationGradient::checked(element.gradient(positions))
+                .ok_or_else(|| element.inverted(triangle, positions))?;
+            energy += self.material(triangle).energy(&gradient) * element.area;
+        }
+        Ok(energy)
+    }
+
+    fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2> {
+        Some(self.material(triangle).stress(&DeformationGradient::checked(*gradient)?))
+    }
+
+    fn stiffest(&self) -> Moduli {
+        let first = self.materials[0].moduli();
+        self.materials.iter().fold(first, |stiffest, material| stiffest.larger(&material.moduli()))
+    }
+}
+
+/// A triangle with what its deformation gradient needs: `A = [X1 - X0, X2 - X0] [s1 - s0, s2 - s0]^-1` (4.10).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Element {
+    corners: [u32; 3],
+    /// What to add to x of the second and third corner across the seam of a periodic mesh.
+    shifts: [f64; 2],
+    /// Inverse of the matrix of the reference sides.
+    inverse: Mat2,
+    /// Reference area.
+    area: f64,
+}
+
+impl Element {
+    /// All triangles of a mesh.
+    fn all(mesh: &TriangleMesh) -> Vec<Self> {
+        (0..mesh.triangles().len())
+            .map(|number| {
+                let at = mesh.corners(number, mesh.points());
+                let home = mesh.triangles()[number];
+                let (first, second) = (at[1] - at[0], at[2] - at[0]);
+                let inverse = Mat2::new(second.y, -second.x, -first.y, first.x) / first.perp(&second);
+                Self {
+                    corners: home.map(|point| point as u32),
+                    shifts: [1, 2].map(|k| at[k].x - mesh.points()[home[k]].x),
+                    inverse,
+                    area: mesh.areas()[number],
+                }
+            })
+            .collect()
+    }
+
+    /// The deformation gradient A.
+    #[inline]
+    fn gradient(&self, positions: &[Vec2]) -> Mat2 {
+        let [a, b, c] = self.corners.map(|point| positions[point as usize]);
+        let first = Vec2::new(b.x + self.shifts[0] - a.x, b.y - a.y);
+        let second = Vec2::new(c.x + self.shifts[1] - a.x, c.y - a.y);
+        Mat2::new(first.x, second.x, first.y, second.y) * self.inverse
+    }
+
+    /// Adds the forces (4.12) of the stress P on the three corners; they sum to zero exactly as far as numbers can.
+    #[inline]
+    fn add_forces(&self, stress: &Mat2, forces: &mut [Vec2]) {
+        let pull = stress * self.inverse.transpose() * self.area;
+        let (first, second) = (Vec2::new(pull.m11, pull.m21), Vec2::new(pull.m12, pull.m22));
+        let [a, b, c] = self.corners.map(|point| point as usize);
+        forces[a] += first + second;
+        forces[b] -= first;
+        forces[c] -= second;
+    }
+
+    /// The middle of the deformed triangle, for messages.
+    fn place(&self, positions: &[Vec2]) -> Vec2 {
+        let sum: Vec2 = self.corners.iter().map(|&point| positions[point as usize]).sum();
+        (sum + Vec2::new(self.shifts[0] + self.shifts[1], 0.0)) / 3.0
+    }
+
+    /// The triangle is turned inside out, flat, or not finite.
+    fn inverted(&self, triangle: usize, positions: &[Vec2]) -> SolidError {
+        let place = self.place(positions);
+        let jacobian = self.gradient(positions).determinant();
+        SolidError::Inverted { triangle, x: place.x, y: place.y, jacobian }
+    }
+}

@@ -1,0 +1,137 @@
+//! Forces of springs along the edges.
+
+use ib_core::Vec2;
+
+use crate::error::{fits, positive};
+use crate::material::Mat2;
+use crate::{ElasticForces, Moduli, SolidError, TriangleMesh};
+
+/// A spring along every edge of a triangle mesh (thesis section 4.1), without stress in the reference state: the force
+/// on point i from the spring to j is `K_ij (|X_j - X_i| - d_ij)` towards j, d_ij being the reference length. (The
+/// thesis' (4.1) has the sign turned round, and a half because it counts every spring from both ends.)
+///
+/// ```text
+/// K_ij = 8/(3 d_ij^2) sum over the one or two triangles at the edge of mu A_ref
+/// ```
+/// makes the mesh an isotropic material of shear modulus mu and bulk modulus 2 mu, free edges included; on the
+/// equilateral lattice K = 4 mu/sqrt(3). The thesis' (4.2) has the mean area of the edge's two points instead of the
+/// two triangles', which is too soft next to free edges. All this holds for meshes of almost equal edges.
+#[derive(Debug, Clone)]
+pub struct Springs {
+    springs: Vec<Spring>,
+    /// Sides of the triangles in the reference state and shear modulus of each, for stresses.
+    sides: Vec<([Vec2; 3], f64)>,
+    points: usize,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Spring {
+    ends: [u32; 2],
+    /// What to add to x of the second end across the seam of a periodic mesh.
+    shift: f64,
+    rest: f64,
+    stiffness: f64,
+}
+
+impl Spring {
+    /// From the first end to the second, and that distance.
+    #[inline]
+    fn span(&self, positions: &[Vec2]) -> (Vec2, f64) {
+        let [from, to] = self.ends.map(|point| positions[point as usize]);
+        let span = Vec2::new(to.x + self.shift - from.x, to.y - from.y);
+        (span, span.norm())
+    }
+}
+
+impl Springs {
+    /// Springs for one shear modulus everywhere (force per length); [`Moduli::from_thesis_spring_constant`] converts
+    /// the thesis' k.
+    ///
+    /// # Errors
+    /// A shear modulus that is not positive and finite.
+    pub fn new(mesh: &TriangleMesh, shear: f64) -> Result<Self, SolidError> {
+        Self::graded(mesh, |_| shear)
+    }
+
+    /// Springs for a shear modulus (force per length) that is a function of the reference position (length), taken at
+    /// the centroid of each triangle.
+    ///
+    /// # Errors
+    /// A shear modulus that is not positive and finite.
+    pub fn graded(mesh: &TriangleMesh, mut shear: impl FnMut(Vec2) -> f64) -> Result<Self, SolidError> {
+        let sides = (0..mesh.triangles().len())
+            .map(|triangle| {
+                let [a, b, c] = mesh.corners(triangle, mesh.points());
+                Ok(([b - a, c - b, a - c], positive("the shear modulus", shear(mesh.centroid(triangle)))?))
+            })
+            .collect::<Result<Vec<_>, SolidError>>()?;
+        let springs = mesh
+            .edges()
+            .iter()
+            .map(|edge| {
+                let span = mesh.edge_vector(edge, mesh.points());
+                let weight = |triangle: usize| sides[triangle].1 * mesh.areas()[triangle];
+                let (left, right) = edge.triangles;
+                let rest = span.norm();
+                Spring {
+                    ends: edge.points.map(|point| point as u32),
+                    shift: f64::from(edge.periods) * mesh.period().unwrap_or(0.0),
+                    rest,
+                    stiffness: stiffness(weight(left) + right.map_or(0.0, weight), rest),
+                }
+            })
+            .collect();
+        Ok(Self { springs, sides, points: mesh.points().len() })
+    }
+}
+
+/// Spring constant (force per length) for `weight` = sum of mu A_ref and the rest length d.
+fn stiffness(weight: f64, rest: f64) -> f64 {
+    8.0 / 3.0 * weight / (rest * rest)
+}
+
+impl ElasticForces for Springs {
+    fn point_count(&self) -> usize {
+        self.points
+    }
+
+    fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError> {
+        fits("the positions", positions.len(), self.points)?;
+        fits("the forces", forces.len(), self.points)?;
+        for spring in &self.springs {
+            let (span, length) = spring.span(positions);
+            // A spring of no length has no direction to push in.
+            let force = span * (spring.stiffness * (1.0 - spring.rest / length.max(f64::MIN_POSITIVE)));
+            forces[spring.ends[0] as usize] += force;
+            forces[spring.ends[1] as usize] -= force;
+        }
+        Ok(())
+    }
+
+    fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError> {
+        fits("the positions", positions.len(), self.points)?;
+        Ok(self
+            .springs
+            .iter()
+            .map(|spring| 0.5 * spring.stiffness * (spring.span(positions).1 - spring.rest).powi(2))
+            .sum())
+    }
+
+    /// A triangle's share of the springs along its sides, which is a material of its own with the energy
+    /// `4 mu/3 sum of (|A s|/d - 1)^2` over the sides s.
+    fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2> {
+        let (sides, shear) = &self.sides[triangle];
+        let mut stress = Mat2::zeros();
+        for side in sides {
+            let (rest, now) = (side.norm(), gradient * side);
+            let length = now.norm().max(f64::MIN_POSITIVE);
+            stress += now * side.transpose() * (8.0 / 3.0 * shear * (length - rest) / (length * rest * rest));
+        }
+        Some(stress)
+    }
+
+    fn stiffest(&self) -> Moduli {
+        let shear = self.sides.iter().map(|&(_, shear)| shear).fold(0.0, f64::max);
+        Moduli::springs_of_checked(shear)
+    }
+}

@@ -1,0 +1,56 @@
+//! Linear elasticity in the Green strain.
+
+use crate::material::{DeformationGradient, Mat2};
+use crate::{EnergyDensity, Moduli, SolidError};
+
+/// The Saint Venant-Kirchhoff material:
+/// ```text
+/// E = (A^T A - 1)/2
+/// W = (kappa - mu)/2 tr(E)^2 + mu tr(E^2)
+/// P = A ((kappa - mu) tr(E) 1 + 2 mu E)
+/// ```
+/// For large rotations with small strains. It softens under compression and does not resist being flattened: an energy
+/// for comparison, not for narrow channels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SaintVenantKirchhoff {
+    moduli: Moduli,
+}
+
+impl SaintVenantKirchhoff {
+    /// From shear modulus mu and bulk modulus kappa (force per length).
+    ///
+    /// # Errors
+    /// A modulus that is not positive and finite.
+    pub fn new(shear: f64, bulk: f64) -> Result<Self, SolidError> {
+        Ok(Self { moduli: Moduli::new(shear, bulk)? })
+    }
+}
+
+impl From<Moduli> for SaintVenantKirchhoff {
+    fn from(moduli: Moduli) -> Self {
+        Self { moduli }
+    }
+}
+
+fn green_strain(gradient: &DeformationGradient) -> Mat2 {
+    (gradient.matrix().tr_mul(gradient.matrix()) - Mat2::identity()) * 0.5
+}
+
+impl EnergyDensity for SaintVenantKirchhoff {
+    #[inline]
+    fn energy(&self, gradient: &DeformationGradient) -> f64 {
+        let strain = green_strain(gradient);
+        0.5 * self.moduli.lame() * strain.trace().powi(2) + self.moduli.shear() * strain.norm_squared()
+    }
+
+    #[inline]
+    fn stress(&self, gradient: &DeformationGradient) -> Mat2 {
+        let strain = green_strain(gradient);
+        let pressure = Mat2::from_diagonal_element(self.moduli.lame() * strain.trace());
+        gradient.matrix() * (pressure + strain * (2.0 * self.moduli.shear()))
+    }
+
+    fn moduli(&self) -> Moduli {
+        self.moduli
+    }
+}

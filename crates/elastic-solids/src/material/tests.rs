@@ -1,0 +1,125 @@
+//! What every energy must satisfy.
+
+use proptest::prelude::*;
+
+use crate::check::stress_error;
+use crate::material::{DeformationGradient, Mat2, MooneyRivlin, SaintVenantKirchhoff};
+use crate::{EnergyDensity, NeoHookean};
+
+const SHEAR: f64 = 1.3;
+const BULK: f64 = 2.9;
+
+fn energies() -> Vec<Box<dyn EnergyDensity>> {
+    vec![
+        Box::new(NeoHookean::new(SHEAR, BULK).unwrap()),
+        Box::new(SaintVenantKirchhoff::new(SHEAR, BULK).unwrap()),
+        Box::new(MooneyRivlin::new(SHEAR, BULK, 0.0).unwrap()),
+        Box::new(MooneyRivlin::new(SHEAR, BULK, 0.35).unwrap()),
+        Box::new(MooneyRivlin::new(SHEAR, BULK, 1.0).unwrap()),
+    ]
+}
+
+fn rotation(angle: f64) -> Mat2 {
+    let (sine, cosine) = angle.sin_cos();
+    Mat2::new(cosine, -sine, sine, cosine)
+}
+
+fn gradient(matrix: Mat2) -> DeformationGradient {
+    DeformationGradient::new(matrix).unwrap()
+}
+
+prop_compose! {
+    /// Principal stretches from 0.5 to 2 between two rotations: all deformations of that size.
+    fn deformations()(first in 0.5..2.0, second in 0.5..2.0, before in -3.2..3.2, after in -3.2..3.2) -> Mat2 {
+        rotation(after) * Mat2::new(first, 0.0, 0.0, second) * rotation(before)
+    }
+}
+
+proptest! {
+    #[test]
+    fn the_stress_is_the_derivative_of_the_energy(a in deformations()) {
+        for energy in energies() {
+            let scale = energy.stress(&gradient(a)).norm().max(1.0);
+            let error = stress_error(energy.as_ref(), a, 5e-6).unwrap();
+            prop_assert!(error < 1e-8 * scale, "{energy:?}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_rotation_of_the_deformed_material_costs_nothing(a in deformations(), angle in -3.2..3.2) {
+        let turned = rotation(angle) * a;
+        for energy in energies() {
+            let here = energy.energy(&gradient(a));
+            prop_assert!((energy.energy(&gradient(turned)) - here).abs() < 1e-13 * (1.0 + here));
+            let stress = rotation(angle) * energy.stress(&gradient(a));
+            prop_assert!((energy.stress(&gradient(turned)) - stress).norm() < 1e-13 * (1.0 + stress.norm()));
+        }
+    }
+
+    #[test]
+    fn turning_the_reference_costs_nothing(a in deformations(), angle in -3.2..3.2) {
+        for energy in energies() {
+            let here = energy.energy(&gradient(a));
+            prop_assert!((energy.energy(&gradient(a * rotation(angle))) - here).abs() < 1e-13 * (1.0 + here));
+        }
+    }
+
+    #[test]
+    fn the_reference_has_the_least_energy(a in deformations(), angle in -3.2..3.2) {
+        for energy in energies() {
+            prop_assert!(energy.energy(&gradient(a)) > -1e-15, "{energy:?}");
+            let rest = gradient(rotation(angle));
+            prop_assert!(energy.energy(&rest).abs() < 1e-15);
+            prop_assert!(energy.stress(&rest).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn cauchy_stress_is_symmetric(a in deformations()) {
+        for energy in energies() {
+            let stress = energy.cauchy_stress(&gradient(a));
+            prop_assert!((stress.m12 - stress.m21).abs() < 1e-13 * (1.0 + stress.norm()));
+        }
+    }
+}
+
+/// Small strains against linear elasticity; the error is of second order in the strain.
+#[test]
+fn small_strains_measure_the_moduli() {
+    for energy in energies() {
+        let moduli = energy.moduli();
+        assert!((moduli.shear() - SHEAR).abs() < 1e-15 && (moduli.bulk() - BULK).abs() < 1e-15);
+        let errors = [1e-2, 1e-3].map(|strain| {
+            // Half the difference of opposite strains takes the quadratic part away.
+            let response = |h: Mat2| {
+                let plus = energy.stress(&gradient(Mat2::identity() + h));
+                let minus = energy.stress(&gradient(Mat2::identity() - h));
+                (plus - minus) / (2.0 * strain)
+            };
+            let shear = response(Mat2::new(0.0, strain, 0.0, 0.0));
+            let stretch = response(Mat2::new(strain, 0.0, 0.0, -strain));
+            let bulk = response(Mat2::new(strain, 0.0, 0.0, strain));
+            let expected = 2.0 * BULK * Mat2::identity();
+            (shear - Mat2::new(0.0, SHEAR, SHEAR, 0.0)).norm()
+                + (stretch - 2.0 * SHEAR * Mat2::new(1.0, 0.0, 0.0, -1.0)).norm()
+                + (bulk - expected).norm()
+        });
+        assert!(errors[0] < 1e-2 && errors[1] < 1e-4, "{energy:?}: {errors:?}");
+        let order = (errors[0] / errors[1]).log10();
+        assert!((order - 2.0).abs() < 0.1, "{energy:?}: order {order}");
+    }
+}
+
+#[test]
+fn the_neo_hookean_energy_is_that_of_the_thesis() {
+    let a = Mat2::new(1.2, 0.3, -0.1, 0.9);
+    let (energy, gradient, jacobian) = (NeoHookean::new(SHEAR, BULK).unwrap(), gradient(a), a.determinant());
+    // (4.8) with A A^T, and (4.15), as printed.
+    let trace = (a * a.transpose()).trace();
+    let expected = SHEAR / 2.0 * (trace / jacobian - 2.0) + BULK / 2.0 * (jacobian - 1.0).powi(2);
+    assert!((energy.energy(&gradient) - expected).abs() < 1e-15);
+    let inverse = a.try_inverse().unwrap().transpose();
+    let expected =
+        SHEAR * (a / jacobian - trace * inverse / (2.0 * jacobian)) + BULK * (jacobian - 1.0) * jacobian * inverse;
+    assert!((energy.stress(&gradient) - expected).norm() < 1e-15);
+}

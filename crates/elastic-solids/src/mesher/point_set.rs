@@ -1,0 +1,80 @@
+//! The points of a mesh in the making.
+
+use ib_core::Vec2;
+
+use crate::mesher::segments::Segments;
+use crate::outline::{Place, Track};
+
+/// Points to be triangulated: first those of the boundary, outline by outline, then the inner ones.
+#[derive(Debug)]
+pub(crate) struct PointSet<'a> {
+    pub(crate) points: Vec<Vec2>,
+    /// Number of boundary points.
+    pub(crate) on_boundary: usize,
+    /// Boundary edges.
+    pub(crate) boundary: Vec<[usize; 2]>,
+    /// The same with positions, to tell inside from outside.
+    pub(crate) segments: Segments,
+    /// The outlines on which the boundary points slide, and where on them they stand.
+    pub(crate) tracks: &'a [Track<'a>],
+    pub(crate) places: Vec<Vec<Place>>,
+    /// Start and period in x.
+    pub(crate) period: Option<(f64, f64)>,
+}
+
+impl PointSet<'_> {
+    /// The same with boundary points that stay where they are.
+    pub(crate) fn with_fixed_boundary(self) -> Self {
+        Self { tracks: &[], ..self }
+    }
+
+    /// From one point of an edge to the other, the shorter way round.
+    pub(crate) fn vector(&self, [from, to]: [usize; 2]) -> Vec2 {
+        let mut vector = self.points[to] - self.points[from];
+        if let Some((_, period)) = self.period {
+            vector.x -= period * (vector.x / period).round();
+        }
+        vector
+    }
+
+    /// Moves the boundary points along their outlines by the tangential parts of `steps`, to which it reduces them.
+    pub(crate) fn slide(&mut self, steps: &mut [Vec2]) {
+        let mut start = 0;
+        for (outline, track) in self.tracks.iter().enumerate() {
+            let count = self.places[outline].len();
+            for k in 0..count {
+                let (before, here, after) = (start + (k + count - 1) % count, start + k, start + (k + 1) % count);
+                let chord = self.vector([before, here]) + self.vector([here, after]);
+                let tangent = chord.try_normalize(0.0).unwrap_or_default();
+                let by = steps[here].dot(&tangent);
+                steps[here] = tangent * by;
+                let place = &mut self.places[outline][k];
+                *place = track.moved(*place, by);
+                self.points[here] = track.at(*place);
+            }
+            start += count;
+        }
+    }
+
+    /// After points have moved: all images back in the first period, the segments where the boundary points are (with
+    /// images up to `margin` beyond the ends), and inner points that have left the region gone.
+    pub(crate) fn renew(&mut self, margin: f64) {
+        if let Some((start, period)) = self.period {
+            for point in &mut self.points {
+                point.x -= period * ((point.x - start) / period).floor();
+            }
+        }
+        let mut start = 0;
+        let outline = |places: &Vec<Place>| {
+            start += places.len();
+            self.points[start - places.len()..start].to_vec()
+        };
+        let outlines: Vec<Vec<Vec2>> = self.places.iter().map(outline).collect();
+        self.segments = Segments::new(&outlines, self.period, margin);
+        let (boundary, inner) = self.points.split_at(self.on_boundary);
+        let left: Vec<Vec2> = inner.iter().copied().filter(|&point| self.segments.inside(point)).collect();
+        if left.len() < inner.len() {
+            self.points = [boundary, &left].concat();
+        }
+    }
+}

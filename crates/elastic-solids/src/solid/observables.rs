@@ -1,0 +1,152 @@
+//! What to look at in a deformed solid.
+
+use ib_core::Vec2;
+
+use crate::material::Mat2;
+use crate::{Solid, SolidError};
+
+/// The largest displacements of a solid from its reference state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LargestDisplacement {
+    /// Of all points, in any direction (length).
+    pub total: f64,
+    /// The point where that is.
+    pub point: usize,
+    /// Of the points of the surface, along the normal of the reference state, outwards or inwards (length).
+    pub normal: f64,
+}
+
+impl Solid {
+    /// Displacement of each point from the reference state (length).
+    pub fn displacements(&self) -> impl Iterator<Item = Vec2> {
+        self.positions.iter().zip(self.mesh.points()).map(|(now, reference)| now - reference)
+    }
+
+    /// The largest displacements; walls move mostly along their surface, so that the normal one is much the smaller.
+    #[must_use]
+    pub fn largest_displacement(&self) -> LargestDisplacement {
+        let mut largest = LargestDisplacement { total: 0.0, point: 0, normal: 0.0 };
+        for (point, displacement) in self.displacements().enumerate() {
+            if displacement.norm() > largest.total {
+                (largest.total, largest.point) = (displacement.norm(), point);
+            }
+        }
+        for boundary in self.mesh.boundary_loops() {
+            let polygon = self.mesh.boundary_polygon(boundary, self.mesh.points());
+            let count = polygon.len();
+            let advance = Vec2::new(f64::from(boundary.periods) * self.mesh.period().unwrap_or(0.0), 0.0);
+            for (k, &point) in boundary.points.iter().enumerate() {
+                let before = if k == 0 { polygon[count - 1] - advance } else { polygon[k - 1] };
+                let after = if k + 1 == count { polygon[0] + advance } else { polygon[k + 1] };
+                let along = (after - before).try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+                let displacement = self.positions[point] - self.mesh.points()[point];
+                largest.normal = largest.normal.max(along.perp(&displacement).abs());
+            }
+        }
+        largest
+    }
+
+    /// Mean displacement of the solid, weighted by area (length): its drift, where nothing holds it.
+    #[must_use]
+    pub fn drift(&self) -> Vec2 {
+        let weights = self.mesh.point_areas();
+        let sum: Vec2 = self.displacements().zip(&weights).map(|(displacement, &weight)| displacement * weight).sum();
+        sum / self.mesh.area()
+    }
+
+    /// Elastic energy (energy), without that of the tethers.
+    ///
+    /// # Errors
+    /// A triangle turned inside out where the energy is not defined for it.
+    pub fn elastic_energy(&self) -> Result<f64, SolidError> {
+        self.law.energy(&self.positions)
+    }
+
+    /// Energy of the tethers (energy).
+    #[must_use]
+    pub fn tether_energy(&self) -> f64 {
+        let stretch = |point: usize, anchor: Vec2| (self.positions[point] - anchor).norm_squared();
+        self.tethers.iter().map(|tether| 0.5 * tether.stiffness * stretch(tether.point, tether.anchor)).sum()
+    }
+
+    /// J of each triangle, its deformed over its reference area; negative where it is turned inside out.
+    pub fn jacobians(&self) -> impl Iterator<Item = f64> {
+        self.mesh.areas().iter().enumerate().map(|(triangle, area)| {
+            let [a, b, c] = self.mesh.corners(triangle, &self.positions);
+            0.5 * (b - a).perp(&(c - a)) / area
+        })
+    }
+
+    /// The smallest J and its triangle.
+    #[must_use]
+    pub fn smallest_jacobian(&self) -> (f64, usize) {
+        let numbered = self.jacobians().enumerate().map(|(triangle, jacobian)| (jacobian, triangle));
+        numbered.fold((f64::INFINITY, 0), |least, this| if this.0 < least.0 { this } else { least })
+    }
+
+    /// Whether every triangle is the right way round.
+    ///
+    /// # Errors
+    /// [`SolidError::Inverted`] with the triangle that is turned inside out the most.
+    pub fn check_inversion(&self) -> Result<(), SolidError> {
+        // Mostly none is; the sign alone takes no division and no search.
+        let upright = |triangle: usize| {
+            let [a, b, c] = self.mesh.corners(triangle, &self.positions);
+            (b - a).perp(&(c - a)) > 0.0
+        };
+        if (0..self.mesh.triangles().len()).all(upright) {
+            return Ok(());
+        }
+        let (jacobian, triangle) = self.smallest_jacobian();
+        let place = self.mesh.corners(triangle, &self.positions).iter().sum::<Vec2>() / 3.0;
+        Err(SolidError::Inverted { triangle, x: place.x, y: place.y, jacobian })
+    }
+
+    /// Cauchy stress `P A^T / J` of each triangle (force per deformed length).
+    ///
+    /// # Errors
+    /// A triangle turned inside out.
+    pub fn stresses(&self) -> Result<Vec<Mat2>, SolidError> {
+        self.check_inversion()?;
+        let stress = |triangle: usize, jacobian: f64| {
+            let gradient = self.gradient(triangle);
+            let inverted = |place: Vec2| SolidError::Inverted { triangle, x: place.x, y: place.y, jacobian };
+            let stress = self.law.stress(triangle, &gradient);
+            let stress = stress.ok_or_else(|| inverted(self.mesh.centroid(triangle)))?;
+            Ok(stress * gradient.transpose() / jacobian)
+        };
+        self.jacobians().enumerate().map(|(triangle, jacobian)| stress(triangle, jacobian)).collect()
+    }
+
+    /// Deformation gradient A of a triangle (4.10).
+    ///
+    /// # Panics
+    /// A triangle beyond the last.
+    #[must_use]
+    pub fn gradient(&self, triangle: usize) -> Mat2 {
+        let sides = |positions: &[Vec2]| {
+            let [a, b, c] = self.mesh.corners(triangle, positions);
+            Mat2::from_columns(&[b - a, c - a])
+        };
+        let reference = sides(self.mesh.points());
+        let adjugate = Mat2::new(reference.m22, -reference.m12, -reference.m21, reference.m11);
+        sides(&self.positions) * adjugate / (2.0 * self.mesh.areas()[triangle])
+    }
+
+    /// The surface of a periodic wall that faces up, from right to left (length); `None` where there is none.
+    #[must_use]
+    pub fn upper_surface(&self) -> Option<Vec<Vec2>> {
+        self.surface(-1)
+    }
+
+    /// The surface of a periodic wall that faces down, from left to right (length); `None` where there is none.
+    #[must_use]
+    pub fn lower_surface(&self) -> Option<Vec<Vec2>> {
+        self.surface(1)
+    }
+
+    fn surface(&self, periods: i32) -> Option<Vec<Vec2>> {
+        let boundary = self.mesh.boundary_loops().iter().find(|boundary| boundary.periods == periods)?;
+        Some(self.mesh.boundary_polygon(boundary, &self.positions))
+    }
+}

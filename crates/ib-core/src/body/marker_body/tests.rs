@@ -1,0 +1,50 @@
+use super::*;
+use crate::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, Scene, StepSize};
+use stokes_grid::{Grid, PeriodicStokes};
+
+fn scene() -> Scene<ImmersedBoundary<PeriodicStokes, CubicQuadratic>> {
+    let solver = PeriodicStokes::new(Grid::periodic(32, 32, 0.1).unwrap(), 2.0).unwrap();
+    Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()))
+}
+
+/// Markers on a circle, each tethered to the origin by a spring of 3.
+fn tethered(count: usize, radius: f64) -> MarkerBody {
+    let place = |k: usize| Vec2::new(0.3, 0.0) + radius * Vec2::new((k as f64).cos(), (k as f64).sin());
+    MarkerBody::new("tethered", (0..count).map(place).collect(), |positions, forces| {
+        for (force, position) in forces.iter_mut().zip(positions) {
+            *force = -3.0 * position;
+        }
+    })
+    .with_stiffness(3.0)
+}
+
+#[test]
+fn the_fastest_decay_is_estimated_from_above() {
+    for (count, radius) in [(1, 0.0), (1, 0.2), (7, 0.05), (60, 0.5)] {
+        let mut scene = scene();
+        let handle = scene.add(tethered(count, radius));
+        let medium = scene.system().hydrodynamics().medium();
+        let estimate = scene.body(handle).unwrap().decay_rate(&medium, 3.0);
+        let centre = |scene: &Scene<_>| scene.body(handle).unwrap().positions().iter().sum::<Vec2>().x;
+        let before = centre(&scene);
+        let dt = 1e-3 / estimate;
+        scene.step(dt).unwrap();
+        let measured = -(centre(&scene) / before).ln() / dt;
+        assert!(measured < estimate && measured > 0.2 * estimate, "{count} {radius}: {measured} {estimate}");
+    }
+}
+
+#[test]
+fn moves_as_it_is_told() {
+    let mut scene = scene();
+    let driven =
+        MarkerBody::new("driven", vec![Vec2::new(1.0, 0.0)], |_, _| {}).with_motion(|at, velocities, rates| {
+            rates[0] = velocities[0] + Vec2::new(-at[0].y, at[0].x);
+        });
+    let handle = scene.add(driven);
+    scene.run(1.0).step_size(StepSize::Fixed(0.01)).go().unwrap();
+    let place = scene.body(handle).unwrap().positions()[0];
+    assert!((place - Vec2::new(1.0_f64.cos(), 1.0_f64.sin())).norm() < 1e-4, "{place}");
+    scene.body_mut(handle).unwrap().positions_mut()[0].x = f64::NAN;
+    assert!(scene.step(0.01).is_err());
+}

@@ -1,0 +1,147 @@
+//! How long steps are, and what made them so.
+
+use serde::{Deserialize, Serialize};
+
+use crate::SavedState;
+
+/// How long the steps of a run are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepSize {
+    /// All of this length (time); refused at the start if above the stability limit, and an error during the run if the
+    /// limit falls below it.
+    Fixed(f64),
+    /// This fraction of the stability limit at each step; shorter where the integrator bounds the error of such steps
+    /// ([`crate::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
+    OfLimit(f64),
+    /// As long as accuracy and stability allow: the error of each step is estimated, steps whose error is above the
+    /// tolerance or that fail otherwise are taken anew with a shorter one.
+    Adaptive {
+        /// Largest error of a step: root mean square over the entries of a body's state, in units of their scales
+        /// ([`crate::Body::write_scales`]: the radius of a droplet for positions). No dimension; errors of 1e-5 to 1e-4
+        /// make for speeds right to about 1e-4.
+        tolerance: f64,
+    },
+}
+
+impl Default for StepSize {
+    fn default() -> Self {
+        Self::OfLimit(0.5)
+    }
+}
+
+/// What the length of steps was set by, and how often.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Limiting {
+    /// The reason, as it reads after "set by".
+    pub reason: String,
+    /// The body; empty where the reason is not a body's.
+    pub body: String,
+    /// Steps that it set the length of.
+    pub steps: usize,
+}
+
+/// The steps of a scene's runs.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct StepReport {
+    /// Steps taken.
+    pub steps: usize,
+    /// Steps taken back because their error was above the tolerance.
+    pub rejections: usize,
+    /// Steps taken back because something went wrong in them, and taken anew with a shorter one.
+    pub failures: usize,
+    /// The shortest step but for those that end a run or end at an exact report, which may be of any length (time;
+    /// infinite before any).
+    pub shortest: f64,
+    /// The longest step (time).
+    pub longest: f64,
+    /// What set the lengths, in the order of first occurrence.
+    pub limiting: Vec<Limiting>,
+}
+
+impl StepReport {
+    /// What set the length of most steps.
+    #[must_use]
+    pub fn most_limiting(&self) -> Option<&Limiting> {
+        self.limiting.iter().max_by_key(|limiting| limiting.steps)
+    }
+
+    pub(crate) fn count(&mut self, dt: f64, shortened: bool, reason: &str, body: &str) {
+        if self.steps == 0 {
+            self.shortest = f64::INFINITY;
+        }
+        self.steps += 1;
+        self.longest = self.longest.max(dt);
+        if !shortened {
+            self.shortest = self.shortest.min(dt);
+        }
+        match self.limiting.iter_mut().find(|limiting| limiting.reason == reason && limiting.body == body) {
+            Some(limiting) => limiting.steps += 1,
+            None => self.limiting.push(Limiting { reason: reason.to_owned(), body: body.to_owned(), steps: 1 }),
+        }
+    }
+}
+
+/// Part of what the error would allow that is taken, so that few steps are rejected.
+const SAFETY: f64 = 0.8;
+/// Bounds of the change of length from step to step.
+const GROWTH: f64 = 3.0;
+const DECLINE: f64 = 0.1;
+/// Change of length after a step in which something went wrong.
+const RETREAT: f64 = 0.25;
+
+/// The length of adaptive steps from the errors of the last two (Watts 1984; Gustafsson 1994: the error of the next
+/// step is extrapolated from how it changed).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct StepControl {
+    /// What accuracy allows for the next step (time); 0 before the first.
+    pub(crate) next: f64,
+    /// Length and error of the last accepted step; 0 where there is none.
+    last: [f64; 2],
+    /// Whether the last attempt was taken back.
+    retreated: bool,
+}
+
+impl StepControl {
+    /// An attempt of length `dt` had the error `error` in units of the tolerance; whether it is accepted.
+    pub(crate) fn judge(&mut self, dt: f64, error: f64) -> bool {
+        let error = error.max(1e-10);
+        let accepted = error <= 1.0;
+        // The error of a step is of third order in its length.
+        let mut factor = SAFETY * error.powf(-1.0 / 3.0);
+        if accepted {
+            let [last_dt, last_error] = self.last;
+            if last_dt > 0.0 {
+                factor = factor.min(factor * dt / last_dt * (last_error / error).powf(1.0 / 3.0));
+            }
+            // Straight after a step that was taken back there is no reason to try a longer one.
+            factor = factor.min(if self.retreated { 1.0 } else { GROWTH });
+            self.last = [dt, error];
+        } else {
+            factor = factor.min(0.9);
+        }
+        self.retreated = !accepted;
+        self.next = dt * factor.max(DECLINE);
+        accepted
+    }
+
+    /// Something went wrong in an attempt of length `dt`.
+    pub(crate) fn retreat(&mut self, dt: f64) {
+        self.next = RETREAT * dt;
+        self.retreated = true;
+    }
+
+    pub(crate) fn save(&self, saved: &mut SavedState) {
+        saved.reals.extend([self.next, self.last[0], self.last[1]]);
+        saved.counts.push(u64::from(self.retreated));
+    }
+
+    pub(crate) fn load(saved: &SavedState) -> Option<Self> {
+        match (saved.reals.as_slice(), saved.counts.as_slice()) {
+            (&[next, dt, error], &[retreated]) => Some(Self { next, last: [dt, error], retreated: retreated == 1 }),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,264 @@
+//! Bodies in a fluid: the system of equations that an integrator advances.
+
+mod bodies;
+mod forces;
+mod gaps;
+mod state;
+
+pub use bodies::BodyFlow;
+
+use super::SceneId;
+use crate::gap::{ContactFinder, Gap};
+use crate::{
+    Body, BodyError, FlowReport, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SavedState, SceneError,
+    StepInfo, StepLimit, Vec2,
+};
+use forces::write_forces;
+
+/// The bodies of a scene, the fluid between them, and the time.
+///
+/// Integrators advance it, observers look at it.
+#[derive(Debug)]
+pub struct System<H> {
+    id: SceneId,
+    hydrodynamics: H,
+    bodies: Vec<Box<dyn Body>>,
+    markers: Markers,
+    time: f64,
+    steps: usize,
+    report: FlowReport,
+    /// Whether the markers hold the flow of the bodies' present state.
+    current: bool,
+    /// Marker positions of the present state, for the gap to the walls.
+    positions: Vec<Vec2>,
+    minimum_wall_gap: Option<f64>,
+    minimum_gap: Option<f64>,
+    contacts: ContactFinder,
+    /// The narrowest gap of the present state.
+    narrowest: Option<Gap>,
+    pub(crate) least_gap: Option<f64>,
+    pub(crate) repulsion: Option<Repulsion>,
+}
+
+impl<H: Hydrodynamics> System<H> {
+    pub(crate) fn new(hydrodynamics: H) -> Self {
+        Self {
+            id: SceneId::unique(),
+            hydrodynamics,
+            bodies: Vec::new(),
+            markers: Markers::new(),
+            time: 0.0,
+            steps: 0,
+            report: FlowReport::default(),
+            current: false,
+            positions: Vec::new(),
+            minimum_wall_gap: None,
+            minimum_gap: None,
+            contacts: ContactFinder::default(),
+            narrowest: None,
+            least_gap: None,
+            repulsion: None,
+        }
+    }
+
+    pub(crate) fn push<B: Body>(&mut self, body: B) -> Handle<B> {
+        self.markers.push_group(body.marker_count(), body.kind());
+        self.bodies.push(Box::new(body));
+        self.current = false;
+        self.record_wall_gap();
+        Handle::new(self.id, self.bodies.len() - 1)
+    }
+
+    /// Time since the start (time).
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// Steps since the start.
+    #[must_use]
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Takes the round-off of summed steps off the time.
+    pub(crate) fn set_time(&mut self, time: f64) {
+        self.time = time;
+    }
+
+    /// A step is over and stays.
+    pub(crate) fn commit(&mut self, dt: f64) {
+        self.time += dt;
+        self.steps += 1;
+        self.bodies.iter_mut().for_each(|body| body.keep_step());
+        self.record_wall_gap();
+        if let Some(Gap { width, .. }) = self.narrowest {
+            self.minimum_gap = Some(self.minimum_gap.map_or(width, |least| least.min(width)));
+        }
+    }
+
+    /// What computes the flow.
+    #[must_use]
+    pub fn hydrodynamics(&self) -> &H {
+        &self.hydrodynamics
+    }
+
+    /// Positions, forces and velocities of all markers as of the last evaluation; [`System::evaluate`] makes them those
+    /// of the present state.
+    #[must_use]
+    pub fn markers(&self) -> &Markers {
+        &self.markers
+    }
+
+    /// What the last evaluation needed and found.
+    #[must_use]
+    pub fn report(&self) -> &FlowReport {
+        &self.report
+    }
+
+    /// Whether [`System::markers`] holds the flow of the present state.
+    #[must_use]
+    pub fn is_evaluated(&self) -> bool {
+        self.current
+    }
+
+    /// Takes over the state of a checkpoint.
+    pub(crate) fn load<'a>(
+        &mut self,
+        bodies: impl Iterator<Item = &'a SavedState>,
+        flow: &SavedState,
+        time: f64,
+        steps: usize,
+        [minimum_wall_gap, minimum_gap]: [Option<f64>; 2],
+    ) -> Result<(), SceneError> {
+        self.current = false;
+        self.hydrodynamics.load(flow);
+        let medium = self.hydrodynamics.medium();
+        for (body, saved) in self.bodies.iter_mut().zip(bodies) {
+            body.load(&medium, saved).map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        (self.time, self.steps) = (time, steps);
+        (self.minimum_wall_gap, self.minimum_gap) = (minimum_wall_gap, minimum_gap);
+        self.fit_markers();
+        Ok(())
+    }
+
+    /// Takes over velocities that were computed at the present state, if there is one for each marker.
+    pub(crate) fn take_flow(
+        &mut self,
+        flow: &SavedState,
+        velocities: impl ExactSizeIterator<Item = Vec2>,
+        report: FlowReport,
+    ) -> Result<(), SceneError> {
+        if velocities.len() != self.markers.len() {
+            let (found, expected) = (velocities.len(), self.markers.len());
+            let problem = format!("it has the velocities of {found} markers, the scene has {expected}");
+            return Err(SceneError::ForeignCheckpoint { problem });
+        }
+        // For all that a flow makes of its markers, such as what it samples from. The velocities come out the same only
+        // to the tolerance of its iterations, so those that were found take their place, and so does what the next
+        // iteration starts from.
+        self.compute_flow()?;
+        self.hydrodynamics.load(flow);
+        self.markers.velocities.iter_mut().zip(velocities).for_each(|(to, from)| *to = from);
+        self.report = report;
+        self.current = true;
+        Ok(())
+    }
+
+    /// Computes forces and velocities at the present state, unless they are known already.
+    ///
+    /// # Errors
+    /// Those of the bodies' forces and of the flow.
+    pub fn evaluate(&mut self) -> Result<&Markers, SceneError> {
+        if !self.current {
+            self.fit_markers();
+            self.compute_flow()?;
+            self.current = true;
+        }
+        Ok(&self.markers)
+    }
+
+    /// The flow at `points` in the present state; see [`Hydrodynamics::sample`].
+    ///
+    /// # Errors
+    /// Those of [`System::evaluate`] and of the sampling.
+    pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), SceneError> {
+        self.evaluate()?;
+        let time = self.time;
+        self.hydrodynamics.sample(&self.markers, points, out).map_err(|source| SceneError::Flow { time, source })
+    }
+
+    /// The smallest of the bodies' stable time steps at the present state for the midpoint rule, with the body's name.
+    #[must_use]
+    pub fn step_limit(&self) -> Option<(StepLimit, &str)> {
+        self.limits().min_by(|a, b| a.0.dt.total_cmp(&b.0.dt))
+    }
+
+    /// All bounds on the time step at the present state, with the names of the bodies that set them.
+    pub fn limits(&self) -> impl Iterator<Item = (StepLimit, &str)> {
+        let medium = self.hydrodynamics.medium();
+        let viscosity = medium.viscosity;
+        let repulsion = self.repulsion.iter().map(move |repulsion| {
+            (StepLimit::decay(repulsion.step_limit(viscosity), "the repulsion"), "the interfaces")
+        });
+        self.bodies
+            .iter()
+            .flat_map(move |body| body.step_limits(&medium).into_iter().map(|limit| (limit, body.name())))
+            .chain(repulsion)
+    }
+
+    /// The fastest decay that the bodies' limits tell of at the present state, without stabilisers (1/time).
+    #[must_use]
+    pub fn fastest_decay(&self) -> f64 {
+        self.limits().map(|(limit, _)| limit.decay_rate()).fold(0.0, f64::max)
+    }
+
+    /// Makes the groups of markers fit the bodies, whose numbers of markers may have changed at the end of a step.
+    fn fit_markers(&mut self) {
+        let groups = self.markers.groups();
+        let fits = groups.len() == self.bodies.len()
+            && groups.iter().zip(&self.bodies).all(|(g, b)| g.range.len() == b.marker_count() && g.kind == b.kind());
+        if !fits {
+            self.markers.clear();
+            for body in &self.bodies {
+                self.markers.push_group(body.marker_count(), body.kind());
+            }
+        }
+    }
+
+    fn compute_flow(&mut self) -> Result<(), SceneError> {
+        let (medium, time) = (self.hydrodynamics.medium(), self.time);
+        let (positions, forces) = (&mut self.markers.positions[..], &mut self.markers.forces[..]);
+        if let Some((index, source)) = write_forces(0, &mut self.bodies, positions, forces, &medium) {
+            return Err(body_error(time, self.bodies[index].as_ref(), source));
+        }
+        if let Some(repulsion) = &self.repulsion {
+            repulsion.add(&mut self.markers, medium.domain.periods);
+        }
+        self.report =
+            self.hydrodynamics.velocities(&mut self.markers).map_err(|source| SceneError::Flow { time, source })?;
+        Ok(())
+    }
+
+    pub(crate) fn begin_step(&mut self, step: StepInfo) -> Result<(), SceneError> {
+        let (medium, time) = (self.hydrodynamics.medium(), self.time);
+        for body in &mut self.bodies {
+            body.begin_step(&medium, step).map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        Ok(())
+    }
+
+    pub(crate) fn end_step(&mut self, dt: f64) -> Result<(), SceneError> {
+        let (medium, time) = (self.hydrodynamics.medium(), self.time);
+        self.current = false;
+        for body in &mut self.bodies {
+            body.end_step(&medium, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
+        }
+        Ok(())
+    }
+}
+
+fn body_error(time: f64, body: &dyn Body, source: BodyError) -> SceneError {
+    SceneError::Body { time, body: body.name().to_owned(), source }
+}

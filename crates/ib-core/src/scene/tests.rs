@@ -1,0 +1,71 @@
+use super::*;
+use crate::{BodyError, BodyFlow, CubicQuadratic, ImmersedBoundary, MarkerBody, Medium, Midpoint, Vec2};
+use stokes_grid::{Grid, PeriodicStokes};
+
+type Flow = ImmersedBoundary<PeriodicStokes, CubicQuadratic>;
+
+fn scene() -> Scene<Flow> {
+    let solver = PeriodicStokes::new(Grid::periodic(32, 32, 0.1).unwrap(), 1.0).unwrap();
+    Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()))
+}
+
+/// Two points that a force pulls along x and y.
+fn pulled(name: &str) -> MarkerBody {
+    let places = vec![Vec2::zeros(), Vec2::new(0.5, 0.2)];
+    MarkerBody::new(name, places, |_, forces| forces.copy_from_slice(&[Vec2::x(), Vec2::y()]))
+}
+
+/// The mean velocity of its markers.
+impl Observe for MarkerBody {
+    type Observables = Vec2;
+
+    fn observables(&self, _: &Medium, flow: &BodyFlow<'_>) -> Result<Vec2, BodyError> {
+        Ok(flow.velocities.iter().sum::<Vec2>() / flow.velocities.len() as f64)
+    }
+}
+
+#[test]
+fn a_handle_knows_its_scene() {
+    let (mut first, mut second) = (scene(), scene());
+    let foreign = [first.add(pulled("a")), first.add(pulled("b"))];
+    let own = second.add(pulled("c"));
+    assert_eq!(second.body(own).unwrap().name(), "c");
+    // The first has an index that the second scene has too, the other one has not.
+    for handle in foreign {
+        assert!(matches!(second.body(handle), Err(SceneError::ForeignHandle)));
+        assert!(matches!(second.body_mut(handle), Err(SceneError::ForeignHandle)));
+        assert!(matches!(second.observe(handle), Err(SceneError::ForeignHandle)));
+        assert!(matches!(second.system().any_body(handle), Err(SceneError::ForeignHandle)));
+        assert!(matches!(second.system().flow_at(handle), Err(SceneError::ForeignHandle)));
+        assert_ne!(handle, own);
+    }
+    // With another integrator, and after a checkpoint, it is the same scene.
+    let mut second = second.advanced_by(Midpoint::default());
+    let checkpoint = second.checkpoint("");
+    second.resume(&checkpoint).unwrap();
+    assert_eq!(second.body(own).unwrap().name(), "c");
+}
+
+#[test]
+fn bodies_are_found_by_their_type() {
+    let mut scene = scene();
+    let handles = [scene.add(pulled("a")), scene.add(pulled("b"))];
+    let found: Vec<_> = scene.system().bodies::<MarkerBody>().map(|(handle, body)| (handle, body.name())).collect();
+    assert_eq!(found, [(handles[0], "a"), (handles[1], "b")]);
+    let names: Vec<_> = scene.system().all_bodies().map(|(_, body)| body.name()).collect();
+    assert_eq!(names, ["a", "b"]);
+}
+
+#[test]
+fn a_body_is_observed_in_its_present_state() {
+    let mut scene = scene();
+    let handle = scene.add(pulled("a"));
+    let error = scene.system().flow_at(handle).unwrap_err();
+    assert!(matches!(error, SceneError::NotEvaluated { .. }) && error.to_string().contains("`evaluate`"), "{error}");
+    let seen = scene.observe(handle).unwrap();
+    assert!(seen.x > 0.01 && seen.y > 0.01, "{seen}");
+    // What was known is of no use after the body has been changed.
+    scene.body_mut(handle).unwrap().positions_mut()[1] = Vec2::new(0.1, 0.0);
+    assert!(scene.system().flow_at(handle).is_err());
+    assert!(scene.observe(handle).unwrap().x > seen.x + 0.005);
+}

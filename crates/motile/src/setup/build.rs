@@ -1,0 +1,286 @@
+//! From descriptions to scenes.
+
+use std::f64::consts::TAU;
+
+use active_interface::{
+    ActiveDroplet, ContractileTension, Curve, InitialConcentration, InterfaceError, Motion, NoExcludedVolume,
+    QuadraticExcludedVolume, StepExcludedVolume, Tension,
+};
+use boundary_integral::{BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, Settings};
+use elastic_solids::{Solid, solid::SurfaceGap};
+use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
+use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
+
+use super::{
+    Contrast, DropletSetup, DropletShape, Exclusion, GridMethod, IntegralMethod, MarkerMotion, Method, Region, Setup,
+    Squeezed, Start, Surface,
+};
+use crate::SetupError;
+
+/// Hydrodynamics by whatever method a scene was made with.
+pub type AnyFlow = Box<dyn Hydrodynamics>;
+
+/// A scene and what is in it, in the order of the description.
+#[derive(Debug)]
+pub struct Built {
+    /// The scene.
+    pub scene: Scene<AnyFlow>,
+    /// The droplets.
+    pub droplets: Vec<Handle<ActiveDroplet>>,
+    /// The solids.
+    pub solids: Vec<Handle<Solid>>,
+}
+
+/// Film that is left beside a droplet squeezed to fit, over its radius.
+const FILM: f64 = 0.05;
+/// A squeezed droplet's least half height, over its radius.
+const FLATTEST: f64 = 0.1;
+/// How deep a droplet may start inside a solid, over the grid spacing.
+const OVERLAP: f64 = 0.25;
+
+impl Setup {
+    /// Makes the scene. Nothing large is allocated before [`Setup::check`] has passed.
+    ///
+    /// # Errors
+    /// What [`Setup::check`] refuses, a droplet that does not fit into the region or reaches into a solid, shapes that cannot
+    /// be meshed.
+    pub fn build(&self) -> Result<Built, SetupError> {
+        self.check()?;
+        let droplets = self.droplets.iter().enumerate().map(|(number, droplet)| {
+            let made = self.droplet(droplet)?;
+            self.fits(number, made.markers())?;
+            Ok(made)
+        });
+        let droplets = droplets.collect::<Result<Vec<_>, SetupError>>()?;
+        let solids = self.solids.iter().map(|solid| solid.build(self)).collect::<Result<Vec<_>, _>>()?;
+        self.check_overlap(&droplets, &solids)?;
+        let mut scene = Scene::new(self.flow()?).with_step_size(self.step);
+        if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
+            scene = scene.with_repulsion(ib_core::Repulsion::new(strength, range)?);
+        }
+        let droplets = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
+        let solids = solids.into_iter().map(|solid| scene.add(solid)).collect();
+        Ok(Built { scene, droplets, solids })
+    }
+
+    /// A droplet of this scene, for scenes that are put together by hand.
+    ///
+    /// # Errors
+    /// Parameters out of their range.
+    pub fn droplet(&self, droplet: &DropletSetup) -> Result<ActiveDroplet, SetupError> {
+        let shape = self.shape(droplet)?;
+        let (curve, turned, round) = shape.curve()?;
+        let centre = Vec2::new(droplet.centre[0], droplet.centre[1]);
+        let placed = |curve: Curve, turned| {
+            if turned { curve.rotated(droplet.angle).translated(centre) } else { curve.translated(centre) }
+        };
+        let curve = placed(curve, turned);
+        let count = match &self.method {
+            Method::Grid(grid) => fast_count(curve.perimeter() / grid.marker_spacing.unwrap_or(0.5 * grid.spacing)),
+            Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
+        };
+        let markers = curve.markers(count)?;
+        let made = match &droplet.particles {
+            None => ActiveDroplet::passive(&markers, droplet.tension)?,
+            Some(particles) => {
+                let c0 = particles.concentration;
+                let initial = match particles.start {
+                    Start::Polarised => InitialConcentration::polarised(c0, droplet.angle)?,
+                    Start::Uniform => InitialConcentration::uniform(c0)?,
+                    Start::Perturbed { amplitude, seed } => InitialConcentration::perturbed(c0, amplitude, seed)?,
+                };
+                let numbers = match round {
+                    // A droplet that starts squeezed has the particles of the circle that it is squeezed from.
+                    Some(radius) => {
+                        initial.particle_numbers(&placed(Curve::circle(radius)?, true).markers(markers.len())?)?
+                    }
+                    None => initial.particle_numbers(&markers)?,
+                };
+                let (bare, activity) = (droplet.tension, particles.activity);
+                let active = Active { markers: &markers, numbers, diffusion: particles.diffusion };
+                let made = match particles.excluded_volume {
+                    Exclusion::None => active.droplet(ContractileTension::new(bare, activity, NoExcludedVolume)?),
+                    Exclusion::Step(strength) => {
+                        let excluded = StepExcludedVolume::thesis(strength, c0)?;
+                        active.droplet(ContractileTension::new(bare, activity, excluded)?)
+                    }
+                    Exclusion::Quadratic(strength) => {
+                        let excluded = QuadraticExcludedVolume::new(strength)?;
+                        active.droplet(ContractileTension::new(bare, activity, excluded)?)
+                    }
+                };
+                made?.with_flux(particles.flux)?
+            }
+        };
+        let motion = match droplet.motion {
+            MarkerMotion::WithFluid => Motion::WithFluid,
+            MarkerMotion::Equidistributed { relaxation } => {
+                let filter = !matches!(&self.method, Method::Grid(grid) if !grid.filter);
+                Motion::Equidistributed { relaxation, filter }
+            }
+        };
+        let made = made.with_name(&droplet.name).with_motion(motion).with_area_constraint(droplet.area_constraint);
+        Ok(match droplet.viscosity {
+            Some(inside) => made.with_viscosity_inside(inside)?,
+            None => made,
+        })
+    }
+
+    /// The flow of this scene, for scenes that are put together by hand.
+    ///
+    /// # Errors
+    /// A region that the method does not have, lengths that do not hold a whole number of cells.
+    pub fn flow(&self) -> Result<AnyFlow, SetupError> {
+        let viscosity = self.viscosity;
+        match (&self.method, self.region) {
+            (Method::Integral(_), Region::Plane) => self.integrals(FreeSpace),
+            (Method::Integral(_), Region::Box { lengths: [lx, ly] }) => self.integrals(PeriodicBox::new(lx, ly)?),
+            (Method::Integral(_), Region::Channel { length, width, drive }) => {
+                self.integrals(Channel::new(length, width)?.with_drive(drive)?)
+            }
+            (Method::Grid(_), Region::Plane) => Err(SetupError::Value {
+                key: "region".to_owned(),
+                value: "plane".to_owned(),
+                remedy: "a grid has a box or a channel: give one, or the method of boundary integrals".to_owned(),
+            }),
+            (Method::Grid(grid), Region::Box { lengths: [lx, ly] }) => {
+                let [nx, ny] = self.cells(grid, [lx, ly])?;
+                self.coupled(grid, PeriodicStokes::new(Grid::periodic(nx, ny, grid.spacing)?, viscosity)?)
+            }
+            (Method::Grid(grid), Region::Channel { length, width, drive }) => {
+                let [nx, ny] = self.cells(grid, [length, width])?;
+                let mut solver = ChannelStokes::new(Grid::channel(nx, ny, grid.spacing)?, viscosity)?;
+                solver.set_drive(drive)?;
+                self.coupled(grid, solver)
+            }
+        }
+    }
+
+    fn integrals<D: FluidDomain + 'static>(&self, domain: D) -> Result<AnyFlow, SetupError> {
+        let Method::Integral(IntegralMethod { nodes, .. }) = self.method else {
+            return Err(SetupError::needs_a_grid("this region"));
+        };
+        let mut settings = Settings { nodes, ..Settings::default() };
+        let perimeters = self.droplets.iter().map(|droplet| match &droplet.shape {
+            &DropletShape::Round { radius } | &DropletShape::Squeezed { radius, .. } => Ok(TAU * radius),
+            shape => Ok(shape.curve()?.0.perimeter()),
+        });
+        let shortest = perimeters.collect::<Result<Vec<f64>, SetupError>>()?.into_iter().reduce(f64::min);
+        settings.reference_perimeter = shortest.unwrap_or(settings.reference_perimeter);
+        Ok(Box::new(BoundaryIntegral::new(domain, self.viscosity, settings)?))
+    }
+
+    fn coupled<S: StokesSolver + 'static>(&self, grid: &GridMethod, solver: S) -> Result<AnyFlow, SetupError> {
+        let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
+        Ok(if differs && grid.contrast == Contrast::Arithmetic {
+            Box::new(SmearedContrast::new(solver, grid.kernel)?)
+        } else if grid.corrected {
+            Box::new(ImmersedBoundary::new(solver, grid.kernel))
+        } else {
+            Box::new(ImmersedBoundary::uncorrected(solver, grid.kernel))
+        })
+    }
+
+    /// The shape of a droplet at the start: its own, or that of a circle squeezed between walls.
+    fn shape(&self, droplet: &DropletSetup) -> Result<DropletShape, SetupError> {
+        let &DropletShape::Round { radius } = &droplet.shape else { return Ok(droplet.shape.clone()) };
+        let y = droplet.centre[1];
+        // Walls of solids bound the channel where there are some; they know nothing of a film unless they are corrected.
+        let sides = self.solids.iter().filter_map(|solid| Some((solid, solid.side()?)));
+        let beside = sides.map(|(solid, side)| {
+            (if side < 0.0 { y - side } else { side - y }, if solid.surface == Surface::Corrected { FILM } else { 0.0 })
+        });
+        let (room, film, to) = match (beside.reduce(|a, b| if b.0 < a.0 { b } else { a }), &self.method, self.region) {
+            (Some((room, film)), ..) => (room, film, Squeezed::Stadium),
+            (None, Method::Integral(_), Region::Channel { width, .. }) => {
+                (0.5 * width - y.abs(), FILM, Squeezed::Ellipse)
+            }
+            _ => return Ok(droplet.shape.clone()),
+        };
+        if room >= radius * (1.0 - 1e-12) + film * radius {
+            return Ok(droplet.shape.clone());
+        }
+        let half_height = room - FILM * radius;
+        let [length, width] = self.region.lengths();
+        if half_height <= FLATTEST * radius {
+            return Err(SetupError::NoRoom { name: droplet.name.clone(), length, width });
+        }
+        Ok(DropletShape::Squeezed { radius, half_height, to })
+    }
+
+    /// Refuses a droplet that reaches beyond the region or overlaps its own images.
+    fn fits(&self, number: usize, markers: &[Vec2]) -> Result<(), SetupError> {
+        let (mut low, mut high) = (markers[0], markers[0]);
+        for marker in markers {
+            (low, high) = (low.inf(marker), high.sup(marker));
+        }
+        let [length, width] = self.region.lengths();
+        let extent = high - low;
+        // The polygon of the markers has the area of its curve and so stands out of it a little.
+        let slack = 4.0 * extent.norm() / (markers.len() * markers.len()) as f64;
+        let fits = match self.region {
+            Region::Plane => true,
+            Region::Box { .. } => extent.x < length && extent.y < width,
+            Region::Channel { .. } => extent.x < length && high.y.max(-low.y) <= 0.5 * width + slack,
+        };
+        if fits {
+            return Ok(());
+        }
+        Err(SetupError::NoRoom { name: self.droplets[number].name.clone(), length, width })
+    }
+
+    fn check_overlap(&self, droplets: &[ActiveDroplet], solids: &[Solid]) -> Result<(), SetupError> {
+        let (Method::Grid(grid), false) = (&self.method, solids.is_empty()) else { return Ok(()) };
+        let mut gap = SurfaceGap::new(Some(self.region.lengths()[0]));
+        solids.iter().try_for_each(|solid| gap.add(solid))?;
+        gap.sort();
+        let set_back = self.set_back();
+        for droplet in droplets {
+            let (width, marker) = gap.smallest(droplet.markers())?;
+            // A solid inside a droplet is a nucleus, and no marker is near it.
+            if width < set_back - OVERLAP * grid.spacing {
+                let place = droplet.markers()[marker];
+                return Err(SetupError::Overlap { x: place.x, y: place.y, depth: -width });
+            }
+        }
+        Ok(())
+    }
+
+    /// How far the meshed surfaces of the walls lie behind those where they stop the fluid (length), see
+    /// [`crate::SolidSetup::set_back`]; the largest where they differ.
+    #[must_use]
+    pub fn set_back(&self) -> f64 {
+        let Method::Grid(grid) = &self.method else { return 0.0 };
+        self.solids.iter().map(|solid| solid.set_back(grid)).fold(0.0, f64::max)
+    }
+}
+
+/// What an active droplet is made of besides its law.
+struct Active<'a> {
+    markers: &'a [Vec2],
+    numbers: Vec<f64>,
+    diffusion: f64,
+}
+
+impl Active<'_> {
+    fn droplet(self, law: impl Tension + 'static) -> Result<ActiveDroplet, InterfaceError> {
+        ActiveDroplet::new(self.markers, self.numbers, law, self.diffusion)
+    }
+}
+
+/// The even number without prime factors above 5 nearest to `wanted`: transforms of such lengths are fast.
+fn fast_count(wanted: f64) -> usize {
+    let wanted = wanted.round().clamp(8.0, 1e7) as usize;
+    let fast = |mut n: usize| {
+        for p in [2, 3, 5] {
+            while n.is_multiple_of(p) {
+                n /= p;
+            }
+        }
+        n == 1
+    };
+    (0..wanted)
+        .flat_map(|d| [wanted + d, wanted - d])
+        .find(|&n| n >= 8 && n.is_multiple_of(2) && fast(n))
+        .unwrap_or(wanted)
+}

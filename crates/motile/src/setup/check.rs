@@ -1,0 +1,355 @@
+//! What descriptions must be, checked before any work.
+
+use ib_core::StepSize;
+use stokes_grid::Drive;
+
+use super::{
+    Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion, Method,
+    Region, Setup, SolidOutline, SolidSetup, Start,
+};
+use crate::SetupError;
+
+/// Most cells of a grid in a direction, and in all.
+const MOST_CELLS: [f64; 2] = [16_384.0, 6.7e7];
+/// Shape nodes of boundary integrals.
+const NODES: [usize; 2] = [16, 4096];
+/// Markers of an interface, and cells of its concentration.
+const MARKERS: [f64; 2] = [8.0, 1e6];
+/// Largest length over the grid spacing that a solid may have.
+const MOST_ACROSS: f64 = 1e5;
+
+/// Values with their place in the description.
+struct Checked<'a> {
+    place: &'a str,
+}
+
+impl Checked<'_> {
+    fn refuse<T>(&self, key: &str, value: impl ToString, remedy: impl Into<String>) -> Result<T, SetupError> {
+        let key = if self.place.is_empty() { key.to_owned() } else { format!("{}.{key}", self.place) };
+        Err(SetupError::Value { key, value: value.to_string(), remedy: remedy.into() })
+    }
+
+    fn positive(&self, key: &str, value: f64) -> Result<(), SetupError> {
+        if value.is_finite() && value > 0.0 { Ok(()) } else { self.refuse(key, value, "give a positive finite number") }
+    }
+
+    fn not_negative(&self, key: &str, value: f64) -> Result<(), SetupError> {
+        if value.is_finite() && value >= 0.0 {
+            Ok(())
+        } else {
+            self.refuse(key, value, "give a finite number that is not negative")
+        }
+    }
+
+    fn finite(&self, key: &str, value: f64) -> Result<(), SetupError> {
+        if value.is_finite() { Ok(()) } else { self.refuse(key, value, "give a finite number") }
+    }
+
+    fn all_finite(&self, key: &str, values: &[f64]) -> Result<(), SetupError> {
+        values.iter().try_for_each(|&value| self.finite(key, value))
+    }
+}
+
+impl Setup {
+    /// Refuses a description that makes no scene: values out of their range, and values that do not fit together. What only
+    /// shows when shapes are made is refused by [`Setup::build`].
+    ///
+    /// # Errors
+    /// [`SetupError::Value`] with the key, the value and what to give instead.
+    pub fn check(&self) -> Result<(), SetupError> {
+        let top = Checked { place: "" };
+        top.positive("viscosity", self.viscosity)?;
+        match self.region {
+            Region::Plane => {}
+            Region::Box { lengths } => {
+                lengths.into_iter().try_for_each(|length| top.positive("region.box.lengths", length))?;
+            }
+            Region::Channel { length, width, drive } => {
+                top.positive("region.channel.length", length)?;
+                top.positive("region.channel.width", width)?;
+                if let Drive::Gradient(value) | Drive::Flux(value) = drive {
+                    top.finite("region.channel.drive", value)?;
+                }
+            }
+        }
+        match &self.method {
+            Method::Integral(integral) => self.check_integral(integral)?,
+            Method::Grid(grid) => self.check_grid(grid)?,
+        }
+        match self.step {
+            StepSize::Fixed(dt) => top.positive("step.fixed", dt)?,
+            StepSize::OfLimit(part) if !(part > 0.0 && part <= 1.0) => {
+                top.refuse("step.of-limit", part, "give a number above 0 and at most 1")?;
+            }
+            StepSize::Adaptive { tolerance } if !(tolerance > 0.0 && tolerance < 1.0) => {
+                top.refuse("step.adaptive.tolerance", tolerance, "give a number above 0 and below 1")?;
+            }
+            StepSize::OfLimit(_) | StepSize::Adaptive { .. } => {}
+        }
+        if let Some(repulsion) = self.repulsion {
+            top.positive("repulsion.strength", repulsion.strength)?;
+            top.positive("repulsion.range", repulsion.range)?;
+            if self.droplets.len() < 2 {
+                top.refuse(
+                    "repulsion",
+                    format!("{repulsion:?}"),
+                    "it acts between droplets: give two, or leave it out",
+                )?;
+            }
+        }
+        for (number, droplet) in self.droplets.iter().enumerate() {
+            droplet.check(&format!("droplets[{number}]"))?;
+        }
+        for (number, solid) in self.solids.iter().enumerate() {
+            solid.check(&format!("solids[{number}]"), self)?;
+        }
+        Ok(())
+    }
+
+    fn check_integral(&self, &IntegralMethod { nodes, cells }: &IntegralMethod) -> Result<(), SetupError> {
+        let checked = Checked { place: "method.integral" };
+        let [least, most] = NODES;
+        if !(least..=most).contains(&nodes) {
+            checked.refuse("nodes", nodes, format!("give a number from {least} to {most}"))?;
+        }
+        if cells < nodes || cells as f64 > MARKERS[1] {
+            checked.refuse(
+                "cells",
+                cells,
+                format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]),
+            )?;
+        }
+        if !self.solids.is_empty() {
+            return Err(SetupError::needs_a_grid("solids"));
+        }
+        Ok(())
+    }
+
+    fn check_grid(&self, grid: &GridMethod) -> Result<(), SetupError> {
+        let checked = Checked { place: "method.grid" };
+        checked.positive("spacing", grid.spacing)?;
+        if let Some(spacing) = grid.marker_spacing {
+            checked.positive("marker-spacing", spacing)?;
+        }
+        self.cells(grid, self.region.lengths())?;
+        let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
+        for (number, droplet) in self.droplets.iter().enumerate() {
+            // An estimate for shapes that are not known yet.
+            let perimeter = std::f64::consts::TAU * droplet.shape.size();
+            if perimeter.is_finite() && perimeter / spacing > MARKERS[1] {
+                let remedy = format!("droplets[{number}] would have more than {} markers: give more", MARKERS[1]);
+                checked.refuse("marker-spacing", spacing, remedy)?;
+            }
+        }
+        let (with_fluid, equal): (Vec<_>, Vec<_>) =
+            self.droplets.iter().partition(|droplet| droplet.motion == MarkerMotion::WithFluid);
+        if !with_fluid.is_empty() && equal.is_empty() {
+            for (key, set) in [("corrected", grid.corrected), ("filter", grid.filter)] {
+                if set {
+                    let remedy = "markers that move with the fluid are not equally spaced: give false, or droplets \
+                                  with equidistributed markers";
+                    checked.refuse(key, true, remedy)?;
+                }
+            }
+        }
+        let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
+        if differs && grid.corrected && grid.contrast == Contrast::Arithmetic {
+            let remedy = "an arithmetic contrast has no mobility correction: give false, or a sharp contrast";
+            checked.refuse("corrected", true, remedy)?;
+        }
+        Ok(())
+    }
+
+    /// Cells of the grid over these lengths.
+    pub(super) fn cells(&self, grid: &GridMethod, lengths: [f64; 2]) -> Result<[usize; 2], SetupError> {
+        let checked = Checked { place: "method.grid" };
+        let counts = lengths.map(|length| length / grid.spacing);
+        let product: f64 = counts.iter().product();
+        for (length, cells) in lengths.into_iter().zip(counts) {
+            let whole = cells.round();
+            let [most, in_all] = MOST_CELLS;
+            if length.is_infinite() {
+                let remedy = "the plane has no grid: give a box or a channel, or the method of boundary integrals";
+                return Checked { place: "" }.refuse("region", "plane", remedy);
+            }
+            if cells > most || product > in_all {
+                let remedy =
+                    format!("a length of {length} would take {cells:.0} cells, {product:.1e} in all: give more");
+                return checked.refuse("spacing", grid.spacing, remedy);
+            }
+            if whole < 4.0 || (cells - whole).abs() > 1e-6 * whole {
+                let nearest = length / whole.max(4.0);
+                let remedy =
+                    format!("a length of {length} is not a whole number of at least 4 cells: give {nearest}, say");
+                return checked.refuse("spacing", grid.spacing, remedy);
+            }
+        }
+        Ok(counts.map(|cells| cells.round() as usize))
+    }
+}
+
+impl DropletShape {
+    /// About how large it is (length).
+    fn size(&self) -> f64 {
+        match self {
+            Self::Round { radius } | Self::Modes { radius, .. } | Self::Squeezed { radius, .. } => *radius,
+            Self::Ellipse { half_axes } => half_axes[0].max(half_axes[1]),
+            Self::Points(points) => points.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max),
+        }
+    }
+
+    fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+        match self {
+            Self::Round { radius } => checked.positive("shape.round.radius", *radius),
+            Self::Squeezed { radius, half_height, .. } => {
+                checked.positive("shape.squeezed.radius", *radius)?;
+                checked.positive("shape.squeezed.half-height", *half_height)?;
+                if half_height > radius {
+                    checked.refuse("shape.squeezed.half-height", half_height, "give less than the radius")?;
+                }
+                Ok(())
+            }
+            Self::Ellipse { half_axes } => {
+                half_axes.iter().try_for_each(|&axis| checked.positive("shape.ellipse.half-axes", axis))
+            }
+            Self::Modes { radius, cosines, sines } => {
+                checked.positive("shape.modes.radius", *radius)?;
+                checked.all_finite("shape.modes.cosines", cosines)?;
+                checked.all_finite("shape.modes.sines", sines)
+            }
+            Self::Points(points) => {
+                if points.len() < 8 || points.len() as f64 > MARKERS[1] {
+                    let remedy = format!("give from {} to {} points", MARKERS[0], MARKERS[1]);
+                    checked.refuse("shape.points", format!("{} points", points.len()), remedy)?;
+                }
+                checked.all_finite("shape.points", points.as_flattened())
+            }
+        }
+    }
+}
+
+impl DropletSetup {
+    fn check(&self, place: &str) -> Result<(), SetupError> {
+        let checked = Checked { place };
+        checked.all_finite("centre", &self.centre)?;
+        checked.finite("angle", self.angle)?;
+        if let Some(viscosity) = self.viscosity {
+            checked.positive("viscosity", viscosity)?;
+        }
+        checked.not_negative("tension", self.tension)?;
+        if let MarkerMotion::Equidistributed { relaxation } = self.motion {
+            checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
+        }
+        self.shape.check(&checked)?;
+        let Some(particles) = &self.particles else { return Ok(()) };
+        checked.finite("particles.activity", particles.activity)?;
+        checked.not_negative("particles.diffusion", particles.diffusion)?;
+        checked.positive("particles.concentration", particles.concentration)?;
+        if let Exclusion::Step(strength) | Exclusion::Quadratic(strength) = particles.excluded_volume {
+            checked.not_negative("particles.excluded-volume", strength)?;
+        }
+        if let Start::Perturbed { amplitude, .. } = particles.start
+            && !(0.0..1.0).contains(&amplitude)
+        {
+            checked.refuse("particles.start.perturbed.amplitude", amplitude, "give a number from 0 to below 1")?;
+        }
+        Ok(())
+    }
+}
+
+impl SolidSetup {
+    fn check(&self, place: &str, setup: &Setup) -> Result<(), SetupError> {
+        let checked = Checked { place };
+        let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
+        if let Some(spacing) = self.mesh_spacing {
+            checked.positive("mesh-spacing", spacing)?;
+        }
+        let spacing = self.mesh_spacing.unwrap_or(grid.spacing);
+        let across = |key: &str, length: f64| {
+            if length / spacing > MOST_ACROSS {
+                let remedy = format!("with points {spacing} apart it would have too many of them: give less");
+                checked.refuse(key, length, remedy)
+            } else {
+                Ok(())
+            }
+        };
+        match &self.outline {
+            SolidOutline::WallBelow(shape)
+            | SolidOutline::WallAbove(shape)
+            | SolidOutline::Island { of: shape, .. } => {
+                if !matches!(setup.region, Region::Channel { .. }) {
+                    checked.refuse("outline", "a wall or an island", "give a region that is a channel")?;
+                }
+                let (width, height) = (shape.width(), setup.region.lengths()[1]);
+                checked.positive("outline.width", width)?;
+                across("outline.width", height.max(setup.region.lengths()[0]))?;
+                if self.outline_is_wall() && width >= height {
+                    let remedy =
+                        format!("give less than {height}, the width of the region, so that the walls have room");
+                    checked.refuse("outline.width", width, remedy)?;
+                }
+            }
+            SolidOutline::Disc { centre, radius } => {
+                checked.all_finite("outline.disc.centre", centre)?;
+                checked.positive("outline.disc.radius", *radius)?;
+                across("outline.disc.radius", *radius)?;
+            }
+            SolidOutline::Ellipse { centre, half_axes } => {
+                checked.all_finite("outline.ellipse.centre", centre)?;
+                for &axis in half_axes {
+                    checked.positive("outline.ellipse.half-axes", axis)?;
+                    across("outline.ellipse.half-axes", axis)?;
+                }
+            }
+            SolidOutline::Polygon { corners, fillet } => {
+                checked.all_finite("outline.polygon.corners", corners.as_flattened())?;
+                checked.not_negative("outline.polygon.fillet", *fillet)?;
+                for length in corners.as_flattened() {
+                    across("outline.polygon.corners", length.abs())?;
+                }
+            }
+        }
+        if self.hold == Hold::Pinned && !self.outline_is_wall() {
+            let remedy = "only walls reach the rigid walls of the region: give tethered or free";
+            checked.refuse("hold", "pinned", remedy)?;
+        }
+        if let Hold::Tethered { stiffness } = self.hold {
+            checked.positive("hold.tethered.stiffness", stiffness)?;
+        }
+        if let Grading::Along { factors, .. } = &self.grading {
+            factors.iter().try_for_each(|[place, factor]| {
+                checked.finite("grading.along.factors", *place)?;
+                checked.positive("grading.along.factors", *factor)
+            })?;
+            if factors.is_empty() || !factors.windows(2).all(|pair| pair[0][0] < pair[1][0]) {
+                let remedy = "give at least one place with its factor, places increasing";
+                checked.refuse("grading.along.factors", format!("{factors:?}"), remedy)?;
+            }
+        }
+        self.material.check(&checked)
+    }
+
+    fn outline_is_wall(&self) -> bool {
+        self.side().is_some()
+    }
+}
+
+impl super::Material {
+    fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+        checked.positive("material.shear", self.shear())?;
+        match *self {
+            Self::Springs { .. } => Ok(()),
+            Self::NeoHookean { bulk, .. } | Self::SaintVenantKirchhoff { bulk, .. } => {
+                checked.positive("material.bulk", bulk)
+            }
+            Self::MooneyRivlin { bulk, fraction, .. } => {
+                checked.positive("material.bulk", bulk)?;
+                if (0.0..=1.0).contains(&fraction) {
+                    Ok(())
+                } else {
+                    checked.refuse("material.fraction", fraction, "give a number from 0 to 1")
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,268 @@
+//! Descriptions of droplets.
+
+use std::f64::consts::PI;
+
+use active_interface::{Curve, Flux, InterfaceError};
+use ib_core::Vec2;
+
+/// A droplet: a closed fluid interface with a tension of its own and, unless it is passive, active particles.
+///
+/// ```
+/// use motile::setup::*;
+///
+/// let strong = DropletSetup { centre: [1.0, 0.0], angle: 0.3, ..DropletSetup::active(-4.0) };
+/// let drop_of_oil = DropletSetup { viscosity: Some(10.0), ..DropletSetup::passive(10.0) };
+/// assert_eq!((strong.tension, drop_of_oil.particles), (10.0, None));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields, rename_all = "kebab-case"))]
+pub struct DropletSetup {
+    /// Name for messages.
+    pub name: String,
+    /// Position of the centre (length); regions are centred on the origin.
+    pub centre: [f64; 2],
+    /// Direction of swimming at the start (radians from the x axis), by which the shape is turned.
+    pub angle: f64,
+    /// Viscosity of the droplet (stress times time); `None` for that of the exterior fluid.
+    pub viscosity: Option<f64>,
+    /// Tension gamma0 of the interface without particles (force).
+    pub tension: f64,
+    /// How the markers move along the interface.
+    pub motion: MarkerMotion,
+    /// Whether the area is put back to the initial one after each step.
+    pub area_constraint: bool,
+    /// Its shape at the start.
+    pub shape: DropletShape,
+    /// The active particles on the interface; `None` for a passive droplet.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub particles: Option<Particles>,
+}
+
+impl Default for DropletSetup {
+    /// An active droplet of activity -2 and radius 1 in the origin.
+    fn default() -> Self {
+        Self {
+            name: "droplet".to_owned(),
+            centre: [0.0, 0.0],
+            angle: 0.0,
+            viscosity: None,
+            tension: 10.0,
+            motion: MarkerMotion::default(),
+            area_constraint: false,
+            shape: DropletShape::default(),
+            particles: Some(Particles::default()),
+        }
+    }
+}
+
+impl DropletSetup {
+    /// The default droplet with this activity zeta delta-mu (force times length; negative if contractile).
+    #[must_use]
+    pub fn active(activity: f64) -> Self {
+        Self { particles: Some(Particles { activity, ..Particles::default() }), ..Self::default() }
+    }
+
+    /// A droplet without particles, of constant tension (force).
+    #[must_use]
+    pub fn passive(tension: f64) -> Self {
+        Self { tension, particles: None, ..Self::default() }
+    }
+
+    /// The default droplet by the thesis' method: markers that move with the fluid and are inserted and removed, an area
+    /// constraint. What the thesis does not state is a reading of it: a first-order upwind flux; diffusion is implicit
+    /// as in the default.
+    #[must_use]
+    pub fn thesis() -> Self {
+        Self {
+            motion: MarkerMotion::WithFluid,
+            area_constraint: true,
+            particles: Some(Particles { flux: Flux::Upwind, ..Particles::default() }),
+            ..Self::default()
+        }
+    }
+
+    /// Activity zeta delta-mu (force times length); 0 without particles.
+    #[must_use]
+    pub fn activity(&self) -> f64 {
+        self.particles.map_or(0.0, |particles| particles.activity)
+    }
+}
+
+/// Active particles on an interface. They raise its tension: `gamma = gamma0 - zeta_dmu c - Pi(c)`, thesis (2.39).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields, rename_all = "kebab-case"))]
+pub struct Particles {
+    /// Activity zeta delta-mu (force times length), negative if contractile.
+    pub activity: f64,
+    /// Excluded volume Pi(c), which keeps the particles from collapsing to a point.
+    pub excluded_volume: Exclusion,
+    /// Diffusion constant along the interface (length squared per time).
+    pub diffusion: f64,
+    /// Mean concentration c0 at the start (1/length).
+    pub concentration: f64,
+    /// How they are spread over the interface at the start.
+    pub start: Start,
+    /// How they are carried from segment to segment.
+    #[cfg_attr(feature = "serde", serde(with = "super::file::FluxText"))]
+    pub flux: Flux,
+}
+
+impl Default for Particles {
+    fn default() -> Self {
+        Self {
+            activity: -2.0,
+            excluded_volume: Exclusion::Step(10.0),
+            diffusion: 0.1,
+            concentration: 100.0,
+            start: Start::Polarised,
+            flux: Flux::Weno5,
+        }
+    }
+}
+
+/// Excluded volume of the particles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Exclusion {
+    /// None: particles of negative activity collapse.
+    None,
+    /// The step-like law of strength A (force times length), thesis (2.41), with the threshold 2 c0.
+    Step(f64),
+    /// `Pi = B c^2 / 2` of strength B (force times length squared).
+    Quadratic(f64),
+}
+
+/// How the particles are spread over the interface at the start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub enum Start {
+    /// `(1 - cos(theta - angle)) c0`: crowded at the rear of a droplet that swims at `angle`, thesis (2.46).
+    Polarised,
+    /// c0 everywhere.
+    Uniform,
+    /// Uniform with small random Fourier modes.
+    Perturbed {
+        /// Relative amplitude.
+        amplitude: f64,
+        /// The same seed gives the same droplet.
+        seed: u64,
+    },
+}
+
+/// How the markers of an interface move along it; across it they move with the fluid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub enum MarkerMotion {
+    /// At a velocity of their own that keeps them equally spaced.
+    Equidistributed {
+        /// Rate at which unequal spacing relaxes (1/time).
+        relaxation: f64,
+    },
+    /// With the fluid, as in the thesis; markers are inserted where they thin out and removed where they crowd.
+    WithFluid,
+}
+
+impl Default for MarkerMotion {
+    fn default() -> Self {
+        Self::Equidistributed { relaxation: 5.0 }
+    }
+}
+
+/// The shape of a droplet at the start, about its centre.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub enum DropletShape {
+    /// A circle, squeezed between walls where it has no room: by boundary integrals to an ellipse that leaves a film of a
+    /// twentieth of the radius, between elastic walls to a stadium that leaves such a film, with the area and the
+    /// particles of the circle.
+    Round {
+        /// Radius of the circle (length).
+        radius: f64,
+    },
+    /// A circle squeezed along y, with its area and its particles; the angle turns the particles alone.
+    Squeezed {
+        /// Radius of the circle (length).
+        radius: f64,
+        /// Half of its extent in y (length), below the radius.
+        half_height: f64,
+        /// What it becomes.
+        to: Squeezed,
+    },
+    /// An ellipse.
+    Ellipse {
+        /// Half axes along and across the angle (length).
+        half_axes: [f64; 2],
+    },
+    /// `r(theta) = R (1 + sum_k a_k cos(k theta) + b_k sin(k theta))`, k from 1.
+    Modes {
+        /// Mean radius R (length).
+        radius: f64,
+        /// Amplitudes a_k (no dimension).
+        cosines: Vec<f64>,
+        /// Amplitudes b_k (no dimension).
+        #[cfg_attr(feature = "serde", serde(default))]
+        sines: Vec<f64>,
+    },
+    /// The smooth closed curve through points (length).
+    Points(Vec<[f64; 2]>),
+}
+
+/// What a squeezed circle becomes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Squeezed {
+    /// An ellipse.
+    Ellipse,
+    /// Two half circles with straight sides between them.
+    Stadium,
+}
+
+impl Default for DropletShape {
+    fn default() -> Self {
+        Self::Round { radius: 1.0 }
+    }
+}
+
+impl DropletShape {
+    /// The curve about the origin before it is turned, whether it is to be turned, and the circle that particles are
+    /// spread on where that is another curve.
+    pub(super) fn curve(&self) -> Result<(Curve, bool, Option<f64>), InterfaceError> {
+        Ok(match self {
+            &Self::Round { radius } => (Curve::circle(radius)?, true, None),
+            &Self::Squeezed { radius, half_height, to } => {
+                let curve = match to {
+                    Squeezed::Ellipse => Curve::ellipse(radius * radius / half_height, half_height)?,
+                    Squeezed::Stadium => stadium(straight(radius, half_height), half_height)?,
+                };
+                (curve, false, Some(radius))
+            }
+            Self::Ellipse { half_axes: [along, across] } => (Curve::ellipse(*along, *across)?, true, None),
+            Self::Modes { radius, cosines, sines } => (Curve::fourier(*radius, cosines, sines)?, true, None),
+            Self::Points(points) => {
+                let points: Vec<Vec2> = points.iter().map(|&[x, y]| Vec2::new(x, y)).collect();
+                (Curve::through_points(&points)?, true, None)
+            }
+        })
+    }
+}
+
+/// Half the length of the straight sides of the stadium with ends of radius `half` (length) that has the area of a circle.
+fn straight(radius: f64, half: f64) -> f64 {
+    0.25 * PI * (radius * radius - half * half) / half
+}
+
+/// The stadium around the points (-s, 0) and (s, 0) at the distance r.
+fn stadium(s: f64, r: f64) -> Result<Curve, InterfaceError> {
+    let points: Vec<Vec2> = (0..720)
+        .map(|k| std::f64::consts::TAU * (f64::from(k) + 0.5) / 720.0)
+        .map(|angle| Vec2::new(r * angle.cos() + s * angle.cos().signum(), r * angle.sin()))
+        .collect();
+    Curve::polygon(&points)
+}

@@ -1,0 +1,81 @@
+//! Scene files: descriptions in TOML.
+
+use active_interface::Flux;
+use ib_core::{AnyKernel, StepSize};
+use serde::{Deserialize, Serialize};
+use stokes_grid::Drive;
+
+use super::Setup;
+use crate::SetupError;
+
+impl Setup {
+    /// The description in a TOML text. What is left out is as in [`Setup::default`], but droplets that are not named are not
+    /// there.
+    ///
+    /// ```
+    /// use motile::Setup;
+    ///
+    /// let setup = Setup::from_toml("viscosity = 50.0\n[[droplets]]\ncentre = [0.5, 0.0]\nparticles.activity = -3.0\n")?;
+    /// assert_eq!((setup.viscosity, setup.droplets[0].activity()), (50.0, -3.0));
+    /// let refused = Setup::from_toml("viscosty = 50.0").unwrap_err().to_string();
+    /// assert!(refused.contains("unknown field `viscosty`"), "{refused}");
+    /// # Ok::<(), motile::SetupError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::File`], with the line), and
+    /// what [`Setup::check`] refuses.
+    pub fn from_toml(text: &str) -> Result<Self, SetupError> {
+        let setup: Self = toml::from_str(text).map_err(|error| SetupError::File { problem: error.to_string() })?;
+        setup.check()?;
+        Ok(setup)
+    }
+
+    /// The description as a TOML text, all entries written out, from which [`Setup::from_toml`] makes it again.
+    ///
+    /// # Errors
+    /// None for a description that [`Setup::check`] accepts.
+    pub fn to_toml(&self) -> Result<String, SetupError> {
+        toml::to_string(self).map_err(|error| SetupError::File { problem: error.to_string() })
+    }
+}
+
+/// [`StepSize`] in a file.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "StepSize", rename_all = "kebab-case", deny_unknown_fields)]
+pub(super) enum StepText {
+    Fixed(f64),
+    OfLimit(f64),
+    Adaptive { tolerance: f64 },
+}
+
+/// [`Drive`] in a file.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Drive", rename_all = "kebab-case")]
+pub(super) enum DriveText {
+    ZeroGradient,
+    Gradient(f64),
+    ZeroFlux,
+    Flux(f64),
+}
+
+/// [`Flux`] in a file.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Flux", rename_all = "kebab-case")]
+pub(super) enum FluxText {
+    Upwind,
+    Weno5,
+}
+
+/// [`AnyKernel`] in a file, by its name in small letters.
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "AnyKernel", rename_all = "lowercase")]
+pub(super) enum KernelText {
+    Peskin4,
+    Roma3,
+    Gaussian6,
+    BSpline3,
+    BSpline4,
+    BSpline5,
+    BSpline6,
+}

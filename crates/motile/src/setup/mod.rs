@@ -1,0 +1,126 @@
+//! A scene as data.
+
+mod build;
+mod check;
+mod droplet;
+#[cfg(feature = "serde")]
+mod file;
+mod method;
+mod region;
+mod solid;
+
+pub use build::{AnyFlow, Built};
+pub use droplet::{DropletSetup, DropletShape, Exclusion, MarkerMotion, Particles, Squeezed, Start};
+pub use method::{Contrast, GridMethod, IntegralMethod, Method, MethodKind};
+pub use region::Region;
+pub use solid::{Axis, ChannelShape, Grading, Hold, Material, MeshKind, SolidOutline, SolidSetup, Surface};
+
+use ib_core::StepSize;
+
+/// A scene as data: what there is, where, and how it is computed. [`Setup::build`] makes the scene.
+///
+/// Descriptions are plain structs and enums: they are written as literals, compared, printed, cloned, and with the feature
+/// `serde` read from and written to TOML (`Setup::from_toml`, `Setup::to_toml`). No field is ignored: what only one
+/// method needs stands inside that method's variant. Quantities may have any consistent units; those of the defaults are
+/// R0 = 10 um for length, gamma0/10 for force, 10 s for time (`active_interface::Units` converts).
+///
+/// What data cannot say (a tension law in code, a body of one's own, walls from a closure) is added to the scene that
+/// has been built.
+///
+/// ```
+/// use motile::setup::*;
+///
+/// // Two droplets of different activity and viscosity, abreast.
+/// let setup = Setup {
+///     region: Region::Box { lengths: [6.0, 6.0] },
+///     method: Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
+///     droplets: vec![
+///         DropletSetup { centre: [0.0, -1.4], ..DropletSetup::active(-3.0) },
+///         DropletSetup { centre: [0.0, 1.4], viscosity: Some(1000.0), ..DropletSetup::active(-2.0) },
+///     ],
+///     ..Setup::default()
+/// };
+/// let Built { mut scene, droplets, .. } = setup.build()?;
+/// scene.run(1.0).go()?;
+/// let [first, second] = [scene.observe(droplets[0])?.speed(), scene.observe(droplets[1])?.speed()];
+/// println!("{first:.3} {second:.3}");
+/// assert!(first > 4.0 * second);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields, rename_all = "kebab-case"))]
+pub struct Setup {
+    /// The region that the fluid fills.
+    pub region: Region,
+    /// How the flow is computed.
+    pub method: Method,
+    /// Viscosity of the exterior fluid, and of droplets that have none of their own (stress times time).
+    pub viscosity: f64,
+    /// How long the steps of runs are.
+    #[cfg_attr(feature = "serde", serde(with = "file::StepText"))]
+    pub step: StepSize,
+    /// A short-range repulsion between different interfaces; no part of the physics of the model.
+    pub repulsion: Option<RepulsionSetup>,
+    /// The droplets; a file that names none has none.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub droplets: Vec<DropletSetup>,
+    /// The elastic solids: walls, islands, nuclei.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub solids: Vec<SolidSetup>,
+}
+
+/// A short-range repulsion between different interfaces (see [`ib_core::Repulsion`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub struct RepulsionSetup {
+    /// Strength (force per length squared).
+    pub strength: f64,
+    /// Range (length).
+    pub range: f64,
+}
+
+impl Default for Setup {
+    /// One droplet of activity -2 in a box of 6 x 6, viscosity 100, by boundary integrals.
+    fn default() -> Self {
+        Self {
+            region: Region::default(),
+            method: Method::default(),
+            viscosity: 100.0,
+            step: StepSize::default(),
+            repulsion: None,
+            droplets: vec![DropletSetup::default()],
+            solids: Vec::new(),
+        }
+    }
+}
+
+impl Setup {
+    /// The default scene by the method of the thesis (Natasha Cowley, "Effects of mechanical properties of the environment
+    /// on cell migration", PhD thesis, University of Sheffield): [`GridMethod::thesis`], [`DropletSetup::thesis`], steps of
+    /// 1e-3. Walls by its method are [`SolidSetup::thesis`].
+    #[must_use]
+    pub fn thesis() -> Self {
+        Self {
+            method: Method::Grid(GridMethod::thesis()),
+            step: StepSize::Fixed(1e-3),
+            droplets: vec![DropletSetup::thesis()],
+            ..Self::default()
+        }
+    }
+
+    /// A number (hexadecimal) that tells descriptions of different physics, places or resolution apart, but not
+    /// different time steps: what checkpoints bear to say which scene they are of. FNV-1a of the printed description.
+    #[must_use]
+    pub fn fingerprint(&self) -> String {
+        let printed = format!("{:?}", Self { step: StepSize::default(), ..self.clone() });
+        let hash = printed
+            .bytes()
+            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+        format!("{hash:016x}")
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,508 @@
+//! Descriptions of elastic solids.
+
+use elastic_solids::channel::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, StraightChannel, Valve};
+use elastic_solids::material::{MooneyRivlin, SaintVenantKirchhoff};
+use elastic_solids::{Channel, Mesher, NeoHookean, Outline, Region as Enclosed, Solid, SolidError, TriangleMesh};
+use ib_core::{MobilityDeficit, Vec2};
+
+use super::{GridMethod, Method, Region, Setup};
+use crate::SetupError;
+
+/// An elastic solid in the fluid: a wall, an island, a nucleus.
+///
+/// ```
+/// use motile::setup::*;
+///
+/// // A soft channel of width 2, stiffening along x, in a region of 12 x 5 whose rigid walls hold the outermost rows.
+/// let material = Material::NeoHookean { shear: 200.0, bulk: 400.0 };
+/// let grading = Grading::Along { axis: Axis::X, factors: vec![[-6.0, 1.0], [0.0, 4.0], [6.0, 1.0]] };
+/// let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &material);
+/// let solids = walls.into_iter().map(|wall| SolidSetup { grading: grading.clone(), ..wall }).collect();
+/// let setup = Setup {
+///     region: Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient },
+///     method: Method::Grid(GridMethod::of_spacing(0.1)),
+///     droplets: vec![DropletSetup::active(-4.0)],
+///     solids,
+///     ..Setup::default()
+/// };
+/// let Built { mut scene, solids, .. } = setup.build()?;
+/// scene.run(0.2).go()?;
+/// let lower = scene.body(solids[0])?;
+/// println!("{} points of the lower wall move", lower.free_points().len());
+/// assert_eq!(lower.free_points().len(), 2040);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub struct SolidSetup {
+    /// Name for messages.
+    #[cfg_attr(feature = "serde", serde(default = "solid_name"))]
+    pub name: String,
+    /// How its points are arranged.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub mesh: MeshKind,
+    /// Spacing of its points (length); `None` for that of the grid.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub mesh_spacing: Option<f64>,
+    /// What is done about the smearing of its surface over the grid.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub surface: Surface,
+    /// Whether triangles of springs may be inverted ([`Solid::allow_inversion`]).
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub may_invert: bool,
+    /// How it is held in place.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub hold: Hold,
+    /// What it bounds.
+    pub outline: SolidOutline,
+    /// What it is made of.
+    pub material: Material,
+    /// Its moduli as a function of place.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub grading: Grading,
+}
+
+#[cfg(feature = "serde")]
+fn solid_name() -> String {
+    "solid".to_owned()
+}
+
+/// Outlines of solids, in their reference state.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub enum SolidOutline {
+    /// The wall from the lower rigid wall of the region up to the lower side of a channel.
+    WallBelow(ChannelShape),
+    /// The wall from the upper side of a channel up to the upper rigid wall of the region.
+    WallAbove(ChannelShape),
+    /// An island of a channel.
+    Island {
+        /// The channel.
+        of: ChannelShape,
+        /// Number of the island, from 0.
+        number: usize,
+    },
+    /// A disc.
+    Disc {
+        /// Its centre (length).
+        centre: [f64; 2],
+        /// Its radius (length).
+        radius: f64,
+    },
+    /// An ellipse with its axes along x and y.
+    Ellipse {
+        /// Its centre (length).
+        centre: [f64; 2],
+        /// Half axes in x and y (length).
+        half_axes: [f64; 2],
+    },
+    /// A polygon.
+    Polygon {
+        /// Its corners in order (length).
+        corners: Vec<[f64; 2]>,
+        /// Radius to which corners are rounded (length); 0 for sharp ones.
+        #[cfg_attr(feature = "serde", serde(default))]
+        fillet: f64,
+    },
+}
+
+/// Channels between two walls, centred on the origin, with the period of the region.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub enum ChannelShape {
+    /// Between two straight walls.
+    Straight {
+        /// Distance between the sides (length).
+        width: f64,
+    },
+    /// With a narrow passage, joined by cosine ramps ([`Constriction`]).
+    Constriction {
+        /// Width of the main channel (length).
+        width: f64,
+        /// Width of the passage (length).
+        throat: f64,
+        /// Length of the passage (length).
+        throat_length: f64,
+        /// Length of each ramp (length).
+        ramp: f64,
+        /// Middle of the passage in x (length).
+        centre: f64,
+    },
+    /// With two triangular teeth that almost meet ([`Valve`]).
+    Valve {
+        /// Width of the channel (length).
+        width: f64,
+        /// Gap between the tips of the teeth (length), as of sharp tips.
+        gap: f64,
+        /// Width of the base of a tooth (length).
+        base: f64,
+        /// Radius by which the tips and feet are rounded (length); 0 for sharp ones.
+        radius: f64,
+        /// Tips in x (length).
+        centre: f64,
+    },
+    /// Of asymmetric teeth ([`Ratchet`]).
+    Ratchet {
+        /// Width between the teeth (length).
+        width: f64,
+        /// Width at the tips (length).
+        throat: f64,
+        /// Number of teeth in a period.
+        teeth: usize,
+        /// Part of a tooth over which the channel narrows, going to larger x (0 to 1, both excluded).
+        rise: f64,
+        /// Straight flanks with sharp edges instead of cosine ramps.
+        sharp: bool,
+    },
+    /// With sinusoidal sides ([`SinusoidalChannel`]).
+    Sinusoidal {
+        /// Mean width (length).
+        width: f64,
+        /// Amplitude of each side (length).
+        amplitude: f64,
+        /// Number of waves in a period.
+        waves: usize,
+        /// Phase of the upper side against the lower one (radians).
+        phase: f64,
+    },
+    /// That splits in two around an island and joins again ([`BranchingChannel`]).
+    Branching {
+        /// Width of the undivided channel (length).
+        width: f64,
+        /// Widths of the lower and the upper branch beside the middle of the island (length).
+        branches: [f64; 2],
+        /// Length of the island (length).
+        island_length: f64,
+        /// Thickness of the island (length).
+        island_thickness: f64,
+        /// Length over which each side moves out (length), ending beside the tip of the island.
+        ramp: f64,
+    },
+}
+
+/// What a solid is made of. Moduli are those of the plane (force per length).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub enum Material {
+    /// Springs along the edges of the mesh (thesis section 4.1); their bulk modulus is twice the shear modulus.
+    Springs {
+        /// Shear modulus (force per length).
+        shear: f64,
+    },
+    /// The generalised neo-Hookean material of thesis section 4.2.
+    NeoHookean {
+        /// Shear modulus (force per length).
+        shear: f64,
+        /// Bulk modulus (force per length).
+        bulk: f64,
+    },
+    /// Saint Venant and Kirchhoff's material.
+    SaintVenantKirchhoff {
+        /// Shear modulus (force per length).
+        shear: f64,
+        /// Bulk modulus (force per length).
+        bulk: f64,
+    },
+    /// Mooney and Rivlin's material.
+    MooneyRivlin {
+        /// Shear modulus (force per length).
+        shear: f64,
+        /// Bulk modulus (force per length).
+        bulk: f64,
+        /// Part of the shear modulus that the second invariant carries (0 to 1).
+        fraction: f64,
+    },
+}
+
+/// Moduli as a function of the reference position: a factor on all moduli of the material.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub enum Grading {
+    /// The same everywhere.
+    #[default]
+    Uniform,
+    /// A factor that is piecewise linear along an axis and constant beyond its first and last place.
+    Along {
+        /// The axis.
+        axis: Axis,
+        /// Places (length, increasing), each with the factor there (no dimension, positive).
+        factors: Vec<[f64; 2]>,
+    },
+}
+
+/// An axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Axis {
+    /// Along the channel.
+    X,
+    /// Across it.
+    Y,
+}
+
+/// How the points of a solid are arranged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum MeshKind {
+    /// Equilateral triangles where the shape allows it, as in a straight wall.
+    #[default]
+    Equilateral,
+    /// An even mesh that is no lattice.
+    Unstructured,
+}
+
+/// What is done about the smearing of a solid's surface over the grid, by which a stiff one stops the fluid 0.31 to 0.44
+/// grid spacings in front of its surface (with the default kernel).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+pub enum Surface {
+    /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order. A round droplet that would
+    /// start in touch with the walls starts squeezed a little, beside a film.
+    #[default]
+    Corrected,
+    /// Walls are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first order, of a few tenths of
+    /// a grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for long, such as
+    /// the mouth of a constriction, where in time they enter corrected surfaces or invert a triangle of springs.
+    SetBack,
+    /// Nothing, as in the thesis.
+    Plain,
+}
+
+/// How a solid is held in place.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+pub enum Hold {
+    /// By the rigid walls of the region, to which its outermost row of points is pinned.
+    #[default]
+    Pinned,
+    /// By springs from all its points to their reference places.
+    Tethered {
+        /// Force per displacement and area (force per length cubed).
+        stiffness: f64,
+    },
+    /// Not at all: it moves with the fluid.
+    Free,
+}
+
+/// Angle by which the seeds of unstructured meshes are turned (radians).
+const TURN: f64 = 0.2;
+/// Offset of the plane where a stiff wall stops the fluid, over the deficit of its surface and the grid spacing: 0.315 grid
+/// spacings for the default kernel. Measured offsets are 0.31 to 0.44, depending on where the surface lies between grid
+/// lines; this value gives droplets in films of 0.1 R0 between walls of k = 1e6 and h = 0.05 the speed they have between
+/// rigid walls within 2 %.
+const OFFSET: f64 = 1.35;
+
+impl SolidSetup {
+    /// A solid that is pinned to the rigid walls of the region, on a lattice as fine as the grid, its surface corrected.
+    #[must_use]
+    pub fn new(outline: SolidOutline, material: Material) -> Self {
+        Self {
+            name: "solid".to_owned(),
+            mesh: MeshKind::default(),
+            mesh_spacing: None,
+            surface: Surface::default(),
+            may_invert: false,
+            hold: Hold::default(),
+            outline,
+            material,
+            grading: Grading::default(),
+        }
+    }
+
+    /// The solids of an elastic channel: lower wall, upper wall, and islands, which are tethered by their shear modulus
+    /// over the unit of length squared.
+    #[must_use]
+    pub fn walls(channel: &ChannelShape, material: &Material) -> Vec<Self> {
+        let islands = usize::from(matches!(channel, ChannelShape::Branching { .. }));
+        let wall = |name: &str, outline| Self { name: name.to_owned(), ..Self::new(outline, *material) };
+        let mut solids = vec![
+            wall("lower wall", SolidOutline::WallBelow(*channel)),
+            wall("upper wall", SolidOutline::WallAbove(*channel)),
+        ];
+        solids.extend((0..islands).map(|number| Self {
+            hold: Hold::Tethered { stiffness: material.shear() },
+            ..wall(&format!("island {}", number + 1), SolidOutline::Island { of: *channel, number })
+        }));
+        solids
+    }
+
+    /// The same by the method of the thesis (section 4.1): springs on an unstructured mesh (where the material is springs),
+    /// nothing done about the surface, and triangles may be inverted.
+    #[must_use]
+    pub fn thesis(self) -> Self {
+        Self { mesh: MeshKind::Unstructured, surface: Surface::Plain, may_invert: true, ..self }
+    }
+
+    /// How far the meshed surface of a wall lies behind the one where it stops the fluid (length), on a grid; islands and
+    /// other closed outlines are meshed as they are.
+    #[must_use]
+    pub fn set_back(&self, grid: &GridMethod) -> f64 {
+        let wall = matches!(self.outline, SolidOutline::WallBelow(_) | SolidOutline::WallAbove(_));
+        if self.surface == Surface::SetBack && wall {
+            OFFSET * MobilityDeficit::new(&grid.kernel).at(0.0).tangential * grid.spacing
+        } else {
+            0.0
+        }
+    }
+
+    /// What makes the mesh of this solid on a grid.
+    ///
+    /// # Errors
+    /// A spacing that is no length.
+    pub fn mesher(&self, grid: &GridMethod) -> Result<Mesher, SetupError> {
+        let mesher = Mesher::new(self.mesh_spacing.unwrap_or(grid.spacing))?;
+        Ok(if self.mesh == MeshKind::Unstructured { mesher.turned(TURN)? } else { mesher })
+    }
+
+    /// The solid of this description on a mesh of one's own, in place of its outline: for shapes that data cannot say.
+    ///
+    /// # Errors
+    /// Moduli out of their range; a solid that is to be pinned and has no point on a rigid wall of the region.
+    pub fn on_mesh(&self, mesh: TriangleMesh, region: &Region) -> Result<Solid, SetupError> {
+        let share = mesh.area() / mesh.points().len() as f64;
+        let solid = self.at_rest(mesh)?.named(&self.name);
+        let held = match self.hold {
+            Hold::Pinned => {
+                let half = 0.5 * region.lengths()[1];
+                solid.pinned(|s| s.y.abs() > half * (1.0 - 1e-9))?
+            }
+            Hold::Tethered { stiffness } => solid.tethered(stiffness * share, |_| true)?,
+            Hold::Free => solid,
+        };
+        let held = if self.may_invert { held.allow_inversion() } else { held };
+        Ok(if self.surface == Surface::Corrected { held.surface_corrected() } else { held })
+    }
+}
+
+impl SolidSetup {
+    /// The solid of this description in a scene.
+    pub(super) fn build(&self, setup: &Setup) -> Result<Solid, SetupError> {
+        let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
+        let [period, height] = setup.region.lengths();
+        let mesher = self.mesher(grid)?;
+        let closed = |outline: Outline| Ok::<_, SolidError>(mesher.mesh(&Enclosed::new([outline])?)?);
+        let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
+        let set_back = self.set_back(grid);
+        // Islands are meshed as they are.
+        let channel = |shape: &ChannelShape| {
+            let channel = shape.channel(period)?;
+            if set_back > 0.0 { channel.widened(2.0 * set_back) } else { Ok(channel) }
+        };
+        let mesh = match &self.outline {
+            SolidOutline::WallBelow(shape) => channel(shape)?.lower_wall(-0.5 * height, &mesher)?,
+            SolidOutline::WallAbove(shape) => channel(shape)?.upper_wall(0.5 * height, &mesher)?,
+            SolidOutline::Island { of, number } => of.channel(period)?.island(*number, &mesher)?,
+            &SolidOutline::Disc { centre, radius } => closed(Outline::circle(vector(centre), radius)?)?,
+            &SolidOutline::Ellipse { centre, half_axes } => closed(Outline::ellipse(vector(centre), half_axes)?)?,
+            SolidOutline::Polygon { corners, fillet } => {
+                let corners: Vec<Vec2> = corners.iter().copied().map(vector).collect();
+                let outline = Outline::polygon(&corners)?;
+                closed(if *fillet > 0.0 { outline.filleted(*fillet)? } else { outline })?
+            }
+        };
+        self.on_mesh(mesh, &setup.region)
+    }
+
+    /// The solid on a mesh, at rest and not held.
+    fn at_rest(&self, mesh: TriangleMesh) -> Result<Solid, SolidError> {
+        let factor = |place: Vec2| self.grading.factor(place);
+        match self.material {
+            Material::Springs { shear } => Solid::springs_graded(mesh, |s| shear * factor(s)),
+            Material::NeoHookean { shear, bulk } => {
+                Solid::hyperelastic_graded(mesh, |s| NeoHookean::new(shear * factor(s), bulk * factor(s)))
+            }
+            Material::SaintVenantKirchhoff { shear, bulk } => {
+                Solid::hyperelastic_graded(mesh, |s| SaintVenantKirchhoff::new(shear * factor(s), bulk * factor(s)))
+            }
+            Material::MooneyRivlin { shear, bulk, fraction } => {
+                Solid::hyperelastic_graded(mesh, |s| MooneyRivlin::new(shear * factor(s), bulk * factor(s), fraction))
+            }
+        }
+    }
+
+    /// How far from y = 0 the channel beside it reaches, below or above (length), where this is a wall.
+    pub(super) fn side(&self) -> Option<f64> {
+        match &self.outline {
+            SolidOutline::WallBelow(shape) => Some(-0.5 * shape.width()),
+            SolidOutline::WallAbove(shape) => Some(0.5 * shape.width()),
+            _ => None,
+        }
+    }
+}
+
+impl Material {
+    /// Shear modulus (force per length).
+    #[must_use]
+    pub fn shear(&self) -> f64 {
+        match *self {
+            Self::Springs { shear }
+            | Self::NeoHookean { shear, .. }
+            | Self::SaintVenantKirchhoff { shear, .. }
+            | Self::MooneyRivlin { shear, .. } => shear,
+        }
+    }
+}
+
+impl Grading {
+    /// The factor on the moduli at a reference position (length); no dimension.
+    #[must_use]
+    pub fn factor(&self, place: Vec2) -> f64 {
+        let Self::Along { axis, factors } = self else { return 1.0 };
+        let at = if *axis == Axis::X { place.x } else { place.y };
+        let above = factors.partition_point(|[x, _]| *x <= at);
+        match (above.checked_sub(1).map(|below| factors[below]), factors.get(above)) {
+            (Some([x0, f0]), Some(&[x1, f1])) => f0 + (f1 - f0) * (at - x0) / (x1 - x0),
+            (Some([_, factor]), None) | (None, Some(&[_, factor])) => factor,
+            (None, None) => 1.0,
+        }
+    }
+}
+
+impl ChannelShape {
+    /// Its width away from whatever narrows or widens it (length).
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        match *self {
+            Self::Straight { width }
+            | Self::Constriction { width, .. }
+            | Self::Valve { width, .. }
+            | Self::Ratchet { width, .. }
+            | Self::Sinusoidal { width, .. }
+            | Self::Branching { width, .. } => width,
+        }
+    }
+
+    /// The channel with this period (length).
+    ///
+    /// # Errors
+    /// Lengths that make no channel.
+    pub fn channel(&self, period: f64) -> Result<Channel, SolidError> {
+        match *self {
+            Self::Straight { width } => StraightChannel { period, width }.channel(),
+            Self::Constriction { width, throat, throat_length, ramp, centre } => {
+                Constriction { period, width, throat, throat_length, ramp, centre }.channel()
+            }
+            Self::Valve { width, gap, base, radius, centre } => {
+                Valve { period, width, gap, base, radius, centre }.channel()
+            }
+            Self::Ratchet { width, throat, teeth, rise, sharp } => {
+                Ratchet { period, width, throat, teeth, rise, sharp }.channel()
+            }
+            Self::Sinusoidal { width, amplitude, waves, phase } => {
+                SinusoidalChannel { period, width, amplitude, waves, phase }.channel()
+            }
+            Self::Branching { width, branches, island_length, island_thickness, ramp } => {
+                BranchingChannel { period, width, branches, island_length, island_thickness, ramp }.channel()
+            }
+        }
+    }
+}

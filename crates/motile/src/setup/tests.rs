@@ -1,0 +1,283 @@
+use active_interface::curve::polygon_moments;
+use ib_core::{Body, StepSize, Vec2};
+use stokes_grid::Drive;
+
+use super::*;
+use crate::SetupError;
+
+fn channel(width: f64) -> Region {
+    Region::Channel { length: 6.0, width, drive: Drive::ZeroGradient }
+}
+
+fn elastic(width: f64, surface: Surface) -> Setup {
+    let walls = SolidSetup::walls(&ChannelShape::Straight { width }, &Material::Springs { shear: 187.5 });
+    Setup {
+        region: channel(width + 2.0),
+        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        solids: walls.into_iter().map(|wall| SolidSetup { surface, ..wall }).collect(),
+        ..Setup::default()
+    }
+}
+
+/// Key, value and remedy of what is wrong.
+fn refused(setup: &Setup) -> String {
+    match setup.build() {
+        Err(error @ (SetupError::Value { .. } | SetupError::NoRoom { .. } | SetupError::Overlap { .. })) => {
+            error.to_string()
+        }
+        other => panic!("{setup:?}: {other:?}"),
+    }
+}
+
+#[test]
+fn what_makes_no_scene_is_refused_with_its_key() {
+    let one = |droplet: DropletSetup| Setup { droplets: vec![droplet], ..Setup::default() };
+    let with = |particles: Particles| one(DropletSetup { particles: Some(particles), ..DropletSetup::default() });
+    let grid = |grid: GridMethod| Setup { method: Method::Grid(grid), ..Setup::default() };
+    let coarse = GridMethod::of_spacing(0.1);
+    for bad in [f64::NAN, f64::INFINITY, -1.0] {
+        let cases = [
+            ("viscosity =", Setup { viscosity: bad, ..Setup::default() }),
+            ("region.box.lengths =", Setup { region: Region::Box { lengths: [6.0, bad] }, ..Setup::default() }),
+            ("region.channel.width =", Setup { region: channel(bad), ..Setup::default() }),
+            ("step.fixed =", Setup { step: StepSize::Fixed(bad), ..Setup::default() }),
+            ("step.of-limit =", Setup { step: StepSize::OfLimit(bad), ..Setup::default() }),
+            ("step.adaptive.tolerance =", Setup { step: StepSize::Adaptive { tolerance: bad }, ..Setup::default() }),
+            ("method.grid.spacing =", grid(GridMethod::of_spacing(bad))),
+            ("method.grid.marker-spacing =", grid(GridMethod { marker_spacing: Some(bad), ..coarse })),
+            ("droplets[0].viscosity =", one(DropletSetup { viscosity: Some(bad), ..DropletSetup::default() })),
+            ("droplets[0].tension =", one(DropletSetup { tension: bad, ..DropletSetup::default() })),
+            ("droplets[0].centre =", one(DropletSetup { centre: [0.0, f64::NAN], ..DropletSetup::default() })),
+            ("droplets[0].shape.round.radius =", {
+                one(DropletSetup { shape: DropletShape::Round { radius: bad }, ..DropletSetup::default() })
+            }),
+            ("droplets[0].particles.diffusion =", with(Particles { diffusion: bad, ..Particles::default() })),
+            ("droplets[0].particles.concentration =", with(Particles { concentration: bad, ..Particles::default() })),
+            ("droplets[0].particles.excluded-volume =", {
+                with(Particles { excluded_volume: Exclusion::Step(bad), ..Particles::default() })
+            }),
+        ];
+        for (key, setup) in cases {
+            assert!(refused(&setup).starts_with(key), "{key}: {}", refused(&setup));
+        }
+    }
+    let nodes = |nodes, cells| Setup { method: Method::Integral(IntegralMethod { nodes, cells }), ..Setup::default() };
+    let contrast = DropletSetup { viscosity: Some(10.0), ..DropletSetup::default() };
+    let cases = [
+        ("method.integral.nodes = 4", nodes(4, 64)),
+        ("method.integral.cells = 32", nodes(64, 32)),
+        ("method.integral.cells", nodes(64, usize::MAX)),
+        ("method.grid.spacing = 0.07: a length of 6 is not a whole number", grid(GridMethod::of_spacing(0.07))),
+        ("method.grid.spacing = 0.0000001: a length of 6 would take", grid(GridMethod::of_spacing(1e-7))),
+        ("method.grid.marker-spacing = 0.0000000001", grid(GridMethod { marker_spacing: Some(1e-10), ..coarse })),
+        ("region = plane", Setup { region: Region::Plane, ..grid(coarse) }),
+        ("method = integral: solids need a grid", Setup { method: Method::default(), ..elastic(3.0, Surface::Plain) }),
+        ("method.grid.corrected = true", Setup { droplets: vec![DropletSetup::thesis()], ..grid(coarse) }),
+        ("method.grid.corrected = true", {
+            Setup { droplets: vec![contrast], ..grid(GridMethod { contrast: Contrast::Arithmetic, ..coarse }) }
+        }),
+        ("repulsion", Setup { repulsion: Some(RepulsionSetup { strength: 1.0, range: 0.1 }), ..Setup::default() }),
+        ("a region of 1.9 x 6 does not hold droplet", {
+            Setup { region: Region::Box { lengths: [1.9, 6.0] }, ..Setup::default() }
+        }),
+        ("a region of 6 x 3 does not hold droplet", {
+            let off = DropletSetup { centre: [0.0, 1.45], ..DropletSetup::default() };
+            Setup { region: channel(3.0), droplets: vec![off], ..Setup::default() }
+        }),
+    ];
+    for (start, setup) in cases {
+        assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
+    }
+}
+
+#[test]
+fn solids_that_make_no_scene_are_refused() {
+    let base = elastic(3.0, Surface::Corrected);
+    let wall = base.solids[0].clone();
+    let disc = SolidOutline::Disc { centre: [0.0, 0.0], radius: 0.3 };
+    let along = |factors: Vec<[f64; 2]>| Grading::Along { axis: Axis::X, factors };
+    let cases = [
+        ("solids[0].material.shear = -1", SolidSetup { material: Material::Springs { shear: -1.0 }, ..wall.clone() }),
+        ("solids[0].material.bulk = NaN", {
+            SolidSetup { material: Material::NeoHookean { shear: 1.0, bulk: f64::NAN }, ..wall.clone() }
+        }),
+        ("solids[0].mesh-spacing = 0", SolidSetup { mesh_spacing: Some(0.0), ..wall.clone() }),
+        ("solids[0].outline.width", SolidSetup { mesh_spacing: Some(1e-9), ..wall.clone() }),
+        ("solids[0].outline.width = 5", {
+            SolidSetup { outline: SolidOutline::WallBelow(ChannelShape::Straight { width: 5.0 }), ..wall.clone() }
+        }),
+        ("solids[0].hold = pinned", SolidSetup { outline: disc, ..wall.clone() }),
+        (
+            "solids[0].hold.tethered.stiffness = 0",
+            SolidSetup { hold: Hold::Tethered { stiffness: 0.0 }, ..wall.clone() },
+        ),
+        ("solids[0].grading.along.factors = 0", SolidSetup { grading: along(vec![[0.0, 0.0]]), ..wall.clone() }),
+        ("solids[0].grading.along.factors", {
+            SolidSetup { grading: along(vec![[1.0, 1.0], [0.0, 2.0]]), ..wall.clone() }
+        }),
+    ];
+    for (start, solid) in cases {
+        let setup = Setup { solids: vec![solid], ..base.clone() };
+        assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
+    }
+}
+
+#[test]
+fn moduli_follow_their_grading() {
+    let grading = Grading::Along { axis: Axis::Y, factors: vec![[-1.0, 1.0], [1.0, 3.0], [2.0, 0.5]] };
+    let at = |y: f64| grading.factor(Vec2::new(9.0, y));
+    for (y, factor) in [(-5.0, 1.0), (-1.0, 1.0), (0.0, 2.0), (1.0, 3.0), (1.5, 1.75), (7.0, 0.5)] {
+        assert!((at(y) - factor).abs() < 1e-15, "{y}: {}", at(y));
+    }
+    assert_eq!(Grading::Uniform.factor(Vec2::zeros()), 1.0);
+    // The energy of a wall that is stiffer by a factor everywhere is larger by it.
+    let energy = |grading: Grading| {
+        let base = elastic(3.0, Surface::Plain);
+        let wall = SolidSetup { grading, ..base.solids[0].clone() };
+        let solid = wall.build(&base).unwrap().deformed(|s| Vec2::new(s.x, 1.1 * s.y)).unwrap();
+        solid.elastic_energy().unwrap()
+    };
+    let (uniform, graded) =
+        (energy(Grading::Uniform), energy(Grading::Along { axis: Axis::X, factors: vec![[0.0, 2.5]] }));
+    assert!(uniform > 0.1 && (graded / uniform - 2.5).abs() < 1e-12, "{uniform} {graded}");
+}
+
+#[test]
+fn round_droplets_are_squeezed_where_they_have_no_room() {
+    let area_and_height = |setup: &Setup| {
+        let Built { scene, droplets, .. } = setup.build().unwrap();
+        let markers = scene.body(droplets[0]).unwrap().markers().to_vec();
+        let height = markers.iter().fold(0.0_f64, |most, marker| most.max(marker.y));
+        (polygon_moments(&markers).unwrap().area, height)
+    };
+    let narrow = Setup { region: channel(2.0), ..Setup::default() };
+    let wide = Setup { region: channel(3.0), ..Setup::default() };
+    for (setup, half_height) in [
+        (&narrow, 0.95),
+        (&wide, 1.0),
+        (&elastic(2.0, Surface::Corrected), 0.95),
+        (&elastic(2.0, Surface::Plain), 1.0),
+        (&elastic(1.6, Surface::Plain), 0.75),
+    ] {
+        let (area, height) = area_and_height(setup);
+        assert!((height - half_height).abs() < 1e-3, "{height} {half_height}");
+        // The area of the circle, but for what a polygon of 128 and more corners misses.
+        assert!((area / std::f64::consts::PI - 1.0).abs() < 1e-3, "{area}");
+    }
+}
+
+#[test]
+fn bodies_stand_in_the_order_of_the_description() {
+    let droplets = ["a", "b"].map(|name| {
+        let centre = [if name == "a" { -1.5 } else { 1.5 }, 0.0];
+        let shape = DropletShape::Round { radius: 0.6 };
+        DropletSetup { name: name.to_owned(), centre, shape, ..DropletSetup::default() }
+    });
+    let core = SolidSetup {
+        hold: Hold::Free,
+        name: "core".to_owned(),
+        ..SolidSetup::new(
+            SolidOutline::Disc { centre: [1.5, 0.0], radius: 0.3 },
+            Material::MooneyRivlin { shear: 100.0, bulk: 200.0, fraction: 0.5 },
+        )
+    };
+    let mut setup = Setup { droplets: droplets.to_vec(), ..elastic(3.0, Surface::Plain) };
+    setup.solids.push(core);
+    let Built { mut scene, droplets, solids } = setup.build().unwrap();
+    let names: Vec<&str> = droplets.iter().map(|&handle| scene.body(handle).unwrap().name()).collect();
+    assert_eq!(names, ["a", "b"]);
+    let names: Vec<&str> = solids.iter().map(|&handle| scene.body(handle).unwrap().name()).collect();
+    assert_eq!(names, ["lower wall", "upper wall", "core"]);
+    scene.step(1e-3).unwrap();
+}
+
+#[test]
+fn fingerprints_tell_scenes_apart_but_not_steps() {
+    let setup = Setup::default();
+    assert_eq!(setup.fingerprint(), Setup { step: StepSize::Fixed(1e-3), ..Setup::default() }.fingerprint());
+    for other in [
+        Setup { viscosity: 100.000_000_1, ..Setup::default() },
+        Setup { droplets: vec![DropletSetup::active(-2.1)], ..Setup::default() },
+        Setup { method: Method::Grid(GridMethod::default()), ..Setup::default() },
+    ] {
+        assert_ne!(setup.fingerprint(), other.fingerprint());
+    }
+}
+
+#[cfg(feature = "serde")]
+mod file {
+    use super::*;
+
+    fn varied() -> Setup {
+        let shapes = [
+            DropletShape::Squeezed { radius: 1.0, half_height: 0.7, to: Squeezed::Stadium },
+            DropletShape::Ellipse { half_axes: [1.2, 0.8] },
+            DropletShape::Modes { radius: 1.0, cosines: vec![0.0, 0.1], sines: vec![0.05] },
+            DropletShape::Points((0..9).map(|k| f64::from(k) * 0.69).map(|t| [t.cos(), t.sin()]).collect()),
+        ];
+        let mut setup = elastic(3.0, Surface::SetBack);
+        setup.region = Region::Channel { length: 40.0, width: 5.0, drive: Drive::Flux(-0.25) };
+        setup.step = StepSize::Adaptive { tolerance: 1e-4 };
+        setup.repulsion = Some(RepulsionSetup { strength: 2.0, range: 0.1 });
+        setup.droplets.extend(shapes.into_iter().enumerate().map(|(k, shape)| DropletSetup {
+            centre: [4.0 * k as f64 - 16.0, 0.1],
+            shape,
+            viscosity: Some(7.5),
+            ..DropletSetup::thesis()
+        }));
+        setup.droplets.push(DropletSetup { centre: [12.0, 0.0], ..DropletSetup::passive(3.0) });
+        setup.droplets[1].particles = Some(Particles {
+            excluded_volume: Exclusion::Quadratic(0.1),
+            start: Start::Perturbed { amplitude: 0.05, seed: 7 },
+            ..Particles::default()
+        });
+        let graded = Grading::Along { axis: Axis::X, factors: vec![[0.0, 1.0], [3.0, 2.0]] };
+        setup.solids.push(SolidSetup {
+            hold: Hold::Tethered { stiffness: 20.0 },
+            grading: graded,
+            mesh: MeshKind::Unstructured,
+            mesh_spacing: Some(0.07),
+            ..SolidSetup::new(
+                SolidOutline::Polygon { corners: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], fillet: 0.1 },
+                Material::SaintVenantKirchhoff { shear: 10.0, bulk: 30.0 },
+            )
+        });
+        setup
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        for setup in [Setup::default(), Setup::thesis(), elastic(2.0, Surface::Plain), varied()] {
+            let text = setup.to_toml().unwrap();
+            assert_eq!(Setup::from_toml(&text).unwrap(), setup, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_left_out_is_the_default() {
+        let text = "[[droplets]]\n[droplets.particles]\n";
+        assert_eq!(Setup::from_toml(text).unwrap(), Setup::default());
+        assert_eq!(Setup::from_toml("").unwrap(), Setup { droplets: Vec::new(), ..Setup::default() });
+        let passive = Setup::from_toml("[[droplets]]\ntension = 3.0\n").unwrap();
+        assert_eq!(passive.droplets, [DropletSetup::passive(3.0)]);
+    }
+
+    #[test]
+    fn mistakes_are_named_with_their_place() {
+        for (text, parts) in [
+            ("viscosty = 3.0", &["line 1", "unknown field `viscosty`", "`viscosity`"][..]),
+            ("[[droplets]]\nparticles.activty = -1.0", &["line 2", "unknown field `activty`"]),
+            ("[method.grid]\nspacing = \"fine\"", &["line 2", "spacing"]),
+            ("[region.pipe]\nlength = 3.0", &["unknown variant `pipe`", "channel"]),
+            ("[region.channel]\nlength = 3.0", &["missing field `width`"]),
+            ("viscosity = -3.0", &["viscosity = -3", "positive"]),
+            ("viscosity = nan", &["viscosity = NaN", "positive"]),
+            ("[[droplets]]\nparticles.diffusion = -1.0", &["droplets[0].particles.diffusion = -1"]),
+            ("method.grid.spacing = 0.07", &["method.grid.spacing = 0.07", "whole number"]),
+            ("viscosity = ", &["line 1"]),
+        ] {
+            let error = Setup::from_toml(text).unwrap_err().to_string();
+            assert!(parts.iter().all(|part| error.contains(part)), "{text}: {error}");
+        }
+    }
+}
