@@ -1,10 +1,11 @@
 use super::*;
-use motile::Swimmer;
+use motile::{Method, Swimmer};
 
 #[test]
 fn each_droplet_has_its_own_forces_and_velocities() {
     // The second droplet has more markers, so that forces by wrong ranges could not be missed.
-    let first = Swimmer { spacing: 0.25, lengths: [8.0, 4.0], offset: [-2.0, 0.0], ..Swimmer::default() };
+    let method = Method::ImmersedBoundary;
+    let first = Swimmer { method, spacing: 0.25, lengths: [8.0, 4.0], offset: [-2.0, 0.0], ..Swimmer::default() };
     let second = Swimmer { offset: [2.0, 0.0], activity: -4.0, marker_spacing: Some(0.1), ..first.clone() };
     let mut scene = first.empty_box().unwrap();
     let handles = [&first, &second].map(|swimmer| scene.add(swimmer.droplet_for_method().unwrap()));
