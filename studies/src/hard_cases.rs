@@ -12,7 +12,7 @@ use crate::results::write_results;
 use anyhow::Result;
 use clap::Args;
 use motile_examples::{Summary, make_directory, say};
-use motile_output::{Look, Snapshot};
+use motile_output::{Look, Raster, Snapshot};
 use motile_tests::hard_cases::{Extent, Outcome, Trial, cases};
 
 /// Scenes that are hard to compute.
@@ -53,7 +53,8 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
             if !flags.no_pictures {
                 let caption = format!("{}: {}", trial.number, trial.name);
                 let look = Look { caption, concentration: Some(CONCENTRATION), streamline_spacing: None };
-                drawn = Snapshot::take(system, SPACING)
+                drawn = Raster::of(system, SPACING)
+                    .and_then(|raster| Snapshot::take(system, raster))
                     .and_then(|seen| look.write_picture(&seen, &[], flags.out.join(&name)));
             }
         })?;

@@ -4,7 +4,7 @@
 //!
 //! ```
 //! use motile::prelude::*;
-//! use motile_output::{Look, Snapshot, TrajectoryCsv};
+//! use motile_output::{Look, Raster, Snapshot, TrajectoryCsv};
 //!
 //! let (mut scene, droplet) = Swimmer { nodes: 48, concentration_cells: 192, ..Swimmer::default() }.build()?;
 //! # let directory = std::env::temp_dir().join("motile-output-first-page");
@@ -12,7 +12,8 @@
 //! let mut rows = TrajectoryCsv::create(directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
 //! scene.run(2.0).observe(Every::Time(0.1), &mut rows).go()?;
 //! rows.finish(scene.system_mut())?;
-//! let seen = Snapshot::take(scene.system_mut(), 0.1)?;
+//! let raster = Raster::of(scene.system(), 0.1)?;
+//! let seen = Snapshot::take(scene.system_mut(), raster)?;
 //! Look::default().write_picture(&seen, &[], directory.join("final.png"))?;
 //! # assert!(directory.join("final.png").metadata()?.len() > 10_000);
 //! # assert_eq!(std::fs::read_to_string(directory.join("trajectory.csv"))?.lines().count(), 22);

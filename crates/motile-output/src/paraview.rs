@@ -11,10 +11,7 @@ use motile::{
     ib_core::{Hydrodynamics, Observer, System},
 };
 
-use crate::{
-    Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries,
-    snapshot::{MOST_CELLS, at_markers},
-};
+use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers};
 
 /// Writes the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`) and, where there are some, all
 /// elastic solids (`solids.pvd`) whenever it is called.
@@ -29,11 +26,11 @@ use crate::{
 ///
 /// ```
 /// use motile::prelude::*;
-/// use motile_output::ParaView;
+/// use motile_output::{ParaView, Raster};
 ///
 /// let (mut scene, _) = Swimmer { nodes: 48, concentration_cells: 192, ..Swimmer::default() }.build()?;
 /// let directory = std::env::temp_dir().join("a-run-for-paraview");
-/// let mut files = ParaView::create(&directory, 0.2)?;
+/// let mut files = ParaView::create(&directory, Raster::of(scene.system(), 0.2)?)?;
 /// scene.run(0.2).observe(Every::Time(0.1), &mut files).go()?;
 /// assert!(directory.join("interface.pvd").exists());
 /// # std::fs::remove_dir_all(&directory)?;
@@ -41,26 +38,24 @@ use crate::{
 /// ```
 #[derive(Debug)]
 pub struct ParaView {
-    spacing: f64,
+    raster: Raster,
     fields: VtkSeries,
     interface: VtkSeries,
     solids: VtkSeries,
 }
 
 impl ParaView {
-    /// Files in `directory`, which is made if it is not there, with the flow on cells of width `spacing` (length),
-    /// wider where these would be more than 512 in a direction.
+    /// Files in `directory`, which is made if it is not there, with the flow in the cells of `raster`.
     ///
     /// # Errors
     /// [`Error::Write`]: a directory that cannot be made.
-    pub fn create(directory: impl AsRef<Path>, spacing: f64) -> Result<Self, Error> {
+    pub fn create(directory: impl AsRef<Path>, raster: Raster) -> Result<Self, Error> {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
-        Ok(Self { spacing, fields: series("fields")?, interface: series("interface")?, solids: series("solids")? })
+        Ok(Self { raster, fields: series("fields")?, interface: series("interface")?, solids: series("solids")? })
     }
 
     fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), Error> {
-        let domain = system.hydrodynamics().medium().domain;
-        let seen = Snapshot::on(Raster::of_domain(&domain, self.spacing, MOST_CELLS)?, system)?;
+        let seen = Snapshot::take(system, self.raster)?;
         let file = VtkFile::image(seen.raster)
             .cell_scalars("pressure", seen.pressure())
             .cell_vectors("velocity", seen.velocity())

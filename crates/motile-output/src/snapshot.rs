@@ -7,9 +7,6 @@ use motile::{
 
 use crate::{Error, Raster, SolidShape, Vec2, solids::solid_shape};
 
-/// Most cells in a direction of the rasters that snapshots make.
-pub(crate) const MOST_CELLS: usize = 512;
-
 /// A droplet at one time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DropletShape {
@@ -39,21 +36,11 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// The present state of a system, with the flow on cells of width `spacing` (length), wider where these would be
-    /// more than 512 in a direction.
-    ///
-    /// # Errors
-    /// As [`Raster::of_domain`], and [`Error::Scene`]: a flow that cannot be computed.
-    pub fn take<H: Hydrodynamics>(system: &mut System<H>, spacing: f64) -> Result<Self, Error> {
-        let domain = system.hydrodynamics().medium().domain;
-        Self::on(Raster::of_domain(&domain, spacing, MOST_CELLS)?, system)
-    }
-
-    /// The same with the flow on a raster.
+    /// The present state of a system, with the flow on a raster.
     ///
     /// # Errors
     /// [`Error::Scene`]: a flow that cannot be computed.
-    pub fn on<H: Hydrodynamics>(raster: Raster, system: &mut System<H>) -> Result<Self, Error> {
+    pub fn take<H: Hydrodynamics>(system: &mut System<H>, raster: Raster) -> Result<Self, Error> {
         let points = raster.points();
         let mut flow = vec![FlowSample::default(); points.len()];
         system.sample(&points, &mut flow)?;

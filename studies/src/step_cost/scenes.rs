@@ -1,11 +1,12 @@
 //! The scenes whose steps are measured.
 
 use anyhow::Result;
+use motile::Swimmer;
 use motile::active_interface::{ActiveDroplet, Curve, InitialConcentration};
+use motile::boundary_integral::{BoundaryIntegral, Forcing, Region, Settings};
 use motile::elastic_solids::{Solid, mesh::fitted_strip};
 use motile::ib_core::{Body, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
-use motile::{Swimmer, boundary_integral};
 use motile_examples::Summary;
 
 use crate::step_cost::phases::Case;
@@ -110,11 +111,7 @@ fn without_grid(kind: &'static str, swimmer: &Swimmer, nodes: usize, walls: bool
     let grid = if walls { between_walls(&swimmer)? } else { periodic(&swimmer)? };
     let run = move |budget| {
         let watches = Stopwatches::default();
-        let settings = boundary_integral::Settings {
-            nodes,
-            reference_perimeter: std::f64::consts::TAU * swimmer.radius,
-            ..boundary_integral::Settings::default()
-        };
+        let settings = Settings { nodes, ..Settings::default() };
         let [lx, ly] = swimmer.lengths;
         // The droplet of the library's own scene, whose markers are the cells of its concentration.
         let markers = Curve::circle(swimmer.radius)?.markers(4 * nodes)?;
@@ -124,15 +121,14 @@ fn without_grid(kind: &'static str, swimmer: &Swimmer, nodes: usize, walls: bool
             droplet = droplet.with_viscosity_inside(inside)?;
         }
         let droplet = Watched(droplet, watches.clone());
-        if walls {
-            let domain = boundary_integral::Channel::new(lx, ly)?;
-            let flow = boundary_integral::BoundaryIntegral::new(domain, VISCOSITY, settings)?;
-            integrals(kind, Scene::new(Watched(flow, watches.clone())), droplet, watches, (grid, &swimmer), budget)
+        let region = if walls {
+            Region::Channel { length: lx, width: ly, forcing: Forcing::default() }
         } else {
-            let domain = boundary_integral::PeriodicBox::new(lx, ly)?;
-            let flow = boundary_integral::BoundaryIntegral::new(domain, VISCOSITY, settings)?;
-            integrals(kind, Scene::new(Watched(flow, watches.clone())), droplet, watches, (grid, &swimmer), budget)
-        }
+            Region::Box { lengths: [lx, ly] }
+        };
+        let flow = BoundaryIntegral::new(region, VISCOSITY, settings)?
+            .with_reference_perimeter(std::f64::consts::TAU * swimmer.radius)?;
+        integrals(kind, Scene::new(Watched(flow, watches.clone())), droplet, watches, (grid, &swimmer), budget)
     };
     Ok((format!("{kind}, {nodes} nodes"), Box::new(run)))
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow, bail};
 use motile::active_interface::{ActiveDroplet, Curve, curve::polygon_moments};
-use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
+use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, Region, TensionPlacement};
 use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
 use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
@@ -24,11 +24,10 @@ fn grid_flow(settings: &Settings, h: f64) -> Result<ImmersedBoundary<PeriodicSto
     })
 }
 
-fn integral_flow(nodes: usize) -> Result<BoundaryIntegral<boundary_integral::PeriodicBox>> {
-    let domain = boundary_integral::PeriodicBox::new(6.0, 6.0)?;
-    let settings =
-        boundary_integral::Settings { nodes, reference_perimeter: TAU, ..boundary_integral::Settings::default() };
-    Ok(BoundaryIntegral::new(domain, 1.0, settings)?)
+fn integral_flow(nodes: usize) -> Result<BoundaryIntegral> {
+    let region = Region::Box { lengths: [6.0, 6.0] };
+    let settings = boundary_integral::Settings { nodes, ..boundary_integral::Settings::default() };
+    Ok(BoundaryIntegral::new(region, 1.0, settings)?)
 }
 
 /// Velocities on the ellipse of the reference table.
@@ -62,7 +61,7 @@ fn exact_ellipse(count: usize) -> Result<Markers> {
     }
     let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
     let (positions, forces) = (&markers.positions, &mut markers.forces);
-    PeriodicCalculus::new(count)?.tension_forces(positions, &tension, TensionPlacement::Markers, forces)?;
+    PeriodicCalculus::new(count)?.tension_forces(positions, &tension, TensionPlacement::Points, forces)?;
     Ok(markers)
 }
 

@@ -15,11 +15,11 @@ const FRAME_CELLS: usize = 120;
 ///
 /// ```
 /// use motile::prelude::*;
-/// use motile_output::{Film, Look};
+/// use motile_output::{Film, Look, Raster};
 ///
 /// let swimmer = Swimmer { nodes: 48, concentration_cells: 192, ..Swimmer::default() };
 /// let (mut scene, _) = swimmer.build()?;
-/// let mut film = Film::new(Look::default(), 0.2);
+/// let mut film = Film::new(Look::default(), Raster::of(scene.system(), 0.2)?);
 /// scene.run(0.2).observe(Every::Time(0.1), &mut film).go()?;
 /// let path = std::env::temp_dir().join("a-droplet.gif");
 /// film.write(&[], &path)?;
@@ -29,16 +29,16 @@ const FRAME_CELLS: usize = 120;
 #[derive(Debug)]
 pub struct Film {
     look: Look,
-    spacing: f64,
+    raster: Raster,
     frames: Vec<Snapshot>,
 }
 
 impl Film {
-    /// A film with fields on cells of width `spacing` (length), wider where these would be more than 120 in a
-    /// direction.
+    /// A film of the rectangle of `raster`, with fields on its cells or, where these are more than 120 in a direction, on
+    /// larger ones.
     #[must_use]
-    pub fn new(look: Look, spacing: f64) -> Self {
-        Self { look, spacing, frames: Vec::new() }
+    pub fn new(look: Look, raster: Raster) -> Self {
+        Self { look, raster: raster.coarsened(FRAME_CELLS), frames: Vec::new() }
     }
 
     /// How it is drawn.
@@ -63,8 +63,7 @@ impl Film {
 
 impl<H: Hydrodynamics> Observer<H> for Film {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        let domain = system.hydrodynamics().medium().domain;
-        self.frames.push(Snapshot::on(Raster::of_domain(&domain, self.spacing, FRAME_CELLS)?, system)?);
+        self.frames.push(Snapshot::take(system, self.raster)?);
         Ok(())
     }
 }

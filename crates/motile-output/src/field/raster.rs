@@ -2,12 +2,14 @@
 
 use std::ops::{Add, Mul};
 
-use motile::ib_core::Domain;
+use motile::ib_core::{Hydrodynamics, System};
 
 use crate::{Error, Vec2};
 
 /// Most cells in a direction.
 const MOST_CELLS: usize = 4096;
+/// The same of a raster that is made to fit a scene.
+const MOST_OF_SCENE: f64 = 512.0;
 
 /// A rectangle cut into `nx` x `ny` cells, at whose centres fields are sampled.
 ///
@@ -35,21 +37,28 @@ impl Raster {
         if finite { Ok(Self { origin, size, cells, periodic }) } else { Err(Error::Rectangle { corner: origin, size }) }
     }
 
-    /// The cells of a domain that is bounded by walls or periodic, `spacing` (length) wide if they are then no more
-    /// than `most` in a direction, and wider otherwise.
+    /// The cells of a scene that is bounded by walls or periodic, `spacing` (length) wide if they are then no more than
+    /// 512 in a direction, and wider otherwise.
     ///
     /// # Errors
     /// [`Error::Unbounded`]; a spacing that is not positive, as [`Raster::new`].
-    pub fn of_domain(domain: &Domain, spacing: f64, most: usize) -> Result<Self, Error> {
+    pub fn of<H: Hydrodynamics>(system: &System<H>, spacing: f64) -> Result<Self, Error> {
+        let domain = system.hydrodynamics().medium().domain;
         let [x, y] = domain.origin;
         let walls = domain.walls.map(|[below, above]| above - below);
         let (Some(width), Some(height)) = (domain.periods[0], domain.periods[1].or(walls)) else {
             return Err(Error::Unbounded);
         };
         let origin = [x, domain.walls.map_or(y, |[below, _]| below)];
-        let coarsening = (width.max(height) / spacing / most as f64).max(1.0);
+        let coarsening = (width.max(height) / spacing / MOST_OF_SCENE).max(1.0);
         let cells = [width, height].map(|side| ((side / (spacing * coarsening)).round() as usize).max(1));
         Self::new(origin, [width, height], cells, domain.periods.map(|period| period.is_some()))
+    }
+
+    /// The same rectangle with at most this many cells in a direction.
+    pub(crate) fn coarsened(self, most: usize) -> Self {
+        let longest = self.cells[0].max(self.cells[1]);
+        Self { cells: self.cells.map(|n| (n * most.min(longest) / longest).max(1)), ..self }
     }
 
     /// Lower left corner (length).

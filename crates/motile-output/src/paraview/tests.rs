@@ -9,7 +9,8 @@ fn each_droplet_has_its_own_forces_and_velocities() {
     let second = Swimmer { offset: [2.0, 0.0], activity: -4.0, marker_spacing: Some(0.1), ..first.clone() };
     let mut scene = first.empty_box().unwrap();
     let handles = [&first, &second].map(|swimmer| scene.add(swimmer.droplet_for_method().unwrap()));
-    let seen = Snapshot::take(scene.system_mut(), 0.25).unwrap();
+    let raster = Raster::of(scene.system(), 0.25).unwrap();
+    let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
     assert_ne!(seen.droplets[0].markers.len(), seen.droplets[1].markers.len());
 
     let states = handles.map(|handle| InterfaceState::of(scene.system(), handle).unwrap());

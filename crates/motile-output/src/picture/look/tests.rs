@@ -1,4 +1,5 @@
 use super::*;
+use crate::Raster;
 use motile::Swimmer;
 
 #[test]
@@ -7,7 +8,8 @@ fn all_droplets_and_solids_are_drawn() {
     let mut scene = swimmer.scene().unwrap();
     scene.add(swimmer.droplet().unwrap());
     scene.add(Swimmer { offset: [2.0, 0.0], ..swimmer }.droplet().unwrap());
-    let seen = Snapshot::take(scene.system_mut(), 0.25).unwrap();
+    let raster = Raster::of(scene.system(), 0.25).unwrap();
+    let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
     assert_eq!([0, 1].map(|k| seen.droplets[k].centroid.x.round()), [-2.0, 2.0]);
     let look = Look::default();
     let picture = look.picture(&seen, &look.scales(std::slice::from_ref(&seen)), &[]).unwrap();
