@@ -1,13 +1,6 @@
 use super::*;
 
 #[test]
-fn runs_split_at_levels() {
-    let levels: Vec<(String, i8)> = runs("R_{0} 10^{-3} m²_x").into_iter().map(|r| (r.text, r.level)).collect();
-    let expected = [("R", 0), ("0", -1), (" 10", 0), ("-3", 1), (" m", 0), ("2", 1), ("_x", 0)];
-    assert_eq!(levels, expected.map(|(t, l)| (t.to_string(), l)));
-}
-
-#[test]
 fn dashes_cover_their_share_of_a_bent_path() {
     let path = [[0.0, 0.0], [10.0, 0.0], [10.0, 24.0]];
     let pieces = dashes(&path, [3.0, 2.0]);
