@@ -17,9 +17,11 @@ use motile::active_interface::{
     curve::polygon_moments,
     observables::{InterfaceState, centroid_velocity},
 };
-use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
-use motile::{AnyFlow, Swimmer};
-use motile_examples::{DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say};
+use motile::ib_core::{Every, Handle, Hydrodynamics, SceneError, System, Vec2};
+use motile::setup::{AnyFlow, Built, DropletSetup, Particles, Region, RepulsionSetup};
+use motile_examples::{
+    DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say, settle_contrast,
+};
 use motile_output::{Progress, Trajectory, write_scene_picture};
 
 /// How the droplets start.
@@ -87,29 +89,32 @@ fn meet(flags: &Flags) -> Result<()> {
         Meeting::SideBySide => ([[0.0, -half], [0.0, half]], 0.0),
         Meeting::LeaderAndFollower => ([[-half, 0.0], [half, 0.0]], 0.0),
     };
-    flags.method.check(&[(flags.sides[0], "box"), (flags.sides[1], "box")])?;
-    let first = Swimmer { lengths: flags.sides, offset: places[0], ..flags.droplet.swimmer(&flags.method) };
-    let second = Swimmer {
-        offset: places[1],
+    let mut setup = flags.method.setup(&flags.droplet, None)?;
+    setup.region = Region::Box { lengths: flags.sides };
+    flags.method.check(&setup, &[(flags.sides[0], "box"), (flags.sides[1], "box")])?;
+    setup.repulsion = flags.repulsion.map(|[strength, range]| RepulsionSetup { strength, range });
+    let first = DropletSetup { name: "first droplet".to_owned(), centre: places[0], ..setup.droplets[0].clone() };
+    let activity = flags.second_activity.unwrap_or(first.activity());
+    let second = DropletSetup {
+        name: "second droplet".to_owned(),
+        centre: places[1],
         angle: first.angle + f64::to_radians(second_angle),
-        activity: flags.second_activity.unwrap_or(first.activity),
-        viscosity_inside: flags.second_viscosity_in.or(first.viscosity_inside),
+        viscosity: flags.second_viscosity_in.or(first.viscosity),
+        particles: first.particles.map(|particles| Particles { activity, ..particles }),
         ..first.clone()
     };
+    setup.droplets = vec![first, second];
+    settle_contrast(&mut setup);
+    let Built { scene, droplets, .. } = setup.build()?;
+    let droplets = [droplets[0], droplets[1]];
     // Films that a method cannot see drain until the droplets overlap: that is an error here.
-    let mut scene = first.empty_box()?.with_least_gap(0.0)?;
-    if let Some([strength, range]) = flags.repulsion {
-        scene = scene.with_repulsion(Repulsion::new(strength, range)?);
-    }
-    let droplets = [("first droplet", &first), ("second droplet", &second)]
-        .map(|(name, swimmer)| swimmer.droplet_for_method().map(|droplet| scene.add(droplet.with_name(name))));
-    let [one, two] = droplets;
-    let droplets = [one?, two?];
+    let mut scene = scene.with_least_gap(0.0)?;
 
     // The run, observed.
     let end = flags.method.time;
-    check_run(&scene, end, flags.method.step())?;
-    let description = format!("two_droplets: {first:?} {second:?}");
+    check_run(&scene, end, setup.step)?;
+    flags.output.write_scene(&setup)?;
+    let description = format!("two_droplets: scene {}", setup.fingerprint());
     flags.output.checkpoints.resume(&mut scene, &description, end)?;
     let directory = flags.output.directory("two_droplets")?;
     let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
@@ -153,7 +158,8 @@ fn meet(flags: &Flags) -> Result<()> {
     if !flags.output.no_pictures {
         let title = format!("t = {:.1}", scene.time());
         let path = directory.join("final.png");
-        write_scene_picture(scene.system_mut(), first.spacing, first.mean_concentration, &title, &path)?;
+        let concentration = setup.droplets[0].particles.map_or(0.0, |particles| particles.concentration);
+        write_scene_picture(scene.system_mut(), flags.method.spacing(&setup), concentration, &title, &path)?;
     }
     say(format_args!("results in {}", directory.display()));
     Ok(outcome?)

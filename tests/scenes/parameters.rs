@@ -2,8 +2,7 @@
 //! works, never a panic, and never something that is made of a value that is not finite.
 
 use motile::active_interface::{
-    ActiveDroplet, ConstantTension, ContractileTension, Curve, InitialConcentration, NoExcludedVolume,
-    QuadraticExcludedVolume, StepExcludedVolume, Units,
+    ActiveDroplet, ConstantTension, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Units,
     observables::Frame,
     theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
@@ -111,13 +110,18 @@ fn makers() -> Vec<Maker> {
         }),
         maker("ConstantTension", &[1.0], "0", |v| ConstantTension::new(v[0]).is_ok()),
         maker("ContractileTension", &[10.0, -1.0], "0-", |v| {
-            ContractileTension::new(v[0], v[1], NoExcludedVolume).is_ok()
+            ContractileTension::new(v[0], v[1], ExcludedVolume::None).is_ok()
         }),
         maker("ContractileTension::thesis", &[10.0, -1.0, 10.0, 100.0], "0-0+", |v| {
             ContractileTension::thesis(v[0], v[1], v[2], v[3]).is_ok()
         }),
-        maker("StepExcludedVolume", &[10.0, 200.0, 0.1], "0++", |v| StepExcludedVolume::new(v[0], v[1], v[2]).is_ok()),
-        maker("QuadraticExcludedVolume", &[0.1], "0", |v| QuadraticExcludedVolume::new(v[0]).is_ok()),
+        maker("ExcludedVolume::Step", &[10.0, 200.0, 0.1], "0++", |v| {
+            let excluded_volume = ExcludedVolume::Step { strength: v[0], threshold: v[1], steepness: v[2] };
+            ContractileTension::new(10.0, -1.0, excluded_volume).is_ok()
+        }),
+        maker("ExcludedVolume::Quadratic", &[0.1], "0", |v| {
+            ContractileTension::new(10.0, -1.0, ExcludedVolume::Quadratic { strength: v[0] }).is_ok()
+        }),
         maker("InitialConcentration::uniform", &[100.0], "0", |v| InitialConcentration::uniform(v[0]).is_ok()),
         maker("InitialConcentration::polarised", &[100.0, 0.3], "0-", |v| {
             InitialConcentration::polarised(v[0], v[1]).is_ok()

@@ -118,7 +118,7 @@ fn filled(way: Way, extent: Extent, look: Look<'_>, density: impl FnMut(f64) -> 
     let numbers = shares.iter().map(|share| unit * share).collect();
     let droplet = ActiveDroplet::new(body.markers(), numbers, swimmer.tension()?, swimmer.diffusion)?
         .with_motion(swimmer.motion)
-        .with_flux(swimmer.flux)?
+        .with_flux(swimmer.flux)
         .with_area_constraint(swimmer.area_constraint);
     *scene.body_mut(handle)? = droplet;
     let until = extent.pick(1.0, 20.0);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, ContractileTension, Curve, NoExcludedVolume, curve::polygon_moments};
+use motile::active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, curve::polygon_moments};
 use motile::ib_core::{Handle, StepSize, Vec2};
 
 use crate::validation::StudyError;
@@ -94,10 +94,10 @@ pub(crate) fn perturbed(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<A
             swimmer.mean_concentration * curve.perimeter() / TAU * (b - a + wave)
         })
         .collect();
-    let law = ContractileTension::new(swimmer.bare_tension, swimmer.activity, NoExcludedVolume)?;
+    let law = ContractileTension::new(swimmer.bare_tension, swimmer.activity, ExcludedVolume::None)?;
     let droplet = ActiveDroplet::new(&markers, numbers, law, swimmer.diffusion)?
         .with_motion(swimmer.motion)
-        .with_flux(swimmer.flux)?
+        .with_flux(swimmer.flux)
         .with_area_constraint(swimmer.area_constraint);
     Ok(match swimmer.viscosity_inside {
         Some(inside) => droplet.with_viscosity_inside(inside)?,

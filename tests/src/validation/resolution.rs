@@ -63,5 +63,5 @@ pub fn marker_spacing(ds: f64) -> Result<MarkerSpacing, StudyError> {
     let speed = look(&mut scene, droplet)?.speed();
     let body = scene.body(droplet)?;
     let warned = body.warnings().iter().any(|warning| matches!(warning, DropletWarning::CellPeclet { .. }));
-    Ok(MarkerSpacing { speed, peclet: body.cell_peclet()?, warned })
+    Ok(MarkerSpacing { speed, peclet: body.cell_peclet(), warned })
 }

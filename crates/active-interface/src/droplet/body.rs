@@ -296,7 +296,7 @@ impl ActiveDroplet {
         if let Some(transport) = &self.transport {
             self.numbers.resize(count, 0.0);
             if transport.len() != count {
-                self.transport = Some(Transport::new(count, transport.flux())?);
+                self.transport = Some(Transport::new(count, transport.flux()));
             }
         }
         if self.diffusivities.len() != count {

@@ -2,10 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{
-    ActiveDroplet, ContractileTension, Curve, InitialConcentration, InterfaceError, Motion, NoExcludedVolume,
-    QuadraticExcludedVolume, StepExcludedVolume, Tension,
-};
+use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, Settings};
 use elastic_solids::{Solid, solid::SurfaceGap};
 use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
@@ -96,20 +93,13 @@ impl Setup {
                     }
                     None => initial.particle_numbers(&markers)?,
                 };
-                let (bare, activity) = (droplet.tension, particles.activity);
-                let active = Active { markers: &markers, numbers, diffusion: particles.diffusion };
-                let made = match particles.excluded_volume {
-                    Exclusion::None => active.droplet(ContractileTension::new(bare, activity, NoExcludedVolume)?),
-                    Exclusion::Step(strength) => {
-                        let excluded = StepExcludedVolume::thesis(strength, c0)?;
-                        active.droplet(ContractileTension::new(bare, activity, excluded)?)
-                    }
-                    Exclusion::Quadratic(strength) => {
-                        let excluded = QuadraticExcludedVolume::new(strength)?;
-                        active.droplet(ContractileTension::new(bare, activity, excluded)?)
-                    }
+                let excluded_volume = match particles.excluded_volume {
+                    Exclusion::None => ExcludedVolume::None,
+                    Exclusion::Step(strength) => ExcludedVolume::thesis(strength, c0),
+                    Exclusion::Quadratic(strength) => ExcludedVolume::Quadratic { strength },
                 };
-                made?.with_flux(particles.flux)?
+                let law = ContractileTension::new(droplet.tension, particles.activity, excluded_volume)?;
+                ActiveDroplet::new(&markers, numbers, law, particles.diffusion)?.with_flux(particles.flux)
             }
         };
         let motion = match droplet.motion {
@@ -252,19 +242,6 @@ impl Setup {
     pub fn set_back(&self) -> f64 {
         let Method::Grid(grid) = &self.method else { return 0.0 };
         self.solids.iter().map(|solid| solid.set_back(grid)).fold(0.0, f64::max)
-    }
-}
-
-/// What an active droplet is made of besides its law.
-struct Active<'a> {
-    markers: &'a [Vec2],
-    numbers: Vec<f64>,
-    diffusion: f64,
-}
-
-impl Active<'_> {
-    fn droplet(self, law: impl Tension + 'static) -> Result<ActiveDroplet, InterfaceError> {
-        ActiveDroplet::new(self.markers, self.numbers, law, self.diffusion)
     }
 }
 
