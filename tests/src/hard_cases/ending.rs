@@ -19,6 +19,8 @@ pub enum CaseError {
     Flow(#[from] FlowError),
     /// The grid.
     Stokes(#[from] motile::stokes_grid::StokesError),
+    /// A body's state.
+    Body(#[from] BodyError),
     /// The scene.
     Scene(#[from] SceneError),
 }
