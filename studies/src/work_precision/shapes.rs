@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow, bail};
-use motile::active_interface::{ActiveDroplet, Curve, curve::polygon_moments};
+use motile::active_interface::{ActiveDroplet, Curve, Motion, curve::polygon_moments};
 use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, Region, TensionPlacement};
 use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
 use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Scene, Vec2};
+use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
-use motile::{AnyFlow, Swimmer};
 use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes};
 
 use crate::work_precision::cost::{Cost, march, repeat};
@@ -83,10 +83,7 @@ pub(crate) fn relaxation(settings: &Settings) -> Result<(f64, Cost)> {
         let droplet = ActiveDroplet::passive(&curve.markers(count)?, 1.0)?;
         scene.add(match settings.preset {
             Preset::Default => droplet,
-            Preset::Thesis => {
-                let thesis = Swimmer::thesis();
-                droplet.with_motion(thesis.motion).with_area_constraint(thesis.area_constraint)
-            }
+            Preset::Thesis => droplet.with_motion(Motion::WithFluid).with_area_constraint(true),
         });
         Ok(scene)
     };
