@@ -21,7 +21,7 @@ fn allocations_after<I: Integrator>(steps: usize, mut scene: Scene<AnyFlow, I>) 
 
 /// Between soft elastic walls.
 fn elastic() -> Setup {
-    let shear = Moduli::from_thesis_spring_constant(1e4).unwrap().shear();
+    let shear = Moduli::from_thesis_spring_constant(1e4).expect("moduli").shear();
     let solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
     Setup { region: open_channel(6.0, 5.4), solids, ..on_grid(0.1) }
 }

@@ -9,7 +9,7 @@ use motile_tests::validation::scene::{on_grid, open_channel};
 fn place(setup: &Setup) -> f64 {
     let Built { mut scene, droplets, .. } = setup.build().expect("a scene");
     scene.run(3.0).go().expect("a run");
-    polygon_moments(scene.body(droplets[0]).unwrap().markers()).expect("a droplet").centroid.x
+    polygon_moments(scene.body(droplets[0]).expect("its droplet").markers()).expect("a droplet").centroid.x
 }
 
 /// How far it swims between walls of springs of the thesis' k = 1e6, over how far it swims between rigid ones.

@@ -12,7 +12,7 @@ use motile_tests::validation::order;
 use motile_tests::validation::scene::{on_grid, open_channel, without_grid};
 
 fn state<B: Body, H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>, body: Handle<B>) -> Vec<f64> {
-    let body = scene.body(body).unwrap();
+    let body = scene.body(body).expect("its body");
     let mut state = vec![0.0; body.state_len()];
     body.write_state(&mut state);
     state

@@ -265,7 +265,7 @@ fn exact(region: Region, nodes: usize) -> Result<AnyFlow, StudyError> {
 
 /// The immersed boundary method in a region, viscosity one.
 fn sharp(region: Region, h: f64) -> Result<AnyFlow, StudyError> {
-    Ok(flow(region, Method::Grid(GridMethod::of_spacing(h)), 1.0, 1e-6)?)
+    flow(region, Method::Grid(GridMethod::of_spacing(h)), 1.0, 1e-6)
 }
 
 /// The thesis' way in a region, viscosity one.

@@ -90,8 +90,8 @@ pub fn rate(setup: &Setup, mode: Mode) -> Result<f64, StudyError> {
     Ok((16.0 * second - first) / 15.0)
 }
 
-/// The rate (1/time) at which the first mode of the concentration of a droplet of another viscosity grows in its region:
-/// it is slow, so it is watched for longer.
+/// The rate (1/time) at which the first mode of the concentration of a droplet of another viscosity grows in its
+/// region: it is slow, so it is watched for longer.
 ///
 /// # Errors
 /// What a run can fail with.

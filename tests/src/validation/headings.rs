@@ -46,8 +46,8 @@ impl Course {
     }
 }
 
-/// The swimmer of the reference tables (box 6, viscosity 100, A = 2 |activity|) by a method, starting at `angle` (radians)
-/// from the x axis at a place between the points of a grid.
+/// The swimmer of the reference tables (box 6, viscosity 100, A = 2 |activity|) by a method, starting at `angle`
+/// (radians) from the x axis at a place between the points of a grid.
 #[must_use]
 pub fn off_axis(method: Method, activity: f64, angle: f64) -> Setup {
     let mut setup = reference(Setup { method, ..Setup::default() }, activity);
@@ -55,7 +55,8 @@ pub fn off_axis(method: Method, activity: f64, angle: f64) -> Setup {
     setup
 }
 
-/// The course of the first swimmer of a scene, looked at `every` so much time until `end`, the polarised start excluded.
+/// The course of the first swimmer of a scene, looked at `every` so much time until `end`, the polarised start
+/// excluded.
 ///
 /// # Errors
 /// What a run can fail with.
