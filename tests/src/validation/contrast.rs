@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
-use motile::boundary_integral::{BoundaryIntegral, Channel, FluidDomain, PeriodicBox, Settings};
+use motile::boundary_integral::{self, BoundaryIntegral, Forcing, Settings};
 use motile::ib_core::{
     CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Peskin4, SmearedContrast, Vec2,
 };
@@ -167,6 +167,15 @@ pub enum Region {
     Channel(f64, f64),
 }
 
+impl From<Region> for boundary_integral::Region {
+    fn from(region: Region) -> Self {
+        match region {
+            Region::Box(side) => Self::Box { lengths: [side; 2] },
+            Region::Channel(length, width) => Self::Channel { length, width, forcing: Forcing::default() },
+        }
+    }
+}
+
 /// Errors of one droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
@@ -198,10 +207,7 @@ impl Exact {
         let mut markers = Markers::new();
         droplets.iter().for_each(|droplet| droplet.push_exact(nodes, &mut markers));
         let settings = Settings { nodes, tolerance: 1e-10, ..Settings::default() };
-        match region {
-            Region::Box(side) => solve(PeriodicBox::new(side, side)?, settings, &mut markers)?,
-            Region::Channel(length, width) => solve(Channel::new(length, width)?, settings, &mut markers)?,
-        }
+        BoundaryIntegral::new(region.into(), 1.0, settings)?.velocities(&mut markers)?;
         let velocities: Vec<Vec<Vec2>> = markers.velocities.chunks(nodes).map(<[Vec2]>::to_vec).collect();
         let centroids = droplets
             .iter()
@@ -311,11 +317,6 @@ fn smeared(region: Region, h: f64, tolerance: f64) -> Result<Box<dyn Hydrodynami
             Box::new(SmearedContrast::with_tolerance(solver, Peskin4, tolerance)?)
         }
     })
-}
-
-fn solve<D: FluidDomain>(domain: D, settings: Settings, markers: &mut Markers) -> Result<(), StudyError> {
-    BoundaryIntegral::new(domain, 1.0, settings)?.velocities(markers)?;
-    Ok(())
 }
 
 /// Velocity of the centroid of a closed polygon from the flux through its sides.

@@ -55,7 +55,7 @@ pub enum StudyError {
     Solid(#[from] motile::elastic_solids::SolidError),
     /// The boundary integrals.
     #[error(transparent)]
-    BoundaryIntegral(#[from] motile::boundary_integral::BoundaryIntegralError),
+    BoundaryIntegral(#[from] motile::boundary_integral::LayerError),
     /// The reference values.
     #[error("the reference values are not readable: {0}")]
     Reference(String),

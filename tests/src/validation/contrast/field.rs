@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motile::boundary_integral::{BoundaryIntegral, Channel, PeriodicBox, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Settings};
 use motile::ib_core::{FlowSample, Hydrodynamics, Markers, Vec2};
 
 use super::{Droplet, Region, coupled};
@@ -65,16 +65,8 @@ fn exact_samples(region: Region, droplet: &Droplet, points: &[Vec2]) -> Result<(
     let mut markers = Markers::new();
     droplet.push_exact(256, &mut markers);
     let settings = Settings { nodes: 256, tolerance: 1e-10, ..Settings::default() };
-    match region {
-        Region::Box(side) => {
-            let mut flow = BoundaryIntegral::new(PeriodicBox::new(side, side)?, 1.0, settings)?;
-            sample(&mut flow, &mut markers, points, &mut exact)?;
-        }
-        Region::Channel(length, width) => {
-            let mut flow = BoundaryIntegral::new(Channel::new(length, width)?, 1.0, settings)?;
-            sample(&mut flow, &mut markers, points, &mut exact)?;
-        }
-    }
+    let mut flow = BoundaryIntegral::new(region.into(), 1.0, settings)?;
+    sample(&mut flow, &mut markers, points, &mut exact)?;
     Ok((exact, markers.velocities.iter().map(Vec2::norm).fold(0.0, f64::max)))
 }
 

@@ -1,7 +1,7 @@
 //! How a droplet of another viscosity loses or gains its polarisation.
 
 use motile::Swimmer;
-use motile::boundary_integral::{BoundaryIntegral, PeriodicBox, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Region, Settings};
 use motile::ib_core::{Hydrodynamics, Peskin4, Scene, SmearedContrast, StepSize};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 
@@ -37,8 +37,8 @@ pub fn growth(swimmer: &Swimmer, way: Way) -> Result<f64, StudyError> {
         let (base, before) = match way {
             Way::WithoutGrid => {
                 let [lx, ly] = swimmer.lengths;
-                let domain = PeriodicBox::new(lx, ly)?;
-                let flow = BoundaryIntegral::new(domain, swimmer.viscosity, Settings::default())?;
+                let region = Region::Box { lengths: [lx, ly] };
+                let flow = BoundaryIntegral::new(region, swimmer.viscosity, Settings::default())?;
                 run(&mut Scene::new(flow), swimmer, epsilon)?
             }
             Way::Sharp => run(&mut swimmer.scene()?, swimmer, epsilon)?,

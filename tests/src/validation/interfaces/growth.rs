@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile::Swimmer;
-use motile::boundary_integral::{BoundaryIntegral, FreeSpace, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Region, Settings};
 use motile::ib_core::{Scene, StepSize};
 
 use crate::validation::StudyError;
@@ -25,7 +25,7 @@ pub fn growth_rate(swimmer: &Swimmer, mode: Mode, cells: usize) -> Result<f64, S
     let mut amplitudes = [0.0; 2];
     for epsilon in [EPSILON, -EPSILON] {
         let settings = Settings { nodes: swimmer.nodes, tolerance: 1e-11, ..Settings::default() };
-        let mut scene = Scene::new(BoundaryIntegral::new(FreeSpace, swimmer.viscosity, settings)?);
+        let mut scene = Scene::new(BoundaryIntegral::new(Region::Plane, swimmer.viscosity, settings)?);
         let droplet = scene.add(perturbed(&swimmer, mode, epsilon)?);
         amplitudes[0] += epsilon.signum() * amplitude(scene.body(droplet)?, mode)?;
         scene.run(DURATION).step_size(StepSize::Fixed(DURATION / STEPS)).go()?;

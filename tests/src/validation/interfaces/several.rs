@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use motile::Swimmer;
 use motile::active_interface::{ActiveDroplet, Curve, InitialConcentration, curve::polygon_moments};
-use motile::boundary_integral::{BoundaryIntegral, FluidDomain, FreeSpace, PeriodicBox, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Region, Settings};
 use motile::ib_core::{Handle, Scene, Vec2};
 
 use crate::validation::StudyError;
@@ -34,7 +34,7 @@ pub struct Several {
 pub fn passing(swimmer: &Swimmer, offset: f64, time: f64) -> Result<Several, StudyError> {
     let height = swimmer.radius + 0.5 * offset;
     let places = [(Vec2::new(-2.5, height), 0.0), (Vec2::new(2.5, -height), 0.5 * TAU)];
-    run(swimmer, FreeSpace, &places, [None; 2], time)
+    run(swimmer, Region::Plane, &places, [None; 2], time)
 }
 
 /// Ten swimmers in a square box of the side `swimmer.lengths[0]`, in two rows and a half, each with a heading of its
@@ -52,18 +52,18 @@ pub fn ten_in_a_box(swimmer: &Swimmer, time: f64) -> Result<Several, StudyError>
             (Vec2::new((column + shift) * side / 4.0, row * side / 3.0), 2.399_963 * f64::from(k))
         })
         .collect();
-    run(swimmer, PeriodicBox::new(side, side)?, &places, [Some(side); 2], time)
+    run(swimmer, Region::Box { lengths: [side, side] }, &places, [Some(side); 2], time)
 }
 
-fn run<D: FluidDomain + 'static>(
+fn run(
     swimmer: &Swimmer,
-    domain: D,
+    region: Region,
     places: &[(Vec2, f64)],
     periods: [Option<f64>; 2],
     time: f64,
 ) -> Result<Several, StudyError> {
     let settings = Settings { nodes: swimmer.nodes, ..Settings::default() };
-    let flow = BoundaryIntegral::new(domain, swimmer.viscosity, settings)?;
+    let flow = BoundaryIntegral::new(region, swimmer.viscosity, settings)?;
     let mut scene = Scene::new(flow).with_step_size(swimmer.step);
     let mut droplets: Vec<Handle<ActiveDroplet>> = Vec::new();
     for &(centre, heading) in places {
