@@ -76,9 +76,9 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
 }
 
 fn row(trial: &Trial, outcome: &Outcome) -> String {
-    let Outcome { ending, time, steps, taken_back, drift, seconds, .. } = outcome;
+    let Outcome { ending, time, steps, rejected, drift, seconds, .. } = outcome;
     format!(
-        "| {} | {} | {} | {ending:?} | {time:.4} | {steps} | {taken_back} | {:+.1e} | {:+.1e} | {seconds:.1} |",
+        "| {} | {} | {} | {ending:?} | {time:.4} | {steps} | {rejected} | {:+.1e} | {:+.1e} | {seconds:.1} |",
         trial.number, trial.name, trial.way, drift.area, drift.particles
     )
 }
@@ -92,7 +92,7 @@ fn summary(trial: &Trial, outcome: &Outcome, picture: &str) -> Summary {
     summary.put("error", outcome.explanation.clone(), "");
     summary.put("time", outcome.time, "");
     summary.put("steps", outcome.steps, "");
-    summary.put("taken_back", outcome.taken_back, "");
+    summary.put("taken_back", outcome.rejected, "");
     summary.put("evaluations", outcome.evaluations, "");
     summary.put("area_relative_change", outcome.drift.area, "");
     summary.put("particle_relative_change", outcome.drift.particles, "");

@@ -2,7 +2,7 @@
 
 use motile::{
     SolidGap,
-    elastic_solids::{Solid, channel::width_between},
+    elastic_solids::{Solid, channel::width_between, solid::Observables},
     ib_core::{Hydrodynamics, System},
 };
 
@@ -89,13 +89,12 @@ impl SolidMeter {
         let (mut total, mut normal, mut drift, mut energy, mut jacobian) =
             (0.0_f64, 0.0_f64, 0.0_f64, 0.0, f64::INFINITY);
         for solid in solids(system) {
-            let largest = solid.largest_displacement();
-            total = total.max(largest.total);
-            normal = normal.max(largest.normal);
-            let mean = solid.drift().x;
-            drift = if mean.abs() > drift.abs() { mean } else { drift };
+            let seen = Observables::of(solid);
+            total = total.max(seen.largest_displacement);
+            normal = normal.max(seen.largest_normal_displacement);
+            drift = if seen.drift.x.abs() > drift.abs() { seen.drift.x } else { drift };
             energy += solid.elastic_energy()?;
-            jacobian = jacobian.min(solid.smallest_jacobian().0);
+            jacobian = jacobian.min(seen.smallest_jacobian);
         }
         let [narrowest, widest] =
             width.map_or([f64::NAN; 2], |width| [width.minimum, width.maximum].map(|w| w - 2.0 * self.set_back));

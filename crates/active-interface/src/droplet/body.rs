@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
+use ib_core::{Body, BodyError, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
 
 use super::geometry::{equidistribute, outward, signed_area};
 use super::redistribution::redistribute;
@@ -124,10 +124,6 @@ impl Body for ActiveDroplet {
                 numbers.fill(f64::NAN);
             }
         }
-    }
-
-    fn write_boundary(&self, boundary: &mut Boundary) {
-        boundary.push_loop(&self.markers);
     }
 
     fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
