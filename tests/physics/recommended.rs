@@ -1,7 +1,7 @@
 //! Recommended settings hold what they promise where they were not measured.
 
 use motile::ib_core::StepSize;
-use motile::{DropletSetup, Exclusion, GridMethod, IntegralMethod, Method, MethodKind, Particles, Region, Setup};
+use motile::{DropletSetup, Exclusion, MethodKind, Particles, Region, Setup};
 use motile::{Recommendation, SceneKind, SetupError, recommend};
 use motile_tests::validation::scene::{open_channel, without_grid};
 use motile_tests::validation::swimmers::speeds;
