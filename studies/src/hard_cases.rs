@@ -12,7 +12,7 @@ use crate::results::write_results;
 use anyhow::Result;
 use clap::Args;
 use motile_examples::{Summary, make_directory, say};
-use motile_output::write_scene_picture;
+use motile_output::{Look, Raster, Snapshot};
 use motile_tests::hard_cases::{Extent, Outcome, Trial, cases};
 
 /// Scenes that are hard to compute.
@@ -51,12 +51,15 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         let mut drawn = Ok(());
         let outcome = trial.run(extent, &mut |system| {
             if !flags.no_pictures {
-                let title = format!("{}: {}, t = {:.2}", trial.number, trial.name, system.time());
-                drawn = write_scene_picture(system, SPACING, CONCENTRATION, &title, &flags.out.join(&name));
+                let caption = format!("{}: {}", trial.number, trial.name);
+                let look = Look { caption, concentration: Some(CONCENTRATION), streamline_spacing: None };
+                drawn = Raster::of(system, SPACING)
+                    .and_then(|raster| Snapshot::take(system, raster))
+                    .and_then(|seen| look.write_picture(&seen, &[], flags.out.join(&name)));
             }
         })?;
         if let Err(error) = drawn {
-            say(format_args!("note: no picture of {trial:?}: {error:#}"));
+            say(format_args!("note: no picture of {trial:?}: {error}"));
         }
         let line = row(trial, &outcome);
         say(&line);
