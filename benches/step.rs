@@ -8,62 +8,72 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use motile::elastic_solids::Moduli;
-use motile::setup::{
-    ChannelShape, Contrast, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup, SolidSetup,
-};
-use motile::stokes_grid::Drive;
+use motile::prelude::*;
+use motile::{AnyFlow, Contrast};
 use motile_timing::{PlainPair, print_ratios};
 
 /// A step small enough that thousands of them stay in the same regime.
 const DT: f64 = 1e-4;
 
-fn step(c: &mut Criterion, name: &str, setup: &Setup) {
-    let mut scene = setup.build().expect("a good scene").scene;
+fn step(c: &mut Criterion, name: &str, [nx, ny]: [usize; 2], scene: Scene<AnyFlow>) {
+    let mut scene = scene;
     scene.step(DT).expect("a good scene");
     let mut step = || black_box(&mut scene).step(DT).expect("a good scene");
-    let spacing = if let Method::Grid(grid) = setup.method { grid.spacing } else { 0.05 };
-    let [nx, ny] = setup.region.lengths().map(|length| (length / spacing).round() as usize);
-    let name = format!("{name}, {nx} x {ny}");
-    c.bench_function(&name, |b| b.iter(&mut step));
+    c.bench_function(name, |b| b.iter(&mut step));
     let mut pair = PlainPair::new(nx, ny);
-    print_ratios(&name, &mut [("pair", &mut || pair.run()), ("step", &mut step)]);
+    print_ratios(name, &mut [("pair", &mut || pair.run()), ("step", &mut step)]);
 }
 
-fn in_box(side: f64, method: Method) -> Setup {
-    Setup { region: Region::Box { lengths: [side, side] }, method, ..Setup::default() }
+fn cells(setup: &Setup, spacing: f64) -> [usize; 2] {
+    setup.region.lengths().map(|length| (length / spacing).round() as usize)
 }
 
-fn in_channel(length: f64, width: f64, method: Method) -> Setup {
-    Setup { region: Region::Channel { length, width, drive: Drive::ZeroGradient }, method, ..Setup::default() }
+fn measure(c: &mut Criterion, name: &str, setup: &Setup, cells: [usize; 2]) {
+    step(c, &format!("{name}, {} x {}", cells[0], cells[1]), cells, setup.build().expect("a good scene").scene);
 }
 
-fn on_grid(spacing: f64) -> Method {
-    Method::Grid(GridMethod::of_spacing(spacing))
+fn on_grid(region: Region, spacing: f64) -> (Setup, [usize; 2]) {
+    let setup = Setup { region, method: Method::Grid(GridMethod::of_spacing(spacing)), ..Setup::default() };
+    let cells = cells(&setup, spacing);
+    (setup, cells)
+}
+
+fn thick(setup: &Setup) -> Setup {
+    let droplet = DropletSetup { viscosity: Some(1e4), ..DropletSetup::default() };
+    Setup { droplets: vec![droplet], ..setup.clone() }
+}
+
+fn between_walls(length: f64, width: f64) -> Region {
+    Region::Channel { length, width, drive: Drive::ZeroGradient }
 }
 
 fn scenes(c: &mut Criterion) {
     for (side, spacing) in [(6.0, 0.1), (6.0, 0.05), (12.0, 0.05), (6.0, 0.025)] {
-        step(c, "box", &in_box(side, on_grid(spacing)));
+        let (setup, cells) = on_grid(Region::Box { lengths: [side, side] }, spacing);
+        measure(c, "box", &setup, cells);
     }
     for width in [2.0, 5.0] {
-        step(c, "channel", &in_channel(12.0, width, on_grid(0.05)));
+        let (setup, cells) = on_grid(between_walls(12.0, width), 0.05);
+        measure(c, "channel", &setup, cells);
     }
-    let thick = vec![DropletSetup { viscosity: Some(1e4), ..DropletSetup::default() }];
     for spacing in [0.1, 0.05] {
-        let sharp = GridMethod::of_spacing(spacing);
-        let arithmetic = GridMethod { contrast: Contrast::Arithmetic, corrected: false, ..sharp };
-        for (name, grid) in [("ratio 100, sharp", sharp), ("ratio 100, arithmetic", arithmetic)] {
-            step(c, name, &Setup { droplets: thick.clone(), ..in_box(6.0, Method::Grid(grid)) });
-        }
+        let (setup, cells) = on_grid(Region::Box { lengths: [6.0, 6.0] }, spacing);
+        let sharp = thick(&setup);
+        measure(c, "ratio 100, sharp", &sharp, cells);
+        let grid = GridMethod { corrected: false, contrast: Contrast::Arithmetic, ..GridMethod::of_spacing(spacing) };
+        measure(c, "ratio 100, arithmetic", &Setup { method: Method::Grid(grid), ..sharp }, cells);
     }
+    let (setup, cells) = on_grid(between_walls(6.0, 5.4), 0.1);
     let shear = Moduli::from_thesis_spring_constant(1e5).expect("good moduli").shear();
     let solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
-    step(c, "elastic channel", &Setup { solids, ..in_channel(6.0, 5.4, on_grid(0.1)) });
+    measure(c, "elastic channel", &Setup { solids, ..setup }, cells);
     for nodes in [24, 64] {
         let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
-        step(c, &format!("{nodes} nodes"), &in_box(6.0, method));
-        step(c, &format!("{nodes} nodes, ratio 100"), &Setup { droplets: thick.clone(), ..in_box(6.0, method) });
-        step(c, &format!("{nodes} nodes, channel"), &in_channel(12.0, 3.0, method));
+        let integrals = Setup { method, ..Setup::default() };
+        measure(c, &format!("{nodes} nodes"), &integrals, [120, 120]);
+        measure(c, &format!("{nodes} nodes, ratio 100"), &thick(&integrals), [120, 120]);
+        let narrow = Setup { region: between_walls(12.0, 3.0), ..integrals };
+        measure(c, &format!("{nodes} nodes, channel"), &narrow, [240, 60]);
     }
 }
 

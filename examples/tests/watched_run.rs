@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Parser;
 use motile::ib_core::StepSize;
-use motile::setup::{Built, GridMethod, Method, Region, Setup};
 use motile::stokes_grid::Drive;
+use motile::{Built, GridMethod, Method, Region, Setup};
 use motile_examples::{MethodFlags, OutputFlags, Summary, WatchedRun, caption};
 
 #[derive(Debug, Parser)]

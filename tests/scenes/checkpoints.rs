@@ -7,10 +7,10 @@ use motile::elastic_solids::Moduli;
 use motile::ib_core::{
     Body, Checkpoint, CheckpointError, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
 };
-use motile::setup::{
+use motile::stokes_grid::Drive;
+use motile::{
     AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup, SolidSetup,
 };
-use motile::stokes_grid::Drive;
 use proptest::prelude::*;
 
 /// Everything there is to know of a state, bit by bit.

@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use motile::ib_core::{Checkpoint, Scene};
-use motile::setup::{AnyFlow, GridMethod, Method, Setup};
+use motile::{AnyFlow, GridMethod, Method, Setup};
 
 /// Where the program that is killed finds the path of its checkpoint.
 const PATH: &str = "MOTILE_KILLED_RUN";
