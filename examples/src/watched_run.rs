@@ -285,3 +285,6 @@ pub fn caption(setup: &Setup) -> String {
     };
     format!("{particles}{viscosities}").replace('-', "−")
 }
+
+#[cfg(test)]
+mod tests;

@@ -48,6 +48,7 @@
 //! `serde`: descriptions are read from and written to TOML. `rayon`: several threads for large grids and many markers, with
 //! bitwise identical results.
 
+pub mod prelude;
 mod recommend;
 mod setup;
 mod setup_error;
@@ -62,15 +63,3 @@ pub use setup::{
 pub use setup_error::SetupError;
 pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use {active_interface, boundary_integral, elastic_solids, ib_core, stokes_grid};
-
-/// What most programs need.
-pub mod prelude {
-    pub use crate::{
-        Built, ChannelShape, DropletSetup, DropletShape, GridMethod, Hold, IntegralMethod, Material, Method, Particles,
-        Region, Setup, SolidOutline, SolidSetup, Start,
-    };
-    pub use active_interface::{ActiveDroplet, Curve};
-    pub use elastic_solids::Solid;
-    pub use ib_core::{Every, Hydrodynamics, Scene, StepSize, Vec2};
-    pub use stokes_grid::Drive;
-}

@@ -389,7 +389,7 @@ impl SolidSetup {
         let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
         let [period, height] = setup.region.lengths();
         let mesher = self.mesher(grid)?;
-        let closed = |outline: Outline| Ok::<_, SolidError>(mesher.mesh(&Enclosed::new([outline])?)?);
+        let closed = |outline: Outline| mesher.mesh(&Enclosed::new([outline])?);
         let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
         let set_back = self.set_back(grid);
         // Islands are meshed as they are.
