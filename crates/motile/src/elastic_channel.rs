@@ -4,9 +4,8 @@ use active_interface::{ActiveDroplet, Curve};
 use elastic_solids::{
     Channel, Mesher, Moduli, NeoHookean, Solid, SolidError, TriangleMesh,
     channel::{StraightChannel, Walls},
-    solid::SurfaceGap,
 };
-use ib_core::{Handle, MobilityDeficit, Scene, Vec2};
+use ib_core::{Body, Boundary, Handle, MobilityDeficit, Scene, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid};
 
 use crate::{AnyFlow, Method, SetupError, Swimmer};
@@ -169,11 +168,11 @@ impl ElasticChannel {
         let droplet = self.droplet()?;
         let solids = self.solids(shape, moduli)?;
 
-        let mut gap = SurfaceGap::new(Some(lx));
-        solids.iter().try_for_each(|solid| gap.add(solid))?;
-        gap.sort();
-        let (depth, marker) = gap.smallest(droplet.markers())?;
-        if depth < self.set_back() - OVERLAP * swimmer.spacing {
+        let mut surfaces = Boundary::default();
+        solids.iter().for_each(|solid| solid.write_boundary(&[], &mut surfaces));
+        surfaces.sort();
+        let gap = surfaces.smallest(droplet.markers(), [Some(lx), None]);
+        if let Some((depth, marker)) = gap.filter(|(gap, _)| *gap < self.set_back() - OVERLAP * swimmer.spacing) {
             let place = droplet.markers()[marker];
             return Err(SetupError::Overlap { x: place.x, y: place.y, depth: -depth });
         }

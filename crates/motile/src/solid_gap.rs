@@ -1,11 +1,11 @@
 //! The gap between a droplet and elastic solids during a run.
 
 use active_interface::ActiveDroplet;
-use elastic_solids::{Solid, SolidError, solid::SurfaceGap};
-use ib_core::{Hydrodynamics, Observer, System};
+use elastic_solids::Solid;
+use ib_core::{Body, Boundary, Hydrodynamics, Observer, System};
 
-/// Measures the gap between the first droplet of a system and all its solids, keeps the smallest
-/// one, and ends the run where the droplet enters a solid deeper than it may.
+/// Measures the gap between the first droplet of a system and all its solids, keeps the smallest one, and
+/// ends the run where the droplet enters a solid deeper than it may.
 ///
 /// ```
 /// use motile::elastic_solids::Moduli;
@@ -25,7 +25,7 @@ use ib_core::{Hydrodynamics, Observer, System};
 pub struct SolidGap {
     allowed: f64,
     set_back: f64,
-    surfaces: Option<SurfaceGap>,
+    surfaces: Boundary,
     present: Option<f64>,
     smallest: Option<(f64, f64)>,
 }
@@ -54,7 +54,7 @@ impl SolidGap {
     /// a grid spacing.
     #[must_use]
     pub fn new(allowed: f64) -> Self {
-        Self { allowed, set_back: 0.0, surfaces: None, present: None, smallest: None }
+        Self { allowed, set_back: 0.0, surfaces: Boundary::default(), present: None, smallest: None }
     }
 
     /// The same for solids that are meshed this far behind the surfaces where they stop the fluid (length, see
@@ -78,22 +78,14 @@ impl SolidGap {
     }
 
     /// The gap at the present state of a system (length) and the marker where it is; `None` without solids or droplet.
-    ///
-    /// # Errors
-    /// Positions that are not finite.
-    pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<Option<(f64, usize)>, SolidError> {
-        let period = system.hydrodynamics().medium().domain.periods[0];
-        let surfaces = self.surfaces.get_or_insert_with(|| SurfaceGap::new(period));
-        surfaces.clear();
-        let mut any = false;
-        for (_, solid) in system.bodies::<Solid>() {
-            surfaces.add(solid)?;
-            any = true;
-        }
-        let Some((_, droplet)) = system.bodies::<ActiveDroplet>().next().filter(|_| any) else { return Ok(None) };
-        surfaces.sort();
-        let (gap, marker) = surfaces.smallest(droplet.markers())?;
-        Ok(Some((gap - self.set_back, marker)))
+    pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Option<(f64, usize)> {
+        self.surfaces.clear();
+        system.bodies::<Solid>().for_each(|(_, solid)| solid.write_boundary(&[], &mut self.surfaces));
+        self.surfaces.sort();
+        let (_, droplet) = system.bodies::<ActiveDroplet>().next()?;
+        let periods = system.hydrodynamics().medium().domain.periods;
+        let (gap, marker) = self.surfaces.smallest(droplet.markers(), periods)?;
+        Some((gap - self.set_back, marker))
     }
 }
 
@@ -101,7 +93,7 @@ impl<H: Hydrodynamics> Observer<H> for SolidGap {
     /// # Errors
     /// [`SolidEntered`].
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        let found = self.measure(system)?;
+        let found = self.measure(system);
         self.present = found.map(|(gap, _)| gap);
         let Some((gap, marker)) = found else { return Ok(()) };
         if self.smallest.is_none_or(|(least, _)| gap < least) {

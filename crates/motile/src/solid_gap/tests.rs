@@ -34,7 +34,7 @@ fn solids_of_every_material_are_seen() {
     for solid in solids {
         let (mut scene, _) = swimmer.build_on_grid().unwrap();
         scene.add(solid);
-        let (gap, _) = SolidGap::new(0.0).measure(scene.system()).unwrap().unwrap();
+        let (gap, _) = SolidGap::new(0.0).measure(scene.system()).unwrap();
         assert!((gap - (-1.0 - top)).abs() < 2e-3, "{gap}");
     }
 }
