@@ -10,10 +10,9 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
-use motile::elastic_solids::channel::Constriction;
+use motile::setup::{Built, ChannelShape};
 use motile_examples::{
-    DropletFlags, ElasticFlags, MethodFlags, OutputFlags, Passage, Preset, SurfaceRule, WatchedRun, caption, positive,
-    say, wall_caption,
+    DropletFlags, ElasticFlags, MethodFlags, OutputFlags, Passage, SurfaceRule, WatchedRun, caption, positive, say,
 };
 
 /// An active droplet meets a constriction between elastic walls.
@@ -50,23 +49,20 @@ fn meet(flags: &Flags) -> Result<()> {
     let &Flags { throat, throat_length, ramp, patience, .. } = flags;
     let method = MethodFlags { time: patience, ..flags.method.clone() };
     // Droplets that are pressed against the mouth for long enter corrected surfaces.
-    let preset = (method.preset == Preset::Accurate).then_some(SurfaceRule::SetBack);
-    let walls = ElasticFlags { surface: flags.walls.surface.or(preset), ..flags.walls.clone() };
-    let channel = walls.channel(&flags.droplet, &method, -0.5 * walls.length)?;
-    let swimmer = &channel.swimmer;
-    let [period, width] = swimmer.lengths;
+    let surface = Some(SurfaceRule::SetBack);
+    let ElasticFlags { length: period, width, .. } = flags.walls;
     ensure!(throat <= width, "--throat {throat} is wider than the channel: give a number up to --width {width}");
     ensure!(
         throat_length + 2.0 * ramp <= period,
         "--throat-length {throat_length} and two --ramp {ramp} do not fit into --length {period}: make one of them smaller"
     );
-    let shape = Constriction { period, width, throat, throat_length, ramp, centre: 0.0 };
-    let (mut scene, droplet, _) = channel.build_in(&shape.channel()?)?;
+    let shape = ChannelShape::Constriction { width, throat, throat_length, ramp, centre: 0.0 };
+    let setup = flags.walls.setup(&shape, &flags.droplet, &method, -0.5 * period, surface)?;
+    let Built { mut scene, droplets, .. } = setup.build()?;
 
     // The run, with all that watches it, until the verdict.
-    let title = format!("{},  {}", caption(swimmer), wall_caption(&channel));
-    let run = WatchedRun::new(&mut scene, droplet, swimmer, patience, &flags.output, "constriction", title)?;
-    let mut run = run.with_set_back(channel.set_back());
+    let title = format!("{},  {}", caption(&setup), flags.walls.caption()?);
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &method, &flags.output, "constriction", title)?;
     let mut passage = Passage::new(0.5 * throat_length + ramp);
     let outcome = run.go_until(&mut scene, &mut passage)?;
 

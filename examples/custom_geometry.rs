@@ -7,14 +7,12 @@
 
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Result, bail};
 use clap::{Parser, ValueEnum};
-use motile::ElasticChannel;
-use motile::elastic_solids::{
-    Channel, SolidError,
-    channel::{BranchingChannel, Ratchet},
-};
-use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
+use motile::elastic_solids::{Channel, SolidError};
+use motile::ib_core::Scene;
+use motile::setup::{Built, ChannelShape, Method, Setup};
+use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// A channel whose walls are functions of x: bumps below, and a step to a narrower part above.
 fn closure(period: f64, width: f64) -> Result<Channel, SolidError> {
@@ -25,15 +23,28 @@ fn closure(period: f64, width: f64) -> Result<Channel, SolidError> {
 }
 
 /// A channel with asymmetric teeth.
-fn ratchet(period: f64, width: f64) -> Result<Channel, SolidError> {
-    Ratchet { period, width, throat: 0.65 * width, teeth: 3, rise: 0.7, sharp: false }.channel()
+fn ratchet(width: f64) -> ChannelShape {
+    ChannelShape::Ratchet { width, throat: 0.65 * width, teeth: 3, rise: 0.7, sharp: false }
 }
 
-/// A channel that parts around an island; its upper branch is the wider one.
-fn branch(period: f64, width: f64) -> Result<Channel, SolidError> {
+/// A channel that splits around an island; its upper branch is the wider one.
+fn branch(period: f64, width: f64) -> ChannelShape {
     let (island_length, ramp) = (0.35 * period, 0.2 * period);
     let branches = [0.6 * width, 0.7 * width];
-    BranchingChannel { period, width, branches, island_length, island_thickness: 0.5 * width, ramp }.channel()
+    ChannelShape::Branching { width, branches, island_length, island_thickness: 0.5 * width, ramp }
+}
+
+/// The scene of a description, with walls of another shape than those it names.
+fn build_with(setup: &Setup, shape: &Channel) -> Result<Built> {
+    let Method::Grid(grid) = &setup.method else { bail!("elastic walls need a grid") };
+    let mut scene = Scene::new(setup.flow()?).with_step_size(setup.step);
+    let droplets = vec![scene.add(setup.droplet(&setup.droplets[0])?)];
+    let shape = if setup.set_back() > 0.0 { shape.widened(2.0 * setup.set_back())? } else { shape.clone() };
+    let (walls, top) = (&setup.solids, 0.5 * setup.region.lengths()[1]);
+    let lower = walls[0].on_mesh(shape.lower_wall(-top, &walls[0].mesher(grid)?)?, &setup.region)?;
+    let upper = walls[1].on_mesh(shape.upper_wall(top, &walls[1].mesher(grid)?)?, &setup.region)?;
+    let solids = vec![scene.add(lower), scene.add(upper)];
+    Ok(Built { scene, droplets, solids })
 }
 
 /// Which geometry.
@@ -69,23 +80,25 @@ fn main() -> ExitCode {
 
 fn swim(flags: &Flags) -> Result<()> {
     // The walls, and a droplet where the channel begins.
-    let channel: ElasticChannel = flags.walls.channel(&flags.droplet, &flags.method, -0.5 * flags.walls.length)?;
-    let [period, width] = channel.swimmer.lengths;
-    let shape = match flags.case {
-        Case::Closure => closure(period, width)?,
-        Case::Ratchet => ratchet(period, width)?,
-        Case::Branch => branch(period, width)?,
+    let ElasticFlags { length, width, .. } = flags.walls;
+    let setup = |shape| flags.walls.setup(&shape, &flags.droplet, &flags.method, -0.5 * length, None);
+    let setup = match flags.case {
+        Case::Closure => setup(ChannelShape::Straight { width })?,
+        Case::Ratchet => setup(ratchet(width))?,
+        Case::Branch => setup(branch(length, width))?,
     };
-    let (mut scene, droplet, solids) = channel.build_in(&shape)?;
+    let Built { mut scene, droplets, solids } = match flags.case {
+        Case::Closure => build_with(&setup, &closure(length, width)?)?,
+        Case::Ratchet | Case::Branch => setup.build()?,
+    };
     for solid in &solids {
         say(format_args!("{}", scene.body(*solid)?.mesh().quality()));
     }
 
     // The run and its results.
-    let (swimmer, end) = (&channel.swimmer, flags.method.time);
-    let title = format!("{},  {}", caption(swimmer), wall_caption(&channel));
-    let run = WatchedRun::new(&mut scene, droplet, swimmer, end, &flags.output, "custom_geometry", title)?;
-    let mut run = run.with_set_back(channel.set_back());
+    let title = format!("{},  {}", caption(&setup), flags.walls.caption()?);
+    let mut run =
+        WatchedRun::new(&mut scene, &droplets, &setup, &flags.method, &flags.output, "custom_geometry", title)?;
     let outcome = run.go(&mut scene)?;
     let summary = run.summary()?;
     summary.write(&run.directory().join("summary.json"))?;

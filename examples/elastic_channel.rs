@@ -11,8 +11,9 @@ use clap::Parser;
 use motile::{
     active_interface::trajectory::{Evidence, RegimeCriteria},
     ib_core::Body,
+    setup::{Built, ChannelShape},
 };
-use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say, wall_caption};
+use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims between elastic walls.
 #[derive(Debug, Parser)]
@@ -33,18 +34,17 @@ fn main() -> ExitCode {
 
 fn swim(flags: &Flags) -> Result<()> {
     // The droplet and the walls.
-    let channel = flags.walls.channel(&flags.droplet, &flags.method, 0.0)?;
-    let swimmer = &channel.swimmer;
-    let (mut scene, droplet, walls) = channel.build()?;
-    for wall in &walls {
+    let shape = ChannelShape::Straight { width: flags.walls.width };
+    let setup = flags.walls.setup(&shape, &flags.droplet, &flags.method, 0.0, None)?;
+    let Built { mut scene, droplets, solids } = setup.build()?;
+    for wall in &solids {
         say(format_args!("{}: {}", scene.body(*wall)?.name(), scene.body(*wall)?.mesh().quality()));
     }
 
     // The run, with all that watches it.
-    let title = format!("{},  {}", caption(swimmer), wall_caption(&channel));
-    let end = flags.method.time;
-    let run = WatchedRun::new(&mut scene, droplet, swimmer, end, &flags.output, "elastic_channel", title)?;
-    let mut run = run.with_set_back(channel.set_back());
+    let title = format!("{},  {}", caption(&setup), flags.walls.caption()?);
+    let mut run =
+        WatchedRun::new(&mut scene, &droplets, &setup, &flags.method, &flags.output, "elastic_channel", title)?;
     let outcome = run.go(&mut scene)?;
 
     // The results, also of a run that broke off.
@@ -53,7 +53,7 @@ fn swim(flags: &Flags) -> Result<()> {
     let Evidence { amplitude, .. } = report.evidence;
     summary.put("regime", report.regime.to_string(), "across the channel");
     summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
-    if let Some(last) = run.recorder().last() {
+    if let Some(last) = run.recorder().records().records().last() {
         summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
     }
     summary.write(&run.directory().join("summary.json"))?;

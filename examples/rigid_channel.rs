@@ -8,11 +8,11 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
-use motile::Swimmer;
 use motile::active_interface::{
     observables::net_flux,
     trajectory::{Evidence, RegimeCriteria},
 };
+use motile::setup::Built;
 use motile_examples::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a channel with rigid walls.
@@ -34,16 +34,14 @@ fn main() -> ExitCode {
 
 fn swim(flags: &Flags) -> Result<()> {
     // The droplet, in the middle of its channel unless an offset is given, and the channel.
-    let ChannelFlags { width, length, lateral_offset, drive } = flags.channel;
-    flags.channel.check(&flags.method)?;
-    let swimmer =
-        Swimmer { lengths: [length, width], offset: [0.0, lateral_offset], ..flags.droplet.swimmer(&flags.method) };
-    let (mut scene, droplet) = swimmer.build_in_channel(drive.into())?;
+    let ChannelFlags { width, length, .. } = flags.channel;
+    let mut setup = flags.method.setup(&flags.droplet, None)?;
+    flags.channel.apply(&mut setup, &flags.method)?;
+    let Built { mut scene, droplets, .. } = setup.build()?;
 
     // The run, with all that watches it.
-    let title = format!("{},  w = {width},  l = {length}", caption(&swimmer));
-    let end = flags.method.time;
-    let mut run = WatchedRun::new(&mut scene, droplet, &swimmer, end, &flags.output, "rigid_channel", title)?;
+    let title = format!("{},  w = {width},  l = {length}", caption(&setup));
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &flags.method, &flags.output, "rigid_channel", title)?;
     let outcome = run.go(&mut scene)?;
 
     // The results, also of a run that broke off.
@@ -54,7 +52,7 @@ fn swim(flags: &Flags) -> Result<()> {
     summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
     summary.put("period", period.map(|period| period.value), "of the oscillation");
     summary.put("growth_rate", growth_rate.map(|rate| rate.value), "of its amplitude");
-    if let Some(last) = run.recorder().last() {
+    if let Some(last) = run.recorder().records().records().last() {
         summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
         // Far from the interface, where the flow is smooth.
         let flux = net_flux(scene.system_mut(), last.observables.centroid.x + 0.5 * length)?;

@@ -10,16 +10,20 @@
 //!
 //! `--help` lists the flags.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use clap::Parser;
-use motile::Swimmer;
+use motile::setup::{Built, Setup};
 use motile_examples::{BoxFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a periodic box.
 #[derive(Debug, Parser)]
 struct Flags {
+    /// Scene file (TOML) to start from: any region, method, droplets and solids; the other flags override its entries
+    #[arg(long, value_name = "FILE")]
+    scene: Option<PathBuf>,
     #[command(flatten)]
     droplet: DropletFlags,
     #[command(flatten)]
@@ -35,16 +39,19 @@ fn main() -> ExitCode {
 }
 
 fn swim(flags: &Flags) -> Result<()> {
-    // The droplet, in the middle of its box unless an offset is given, and the box.
-    flags.region.check(&flags.method)?;
-    let side = flags.region.side;
-    let swimmer =
-        Swimmer { lengths: [side, side], offset: flags.region.offset, ..flags.droplet.swimmer(&flags.method) };
-    let (mut scene, droplet) = swimmer.build()?;
+    // The scene: a droplet in a box, or what the file says.
+    let file = flags.scene.as_ref().map(|path| -> Result<Setup> {
+        let read = || Ok::<_, anyhow::Error>(Setup::from_toml(&std::fs::read_to_string(path)?)?);
+        read().with_context(|| format!("--scene {}", path.display()))
+    });
+    let mut setup = flags.method.setup(&flags.droplet, file.transpose()?)?;
+    flags.region.apply(&mut setup, &flags.method)?;
+    let Built { mut scene, droplets, .. } = setup.build()?;
 
     // The run, with all that watches it.
-    let (end, title) = (flags.method.time, caption(&swimmer));
-    let mut run = WatchedRun::new(&mut scene, droplet, &swimmer, end, &flags.output, "swimming_droplet", title)?;
+    let title = caption(&setup);
+    let mut run =
+        WatchedRun::new(&mut scene, &droplets, &setup, &flags.method, &flags.output, "swimming_droplet", title)?;
     let outcome = run.go(&mut scene)?;
 
     // The results, also of a run that broke off.

@@ -17,10 +17,12 @@ use motile::active_interface::{
     curve::polygon_moments,
     observables::{InterfaceState, centroid_velocity},
 };
-use motile::ib_core::{Every, Handle, Hydrodynamics, Repulsion, SceneError, System, Vec2};
-use motile::{AnyFlow, Swimmer};
-use motile_examples::{DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say};
-use motile_output::{Progress, Trajectory, write_scene_picture};
+use motile::ib_core::{Every, Handle, Hydrodynamics, SceneError, System, Vec2};
+use motile::setup::{AnyFlow, Built, DropletSetup, Particles, Region, RepulsionSetup};
+use motile_examples::{
+    DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say, settle_contrast,
+};
+use motile_output::{CsvTable, Look, Raster, RunProgress, Snapshot};
 
 /// How the droplets start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -87,43 +89,41 @@ fn meet(flags: &Flags) -> Result<()> {
         Meeting::SideBySide => ([[0.0, -half], [0.0, half]], 0.0),
         Meeting::LeaderAndFollower => ([[-half, 0.0], [half, 0.0]], 0.0),
     };
-    flags.method.check(&[(flags.sides[0], "box"), (flags.sides[1], "box")])?;
-    let first = Swimmer { lengths: flags.sides, offset: places[0], ..flags.droplet.swimmer(&flags.method) };
-    let second = Swimmer {
-        offset: places[1],
+    let mut setup = flags.method.setup(&flags.droplet, None)?;
+    setup.region = Region::Box { lengths: flags.sides };
+    flags.method.check(&setup, &[(flags.sides[0], "box"), (flags.sides[1], "box")])?;
+    setup.repulsion = flags.repulsion.map(|[strength, range]| RepulsionSetup { strength, range });
+    let first = DropletSetup { name: "first droplet".to_owned(), centre: places[0], ..setup.droplets[0].clone() };
+    let activity = flags.second_activity.unwrap_or(first.activity());
+    let second = DropletSetup {
+        name: "second droplet".to_owned(),
+        centre: places[1],
         angle: first.angle + f64::to_radians(second_angle),
-        activity: flags.second_activity.unwrap_or(first.activity),
-        viscosity_inside: flags.second_viscosity_in.or(first.viscosity_inside),
+        viscosity: flags.second_viscosity_in.or(first.viscosity),
+        particles: first.particles.map(|particles| Particles { activity, ..particles }),
         ..first.clone()
     };
+    setup.droplets = vec![first, second];
+    settle_contrast(&mut setup);
+    let Built { scene, droplets, .. } = setup.build()?;
+    let droplets = [droplets[0], droplets[1]];
     // Films that a method cannot see drain until the droplets overlap: that is an error here.
-    let mut scene = first.empty_box()?.with_least_gap(0.0)?;
-    if let Some([strength, range]) = flags.repulsion {
-        scene = scene.with_repulsion(Repulsion::new(strength, range)?);
-    }
-    let droplets = [("first droplet", &first), ("second droplet", &second)]
-        .map(|(name, swimmer)| swimmer.droplet_for_method().map(|droplet| scene.add(droplet.with_name(name))));
-    let [one, two] = droplets;
-    let droplets = [one?, two?];
+    let mut scene = scene.with_least_gap(0.0)?;
 
     // The run, observed.
     let end = flags.method.time;
-    check_run(&scene, end, flags.method.step())?;
-    let description = format!("two_droplets: {first:?} {second:?}");
+    check_run(&scene, end, setup.step)?;
+    flags.output.write_scene(&setup)?;
+    let description = format!("two_droplets: scene {}", setup.fingerprint());
     flags.output.checkpoints.resume(&mut scene, &description, end)?;
     let directory = flags.output.directory("two_droplets")?;
     let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
-    let mut table = Trajectory::create(&directory.join("trajectory.csv"), &names)?;
-    let mut progress = Progress::new(end, flags.output.quiet);
-    let mut record = |system: &mut System<AnyFlow>| table.push(&look(system, droplets)?);
-    let mut tell = |system: &mut System<AnyFlow>| -> Result<()> {
-        let [_, _, _, speed, ..] = look(system, droplets)?;
-        progress.update(system.time(), system.steps(), speed);
-        Ok(())
-    };
-    let run = scene.run(end).observe(Every::StepAfter(end / ROWS), &mut record).observe(Every::Steps(1), &mut tell);
+    let mut table = CsvTable::create(directory.join("trajectory.csv"), &names)?;
+    let mut progress = RunProgress::new(end, flags.output.quiet);
+    let mut record = |system: &mut System<AnyFlow>| -> Result<()> { Ok(table.push(&look(system, droplets)?)?) };
+    let run = scene.run(end).observe(Every::StepAfter(end / ROWS), &mut record).observe(Every::Steps(1), &mut progress);
     let outcome = flags.output.checkpoints.watch(run, &description)?.go();
-    progress.finish();
+    let seconds = progress.finish();
     flags.output.checkpoints.save(&scene, &description, &outcome)?;
 
     // The results, also of a run that broke off.
@@ -146,14 +146,15 @@ fn meet(flags: &Flags) -> Result<()> {
     }
     summary.put("time", scene.time(), "simulated");
     summary.put("steps", scene.steps(), "");
-    summary.put("seconds", progress.seconds(), "of computation");
+    summary.put("seconds", seconds, "of computation");
     summary.put("failure", outcome.as_ref().err().map(SceneError::explanation), "if the run broke off");
     summary.write(&directory.join("summary.json"))?;
     say(summary.table().trim_end());
     if !flags.output.no_pictures {
-        let title = format!("t = {:.1}", scene.time());
-        let path = directory.join("final.png");
-        write_scene_picture(scene.system_mut(), first.spacing, first.mean_concentration, &title, &path)?;
+        let raster = Raster::of(scene.system(), flags.method.spacing(&setup))?;
+        let seen = Snapshot::take(scene.system_mut(), raster)?;
+        let concentration = setup.droplets[0].particles.map(|particles| particles.concentration);
+        Look { concentration, ..Look::default() }.write_picture(&seen, &[], directory.join("final.png"))?;
     }
     say(format_args!("results in {}", directory.display()));
     Ok(outcome?)

@@ -5,9 +5,9 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Result, ensure};
+use anyhow::{Context as _, Result, ensure};
 use clap::{Args, ValueEnum};
-use motile::{InitialState, Swimmer};
+use motile::setup::{DropletSetup, Exclusion, Region, Setup, Start};
 
 use crate::parse::{activity, finite, not_negative, pair, positive, seed};
 use crate::{CheckpointFlags, MethodFlags};
@@ -46,76 +46,86 @@ impl From<Drive> for motile::stokes_grid::Drive {
     }
 }
 
-/// The droplet.
+/// The droplet. What is not given stays as it is in the scene, by default as listed.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct DropletFlags {
-    /// Activity zeta delta-mu, negative: contractile
-    #[arg(long, default_value_t = -2.0, value_parser = activity, allow_hyphen_values = true)]
-    pub activity: f64,
-    /// Strength A of the excluded volume tension
-    #[arg(long, default_value_t = 10.0, value_parser = not_negative, allow_hyphen_values = true)]
-    pub excluded_volume: f64,
-    /// Viscosity of the fluids, where they have none of their own
-    #[arg(long, default_value_t = 100.0, value_parser = positive, allow_hyphen_values = true)]
-    pub viscosity: f64,
+    /// Activity zeta delta-mu, negative: contractile [default: -2]
+    #[arg(long, value_parser = activity, allow_hyphen_values = true)]
+    pub activity: Option<f64>,
+    /// Strength A of the excluded volume tension [default: 10]
+    #[arg(long, value_parser = not_negative, allow_hyphen_values = true)]
+    pub excluded_volume: Option<f64>,
+    /// Viscosity of the fluids, where they have none of their own [default: 100]
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    pub viscosity: Option<f64>,
     /// Viscosity of the droplet
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub viscosity_in: Option<f64>,
-    /// Viscosity of its surroundings
+    /// Viscosity of the exterior fluid
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub viscosity_out: Option<f64>,
-    /// Initial direction of motion (degrees from the x axis)
-    #[arg(long, default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true)]
-    pub angle: f64,
-    /// Initial concentration
-    #[arg(long, value_enum, default_value_t = Initial::Polarised)]
-    pub initial: Initial,
+    /// Initial direction of motion (degrees from the x axis) [default: 0]
+    #[arg(long, value_parser = finite, allow_hyphen_values = true)]
+    pub angle: Option<f64>,
+    /// Initial concentration [default: polarised]
+    #[arg(long, value_enum)]
+    pub initial: Option<Initial>,
     /// Seed of the random perturbation
     #[arg(long, default_value_t = 1, value_parser = seed, allow_hyphen_values = true)]
     pub seed: u64,
 }
 
 impl DropletFlags {
-    /// The droplet of these flags by that method, in a box and at a position that are still to be set.
-    #[must_use]
-    pub fn swimmer(&self, method: &MethodFlags) -> Swimmer {
-        Swimmer {
-            activity: self.activity,
-            excluded_volume: self.excluded_volume,
-            viscosity: self.viscosity_out.unwrap_or(self.viscosity),
-            viscosity_inside: self.viscosity_in.or(self.viscosity_out.map(|_| self.viscosity)),
-            angle: self.angle.to_radians(),
-            initial: match self.initial {
-                Initial::Polarised => InitialState::Polarised,
-                Initial::Perturbed => InitialState::Perturbed { amplitude: PERTURBATION, seed: self.seed },
-            },
-            ..method.swimmer()
-        }
+    /// Overrides the entries of a scene, those of droplets in its first one.
+    pub(crate) fn apply(&self, setup: &mut Setup) {
+        let common = self.viscosity.unwrap_or(setup.viscosity);
+        setup.viscosity = self.viscosity_out.unwrap_or(common);
+        let Some(droplet) = setup.droplets.first_mut() else { return };
+        let DropletSetup { particles, viscosity, angle, .. } = droplet;
+        *viscosity = self.viscosity_in.or(self.viscosity_out.map(|_| common)).or(*viscosity);
+        *angle = self.angle.map_or(*angle, f64::to_radians);
+        let Some(particles) = particles else { return };
+        particles.activity = self.activity.unwrap_or(particles.activity);
+        particles.excluded_volume = self.excluded_volume.map_or(particles.excluded_volume, Exclusion::Step);
+        particles.start = match self.initial {
+            None => particles.start,
+            Some(Initial::Polarised) => Start::Polarised,
+            Some(Initial::Perturbed) => Start::Perturbed { amplitude: PERTURBATION, seed: self.seed },
+        };
     }
 }
 
 /// A periodic box.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct BoxFlags {
-    /// Side of the periodic box (R0)
-    #[arg(long = "box", value_name = "SIDE", default_value_t = 6.0, value_parser = positive, allow_hyphen_values = true)]
-    pub side: f64,
-    /// Initial position of the droplet, from the middle of the box (R0)
-    #[arg(long, value_name = "X,Y", default_value = "0,0", value_parser = pair, allow_hyphen_values = true)]
-    pub offset: [f64; 2],
+    /// Side of the periodic box (R0) [default: 6]
+    #[arg(long = "box", value_name = "SIDE", value_parser = positive, allow_hyphen_values = true)]
+    pub side: Option<f64>,
+    /// Initial position of the droplet, from the middle of the box (R0) [default: 0,0]
+    #[arg(long, value_name = "X,Y", value_parser = pair, allow_hyphen_values = true)]
+    pub offset: Option<[f64; 2]>,
 }
 
 impl BoxFlags {
-    /// Refuses what does not fit together.
+    /// Overrides the entries of a scene, and refuses what does not fit together.
     ///
     /// # Errors
     /// A box that the droplet does not fit into, or is unreasonably large; a time step or spacing that does not fit
     /// ([`MethodFlags::check`]).
-    pub fn check(&self, method: &MethodFlags) -> Result<()> {
-        let side = self.side;
-        ensure!(side > 2.0 * RADIUS, "--box {side} is too small for a droplet of diameter 2: give more than 2");
-        ensure!(side <= LONGEST, "--box {side} is too large: give at most {LONGEST}");
-        method.check(&[(side, "box")])
+    pub fn apply(&self, setup: &mut Setup, method: &MethodFlags) -> Result<()> {
+        if let Some(side) = self.side {
+            ensure!(side > 2.0 * RADIUS, "--box {side} is too small for a droplet of diameter 2: give more than 2");
+            ensure!(side <= LONGEST, "--box {side} is too large: give at most {LONGEST}");
+            setup.region = Region::Box { lengths: [side, side] };
+        }
+        if let (Some(offset), Some(droplet)) = (self.offset, setup.droplets.first_mut()) {
+            droplet.centre = offset;
+        }
+        let sides = match setup.region {
+            Region::Box { lengths: [x, y] } if x == y => vec![(x, "box")],
+            _ => Vec::new(),
+        };
+        method.check(setup, &sides)
     }
 }
 
@@ -137,12 +147,12 @@ pub struct ChannelFlags {
 }
 
 impl ChannelFlags {
-    /// Refuses what does not fit together.
+    /// Puts the channel into a scene, and refuses what does not fit together.
     ///
     /// # Errors
     /// A droplet that does not fit between the walls or into the period; a time step or spacing that does not fit
     /// ([`MethodFlags::check`]).
-    pub fn check(&self, method: &MethodFlags) -> Result<()> {
+    pub fn apply(&self, setup: &mut Setup, method: &MethodFlags) -> Result<()> {
         let (width, length, offset) = (self.width, self.length, self.lateral_offset);
         ensure!(width >= 2.0 * RADIUS, "--width {width} is too small for a droplet of diameter 2: give at least 2");
         ensure!(length > 2.0 * RADIUS, "--length {length} is too small for a droplet of diameter 2: give more than 2");
@@ -152,7 +162,9 @@ impl ChannelFlags {
             offset.abs() <= room,
             "--lateral-offset {offset} puts the droplet into a wall: give at most {room} for --width {width}"
         );
-        method.check(&[(length, "length"), (width, "width")])
+        setup.region = Region::Channel { length, width, drive: self.drive.into() };
+        setup.droplets[0].centre = [0.0, offset];
+        method.check(setup, &[(length, "length"), (width, "width")])
     }
 }
 
@@ -168,12 +180,24 @@ pub struct OutputFlags {
     /// Directory of the results; without it that of the example in out/
     #[arg(long, value_name = "DIRECTORY")]
     pub out: Option<PathBuf>,
+    /// Write the scene to this TOML file, for `swimming_droplet --scene`
+    #[arg(long, value_name = "FILE")]
+    pub write_scene: Option<PathBuf>,
     /// Checkpoints
     #[command(flatten)]
     pub checkpoints: CheckpointFlags,
 }
 
 impl OutputFlags {
+    /// Writes the scene file, if one is asked for.
+    ///
+    /// # Errors
+    /// A file that cannot be written.
+    pub fn write_scene(&self, setup: &Setup) -> Result<()> {
+        let Some(path) = &self.write_scene else { return Ok(()) };
+        std::fs::write(path, setup.to_toml()?).with_context(|| format!("--write-scene {}", path.display()))
+    }
+
     /// The directory of the results of example `name`, made if it is not there.
     ///
     /// # Errors

@@ -2,11 +2,10 @@
 
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
-use motile::{
-    ContrastMethod, Method, Swimmer,
-    ib_core::{AnyKernel, StepSize},
-};
+use motile::ib_core::{AnyKernel, StepSize};
+use motile::setup::{self, GridMethod, IntegralMethod, Method, MethodKind, Setup};
 
+use crate::DropletFlags;
 use crate::flags::RADIUS;
 use crate::parse::{TimeStep, count, kernel, positive};
 
@@ -76,58 +75,90 @@ pub struct MethodFlags {
 }
 
 impl MethodFlags {
+    /// Settings that go together, or the scene of a file, with these flags and those of the droplet in place of its entries.
+    ///
+    /// # Errors
+    /// A flag that the method has no use for; fewer cells than nodes.
+    pub fn setup(&self, droplet: &DropletFlags, file: Option<Setup>) -> Result<Setup> {
+        let mut setup = file.unwrap_or_else(|| match self.preset {
+            Preset::Thesis => Setup::thesis(),
+            Preset::Accurate => Setup::default(),
+        });
+        setup.method = match (self.kind(setup.method.kind()), setup.method) {
+            (MethodKind::Grid, method) => {
+                let base = match (method, self.preset) {
+                    (Method::Grid(grid), _) => grid,
+                    (Method::Integral(_), Preset::Thesis) => GridMethod::thesis(),
+                    (Method::Integral(_), Preset::Accurate) => GridMethod::default(),
+                };
+                Method::Grid(self.grid(base)?)
+            }
+            (MethodKind::Integral, Method::Integral(base)) => Method::Integral(self.integral(base)?),
+            (MethodKind::Integral, Method::Grid(_)) => Method::Integral(self.integral(IntegralMethod::default())?),
+        };
+        setup.step = match self.dt {
+            Some(TimeStep::Fixed(dt)) => StepSize::Fixed(dt),
+            Some(TimeStep::Adaptive(tolerance)) => StepSize::Adaptive { tolerance },
+            Some(TimeStep::Auto) => StepSize::OfLimit(STEP_OF_LIMIT),
+            None => setup.step,
+        };
+        droplet.apply(&mut setup);
+        settle_contrast(&mut setup);
+        Ok(setup)
+    }
+
     /// How the flow is computed: as `--method` says, or else on a grid if the preset is the thesis' or a flag is given
-    /// that only a grid has a use for, and without a grid otherwise.
-    #[must_use]
-    pub fn method(&self) -> Method {
+    /// that only a grid has a use for, without a grid if one of the nodes is, and as `base` otherwise.
+    fn kind(&self, base: MethodKind) -> MethodKind {
         let for_nodes = self.nodes.is_some() || self.concentration_cells.is_some();
         let for_grid = self.spacing.is_some() || self.kernel.is_some() || self.contrast_method.is_some();
         match self.method {
-            Some(FlowMethod::BoundaryIntegral) => Method::BoundaryIntegral,
-            Some(FlowMethod::ImmersedBoundary) => Method::ImmersedBoundary,
-            None if self.preset == Preset::Thesis || (for_grid && !for_nodes) => Method::ImmersedBoundary,
-            None => Method::BoundaryIntegral,
+            Some(FlowMethod::BoundaryIntegral) => MethodKind::Integral,
+            Some(FlowMethod::ImmersedBoundary) => MethodKind::Grid,
+            None if self.preset == Preset::Thesis || (for_grid && !for_nodes) => MethodKind::Grid,
+            None if for_nodes => MethodKind::Integral,
+            None => base,
         }
     }
 
-    /// The grid spacing (R0).
-    #[must_use]
-    pub fn spacing(&self) -> f64 {
-        self.spacing.unwrap_or(Swimmer::default().spacing)
-    }
-
-    /// A swimmer by this method, whose other parameters are still to be set.
-    #[must_use]
-    pub fn swimmer(&self) -> Swimmer {
-        let base = match self.preset {
-            Preset::Thesis => Swimmer::thesis(),
-            Preset::Accurate => Swimmer::default(),
-        };
-        let contrast = self.contrast_method.map(|contrast| match contrast {
-            Contrast::Sharp => ContrastMethod::Sharp,
-            Contrast::Arithmetic => ContrastMethod::Arithmetic,
-        });
-        let nodes = self.nodes.unwrap_or(base.nodes);
-        Swimmer {
-            method: self.method(),
-            contrast: contrast.unwrap_or(base.contrast),
-            spacing: self.spacing(),
+    fn grid(&self, base: GridMethod) -> Result<GridMethod> {
+        for (flag, value) in [("nodes", self.nodes), ("concentration-cells", self.concentration_cells)] {
+            ensure!(
+                value.is_none(),
+                "--{flag} means nothing on a grid: leave it out or give --method boundary-integral"
+            );
+        }
+        Ok(GridMethod {
+            spacing: self.spacing.unwrap_or(base.spacing),
             kernel: self.kernel.unwrap_or(base.kernel),
-            nodes,
-            concentration_cells: self.concentration_cells.unwrap_or(base.concentration_cells.max(4 * nodes)),
-            step: self.step(),
+            contrast: match self.contrast_method {
+                Some(Contrast::Sharp) => setup::Contrast::Sharp,
+                Some(Contrast::Arithmetic) => setup::Contrast::Arithmetic,
+                None => base.contrast,
+            },
             ..base
-        }
+        })
     }
 
-    /// The time step asked for: by `--dt`, or else the preset's (1e-3 for the thesis').
+    fn integral(&self, base: IntegralMethod) -> Result<IntegralMethod> {
+        for (flag, given) in [("kernel", self.kernel.is_some()), ("contrast-method", self.contrast_method.is_some())] {
+            ensure!(!given, "--{flag} means nothing without a grid: leave it out or give --method immersed-boundary");
+        }
+        let nodes = self.nodes.unwrap_or(base.nodes);
+        let cells = self.concentration_cells.unwrap_or(base.cells.max(4 * nodes));
+        ensure!(
+            cells >= nodes,
+            "--concentration-cells {cells} are fewer than the {nodes} nodes: give at least as many"
+        );
+        Ok(IntegralMethod { nodes, cells })
+    }
+
+    /// The spacing (R0) of the grid, or of pictures where there is none.
     #[must_use]
-    pub fn step(&self) -> StepSize {
-        match (self.dt, self.preset) {
-            (Some(TimeStep::Fixed(dt)), _) => StepSize::Fixed(dt),
-            (Some(TimeStep::Adaptive(tolerance)), _) => StepSize::Adaptive { tolerance },
-            (None, Preset::Thesis) => Swimmer::thesis().step,
-            (Some(TimeStep::Auto), _) | (None, Preset::Accurate) => StepSize::OfLimit(STEP_OF_LIMIT),
+    pub fn spacing(&self, setup: &Setup) -> f64 {
+        match setup.method {
+            Method::Grid(grid) => grid.spacing,
+            Method::Integral(_) => self.spacing.unwrap_or(GridMethod::default().spacing),
         }
     }
 
@@ -135,64 +166,49 @@ impl MethodFlags {
     /// flag.
     ///
     /// # Errors
-    /// On a grid, a spacing that does not divide a length ([`MethodFlags::cells`]); fewer cells than nodes; a flag that
-    /// the method has no use for; a time step that is too long or too short for the run.
-    pub fn check(&self, sides: &[(f64, &str)]) -> Result<()> {
-        match self.method() {
-            Method::ImmersedBoundary => {
-                let unused = [("nodes", self.nodes), ("concentration-cells", self.concentration_cells)];
-                for (flag, value) in unused {
-                    ensure!(
-                        value.is_none(),
-                        "--{flag} means nothing on a grid: leave it out or give --method boundary-integral"
-                    );
-                }
-                for &(side, flag) in sides {
-                    self.cells(side, flag)?;
-                }
-            }
-            Method::BoundaryIntegral => {
-                let unused = [("kernel", self.kernel.is_some()), ("contrast-method", self.contrast_method.is_some())];
-                for (flag, given) in unused {
-                    ensure!(
-                        !given,
-                        "--{flag} means nothing without a grid: leave it out or give --method immersed-boundary"
-                    );
-                }
-                let Swimmer { nodes, concentration_cells, .. } = self.swimmer();
-                ensure!(
-                    concentration_cells >= nodes,
-                    "--concentration-cells {concentration_cells} are fewer than the {nodes} nodes: give at least as many"
-                );
-            }
+    /// On a grid, a spacing that does not divide a length ; a time step that is too long or too short for
+    /// the run.
+    pub fn check(&self, setup: &Setup, sides: &[(f64, &str)]) -> Result<()> {
+        if let Method::Grid(grid) = setup.method {
+            sides.iter().try_for_each(|&(side, flag)| cells(grid.spacing, side, flag).map(|_| ()))?;
         }
-        if let StepSize::Fixed(dt) = self.step() {
+        if let StepSize::Fixed(dt) = setup.step {
             let (time, steps) = (self.time, self.time / dt);
             ensure!(dt <= time, "--dt {dt} is longer than --time {time}: give a smaller time step");
             ensure!(steps <= 1e9, "--time {time} takes {steps:.1e} steps of --dt {dt}: give a larger time step");
         }
         Ok(())
     }
+}
 
-    /// The number of cells over `length` (R0), the value of flag `flag`.
-    ///
-    /// # Errors
-    /// A spacing that does not divide the length, that is too coarse for a droplet (less than four cells a radius), or
-    /// that makes for more than 4096 cells.
-    pub fn cells(&self, length: f64, flag: &str) -> Result<usize> {
-        let h = self.spacing();
-        ensure!(h <= 0.25 * RADIUS, "--spacing {h} is too coarse for a droplet of radius 1: give at most 0.25");
-        let cells = length / h;
-        ensure!(
-            cells <= MOST_CELLS,
-            "--{flag} {length} at --spacing {h} makes {cells:.0} cells, more than {MOST_CELLS}: give a larger spacing"
-        );
-        let whole = cells.round();
-        let fitting = (whole * h * 1e9).round() / 1e9;
-        ensure!(
-            (cells - whole).abs() <= 1e-9 * whole,
-            "--{flag} {length} is {cells:.3} cells of --spacing {h}: give --{flag} {fitting} or a spacing that divides it"
-        );
-        Ok(whole as usize)
+/// Leaves the mobility correction out where an arithmetic contrast of different viscosities has none.
+pub fn settle_contrast(setup: &mut Setup) {
+    let differs = setup.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != setup.viscosity));
+    if let Method::Grid(grid) = &mut setup.method
+        && grid.contrast == setup::Contrast::Arithmetic
+        && differs
+    {
+        grid.corrected = false;
     }
+}
+
+/// The number of cells of spacing `h` over `length` (R0), the value of flag `flag`.
+///
+/// # Errors
+/// A spacing that does not divide the length, that is too coarse for a droplet (less than four cells a radius), or
+/// that makes for more than 4096 cells.
+pub(crate) fn cells(h: f64, length: f64, flag: &str) -> Result<usize> {
+    ensure!(h <= 0.25 * RADIUS, "--spacing {h} is too coarse for a droplet of radius 1: give at most 0.25");
+    let cells = length / h;
+    ensure!(
+        cells <= MOST_CELLS,
+        "--{flag} {length} at --spacing {h} makes {cells:.0} cells, more than {MOST_CELLS}: give a larger spacing"
+    );
+    let whole = cells.round();
+    let fitting = (whole * h * 1e9).round() / 1e9;
+    ensure!(
+        (cells - whole).abs() <= 1e-9 * whole,
+        "--{flag} {length} is {cells:.3} cells of --spacing {h}: give --{flag} {fitting} or a spacing that divides it"
+    );
+    Ok(whole as usize)
 }

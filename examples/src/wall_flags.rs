@@ -1,9 +1,10 @@
 //! Command line flags of channels with elastic walls.
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
+use motile::SetupError;
 use motile::elastic_solids::Moduli;
-use motile::{ElasticChannel, Swimmer, WallMaterial, WallMesh, WallSurface};
+use motile::setup::{self, ChannelShape, MeshKind, Region, Setup, SolidSetup, Surface};
 
 use crate::flags::RADIUS;
 use crate::method_flags::FlowMethod;
@@ -91,71 +92,71 @@ pub struct ElasticFlags {
 }
 
 impl ElasticFlags {
-    /// The channel with the droplet at `x` along it (R0).
+    /// The scene of a channel of that shape, with the droplet at `x` along it (R0).
     ///
     /// # Errors
     /// Flags that do not fit together: a method without a grid, a bulk modulus of springs, lengths that are no whole
     /// number of cells, a time step that does not fit the run.
-    pub fn channel(&self, droplet: &DropletFlags, method: &MethodFlags, x: f64) -> Result<ElasticChannel> {
+    pub fn setup(
+        &self,
+        shape: &ChannelShape,
+        droplet: &DropletFlags,
+        method: &MethodFlags,
+        x: f64,
+        preset: Option<SurfaceRule>,
+    ) -> Result<Setup> {
         ensure!(
             method.method != Some(FlowMethod::BoundaryIntegral) && method.nodes.is_none(),
             "elastic walls need a grid: leave --method boundary-integral and --nodes out"
         );
         let method = MethodFlags { method: Some(FlowMethod::ImmersedBoundary), ..method.clone() };
-        let (width, length, thickness) = (self.width, self.length, self.wall_thickness);
+        let (width, length, thickness, offset) = (self.width, self.length, self.wall_thickness, self.lateral_offset);
         let height = width + 2.0 * thickness;
         ensure!(height.max(length) <= LONGEST, "a channel of {length} x {height} is too large: give at most {LONGEST}");
         ensure!(length > 2.0 * RADIUS, "--length {length} is too small for a droplet of diameter 2: give more than 2");
-        method.check(&[(length, "length"), (height, "width plus twice --wall-thickness")])?;
-        let swimmer =
-            Swimmer { lengths: [length, width], offset: [x, self.lateral_offset], ..droplet.swimmer(&method) };
-        let moduli = self.moduli()?;
-        let channel = match method.preset {
-            Preset::Thesis => ElasticChannel::thesis(swimmer, moduli),
-            Preset::Accurate => ElasticChannel::new(swimmer, moduli),
-        };
-        let offset = self.lateral_offset;
-        ensure!(
-            channel.start_shape().is_some(),
-            "a channel of --width {width} and --length {length} does not hold the droplet at --lateral-offset {offset}: give a \
-             larger --width or --length or a smaller --lateral-offset"
-        );
-        let channel = ElasticChannel {
-            material: match self.material {
-                Material::Springs => WallMaterial::Springs,
-                Material::NeoHookean => WallMaterial::NeoHookean,
-            },
-            mesh: match self.mesh {
-                Some(Mesh::Equilateral) => WallMesh::Equilateral,
-                Some(Mesh::Unstructured) => WallMesh::Unstructured,
-                None => channel.mesh,
-            },
-            mesh_spacing: self.mesh_spacing,
-            thickness,
-            surface: match self.surface {
-                Some(SurfaceRule::SetBack) => WallSurface::SetBack,
-                Some(SurfaceRule::Corrected) => WallSurface::Corrected,
-                Some(SurfaceRule::Plain) => WallSurface::Plain,
-                None => channel.surface,
-            },
-            drive: self.drive.into(),
-            ..channel
-        };
-        self.check_mesh(&channel, &method)?;
-        Ok(channel)
+        let mut setup = method.setup(droplet, None)?;
+        setup.region = Region::Channel { length, width: height, drive: self.drive.into() };
+        setup.droplets[0].centre = [x, offset];
+        method.check(&setup, &[(length, "length"), (height, "width plus twice --wall-thickness")])?;
+        setup.solids = SolidSetup::walls(shape, &self.material()?);
+        for solid in &mut setup.solids {
+            if method.preset == Preset::Thesis {
+                *solid = solid.clone().thesis();
+            }
+            solid.mesh = match self.mesh {
+                Some(Mesh::Equilateral) => MeshKind::Equilateral,
+                Some(Mesh::Unstructured) => MeshKind::Unstructured,
+                None => solid.mesh,
+            };
+            solid.mesh_spacing = self.mesh_spacing;
+            solid.surface = match self.surface.or(preset.filter(|_| method.preset == Preset::Accurate)) {
+                Some(SurfaceRule::SetBack) => Surface::SetBack,
+                Some(SurfaceRule::Corrected) => Surface::Corrected,
+                Some(SurfaceRule::Plain) => Surface::Plain,
+                None => solid.surface,
+            };
+        }
+        if let Err(SetupError::NoRoom { .. }) = setup.droplet(&setup.droplets[0]) {
+            bail!(
+                "a channel of --width {width} and --length {length} does not hold the droplet at --lateral-offset {offset}: \
+                 give a larger --width or --length or a smaller --lateral-offset"
+            );
+        }
+        self.check_mesh(&setup, method.spacing(&setup))?;
+        Ok(setup)
     }
 
     /// Walls that hold their mesh.
-    fn check_mesh(&self, channel: &ElasticChannel, method: &MethodFlags) -> Result<()> {
+    fn check_mesh(&self, setup: &Setup, grid: f64) -> Result<()> {
         let (length, thickness) = (self.length, self.wall_thickness);
-        let spacing = self.mesh_spacing.unwrap_or(method.spacing());
+        let spacing = self.mesh_spacing.unwrap_or(grid);
         let flag = if self.mesh_spacing.is_some() { "--mesh-spacing" } else { "--spacing" };
         ensure!(
             LEAST_ALONG * spacing <= length,
             "points {spacing} apart are too few along --length {length}: give {flag} {} or less",
             length / LEAST_ALONG
         );
-        let thinnest = spacing + channel.set_back();
+        let thinnest = spacing + setup.set_back();
         ensure!(
             thickness >= thinnest,
             "walls of --wall-thickness {thickness} do not hold points {spacing} apart: give {} or more, or a smaller {flag}",
@@ -171,35 +172,43 @@ impl ElasticFlags {
         Ok(())
     }
 
-    fn moduli(&self) -> Result<Moduli> {
+    fn material(&self) -> Result<setup::Material> {
         let shear = match self.shear_modulus {
             Some(shear) => shear,
             None => Moduli::from_thesis_spring_constant(self.stiffness.unwrap_or(SOFT))?.shear(),
         };
         ensure!(
             self.bulk_modulus.is_none() || self.material != Material::Springs,
-            "springs have twice their shear modulus as bulk modulus: leave --bulk-modulus out or give --material neo-hookean"
+            "springs have twice their shear modulus as bulk modulus: leave --bulk-modulus out or give --material \
+             neo-hookean"
         );
-        Ok(Moduli::new(shear, self.bulk_modulus.unwrap_or(2.0 * shear))?)
+        Ok(match self.material {
+            Material::Springs => setup::Material::Springs { shear },
+            Material::NeoHookean => {
+                setup::Material::NeoHookean { shear, bulk: self.bulk_modulus.unwrap_or(2.0 * shear) }
+            }
+        })
+    }
+
+    /// The walls as they stand above a picture.
+    ///
+    /// # Errors
+    /// As [`ElasticFlags::setup`].
+    pub fn caption(&self) -> Result<String> {
+        let (length, width, material) = (self.length, self.width, self.material()?);
+        let name = match material {
+            setup::Material::Springs { .. } => "springs",
+            _ => "neo-Hookean",
+        };
+        // A product such as 3/16 h k need not be written to the last digit.
+        let shear = (material.shear() * 1e4).round() / 1e4;
+        Ok(format!("{name},  μ = {shear},  w = {width},  l = {length}"))
     }
 }
 
 /// To four decimals.
 fn rounded_up(length: f64) -> f64 {
     (length * 1e4).ceil() / 1e4
-}
-
-/// The walls as they stand above a picture.
-#[must_use]
-pub fn wall_caption(channel: &ElasticChannel) -> String {
-    let [length, width] = channel.swimmer.lengths;
-    let material = match channel.material {
-        WallMaterial::Springs => "springs",
-        WallMaterial::NeoHookean => "neo-Hookean",
-    };
-    // A product such as 3/16 h k need not be written to the last digit.
-    let shear = (channel.moduli.shear() * 1e4).round() / 1e4;
-    format!("{material},  μ = {shear},  w = {width},  l = {length}")
 }
 
 #[cfg(test)]

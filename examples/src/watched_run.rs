@@ -2,19 +2,24 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail, ensure};
 use motile::{
-    Method, SolidGap, Swimmer,
+    SolidGap,
     active_interface::{
         ActiveDroplet,
         observables::{ConcentrationProfile, Frame, concentration_profile},
+        trajectory::TrajectoryRecord,
     },
     ib_core::{Every, Handle, Hydrodynamics, Integrator, Observer, Scene, SceneError, StepSize, System, Vec2},
 };
 
-use crate::{CheckpointFlags, Decided, OutputFlags, RunCost, Steadiness, Summary, droplet_summary, put_solids};
+use motile::setup::{DropletSetup, Exclusion, Method, Particles, Region, Setup};
+
+use crate::{
+    CheckpointFlags, Decided, MethodFlags, OutputFlags, RunCost, Steadiness, Summary, droplet_summary, put_solids,
+};
 use motile_output::{
-    Dial, Film, Look, Raster, Recorder, Snapshot, VtkOutput, concentration_plot, domain_raster, time_series,
+    Film, Look, ParaView, Raster, RunProgress, Snapshot, TrajectoryCsv, concentration_plot, time_series,
 };
 
 /// Rows of the trajectory and files for ParaView in a run.
@@ -29,6 +34,8 @@ const MOST_CELLS: usize = 512;
 const COARSER: f64 = 2.0;
 /// How deep a droplet may come into an elastic solid, in grid spacings, before its run ends with an error.
 const SOLID_OVERLAP: f64 = 0.25;
+/// Side of what is shown of unbounded fluid (R0).
+const VIEW: f64 = 12.0;
 /// Distance of streamlines (R0).
 const STREAMLINES: f64 = 0.24;
 
@@ -60,14 +67,17 @@ pub fn check_run<H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>, end: f64,
 #[derive(Debug)]
 pub struct WatchedRun {
     droplet: Handle<ActiveDroplet>,
-    swimmer: Swimmer,
+    setup: Setup,
+    particles: Particles,
+    /// Area of the droplet at the start.
+    area: f64,
     end: f64,
     directory: PathBuf,
     raster: Raster,
     start: ConcentrationProfile,
-    recorder: Recorder,
-    dial: Dial,
-    pictures: Option<(Film, VtkOutput)>,
+    recorder: TrajectoryCsv,
+    progress: RunProgress,
+    pictures: Option<(Film, ParaView)>,
     cost: RunCost,
     gap: SolidGap,
     checkpoints: CheckpointFlags,
@@ -75,67 +85,75 @@ pub struct WatchedRun {
 }
 
 impl WatchedRun {
-    /// A run to time `end` of a scene that was made from `swimmer`. Its results go where `output` says, by default to
-    /// `out/<name>/`; pictures bear the `caption`.
+    /// A run of a scene that was made from `setup`, watching its first droplet. Its results go where `output` says, by
+    /// default to `out/<name>/`; pictures bear the `caption`.
     ///
     /// # Errors
     /// A time step that is not stable, before anything is written; a directory that cannot be made.
     pub fn new<H: Hydrodynamics, I: Integrator>(
         scene: &mut Scene<H, I>,
-        droplet: Handle<ActiveDroplet>,
-        swimmer: &Swimmer,
-        end: f64,
+        droplets: &[Handle<ActiveDroplet>],
+        setup: &Setup,
+        method: &MethodFlags,
         output: &OutputFlags,
         name: &str,
         caption: String,
     ) -> Result<Self> {
-        check_run(scene, end, swimmer.step)?;
+        let (end, spacing) = (method.time, method.spacing(setup));
+        let (Some(&droplet), Some(DropletSetup { centre: [x, y], angle, particles: Some(particles), .. })) =
+            (droplets.first(), setup.droplets.first())
+        else {
+            bail!("the first droplet of the scene is the one that is watched: give one with particles");
+        };
+        check_run(scene, end, setup.step)?;
+        output.write_scene(setup)?;
         // The time step may change on the way.
-        let description = format!("{name}: {:?}", Swimmer { step: StepSize::default(), ..swimmer.clone() });
+        let description = format!("{name}: scene {}", setup.fingerprint());
         output.checkpoints.resume(scene, &description, end)?;
         let body = scene.body(droplet)?;
-        let frame = Frame::new(Vec2::new(swimmer.offset[0], swimmer.offset[1]), swimmer.angle)?;
+        let frame = Frame::new(Vec2::new(*x, *y), *angle)?;
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
-        let domain = scene.system().hydrodynamics().medium().domain;
-        let raster = domain_raster(&domain, swimmer.spacing, MOST_CELLS)?;
-        let watched = match swimmer.method {
-            Method::BoundaryIntegral => domain_raster(&domain, COARSER * swimmer.spacing, MOST_CELLS)?,
-            Method::ImmersedBoundary => raster,
+        let raster = |spacing: f64| match setup.region {
+            Region::Plane => {
+                let cells = (VIEW / spacing).round() as usize;
+                Raster::new([x - 0.5 * VIEW, y - 0.5 * VIEW], [VIEW; 2], [cells.min(MOST_CELLS); 2], [false; 2])
+            }
+            _ => Raster::of(scene.system(), spacing),
+        };
+        let still = raster(spacing)?;
+        let watched = match setup.method {
+            Method::Integral(_) => raster(COARSER * spacing)?,
+            Method::Grid(_) => still,
         };
 
         let directory = output.directory(name)?;
-        let recorder = Recorder::create(&directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
+        let mut recorder = TrajectoryCsv::create(directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
+        // Widths and gaps are those between the surfaces where walls stop the fluid.
+        recorder.set_back(setup.set_back());
         let pictures = if output.no_pictures {
             None
         } else {
-            let concentration = swimmer.mean_concentration;
-            let look = Look { caption, concentration, walls: domain.walls, streamline_spacing: STREAMLINES };
-            Some((Film::new(look, &watched)?, VtkOutput::create(&directory.join("vtk"), watched, droplet)?))
+            let concentration = Some(particles.concentration);
+            let look = Look { caption, concentration, streamline_spacing: Some(STREAMLINES) };
+            Some((Film::new(look, watched), ParaView::create(directory.join("vtk"), watched)?))
         };
         Ok(Self {
             droplet,
-            swimmer: swimmer.clone(),
+            setup: setup.clone(),
+            particles: *particles,
+            area: scene.body(droplet)?.initial_area(),
             end,
             directory,
-            raster,
+            raster: still,
             start,
             recorder,
-            dial: Dial::new(end, output.quiet, droplet),
+            progress: RunProgress::new(end, output.quiet),
             pictures,
             cost: RunCost::default(),
-            gap: SolidGap::new(SOLID_OVERLAP * swimmer.spacing),
+            gap: SolidGap::new(SOLID_OVERLAP * spacing).with_set_back(setup.set_back()),
             checkpoints: output.checkpoints.clone(),
             description,
         })
-    }
-
-    /// The same where solids are meshed this far behind the surfaces where they stop the fluid (length): widths and
-    /// gaps are those between these surfaces.
-    #[must_use]
-    pub fn with_set_back(mut self, set_back: f64) -> Self {
-        self.gap = self.gap.with_set_back(set_back);
-        self.recorder.set_back(set_back);
-        self
     }
 
     /// Runs. What the scene has come to is recorded even where it breaks off.
@@ -157,11 +175,11 @@ impl WatchedRun {
     ) -> Result<Result<(), SceneError>> {
         let mut run = scene
             .run(self.end)
-            .step_size(self.swimmer.step)
+            .step_size(self.setup.step)
             .observe(Every::StepAfter(self.end / ROWS), &mut self.recorder)
             .observe(Every::Steps(1), &mut self.gap)
             .observe(Every::Steps(1), end)
-            .observe(Every::Steps(1), &mut self.dial);
+            .observe(Every::Steps(1), &mut self.progress);
         if let Some((film, vtk)) = &mut self.pictures {
             let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
             run =
@@ -175,7 +193,7 @@ impl WatchedRun {
         self.cost = RunCost {
             time: scene.time(),
             steps: scene.steps(),
-            seconds: self.dial.finish(),
+            seconds: self.progress.finish(),
             work: scene.system().hydrodynamics().work(),
             report: scene.step_report().clone(),
             stages: scene.integrator_work().stages,
@@ -188,7 +206,7 @@ impl WatchedRun {
 
     /// What was measured.
     #[must_use]
-    pub fn recorder(&self) -> &Recorder {
+    pub fn recorder(&self) -> &TrajectoryCsv {
         &self.recorder
     }
 
@@ -203,19 +221,19 @@ impl WatchedRun {
     /// # Errors
     /// A run that has not been.
     pub fn summary(&self) -> Result<Summary> {
-        let (first, last) = self.recorder.first().zip(self.recorder.last()).context("nothing was measured")?;
+        let (first, last) = self.records().first().zip(self.records().last()).context("nothing was measured")?;
         let speeds = self.recorder.table().curve("time", "speed")?;
-        let steadiness = Steadiness::of(&speeds, self.swimmer.diffusion / self.swimmer.radius.powi(2));
+        let steadiness = Steadiness::of(&speeds, self.particles.diffusion * std::f64::consts::PI / self.area);
         let mut summary = droplet_summary(
             &first.observables,
             &last.observables,
             &steadiness,
             &self.cost,
-            self.swimmer.mean_concentration,
+            self.particles.concentration,
         );
-        let method = match self.swimmer.method {
-            Method::BoundaryIntegral => "boundary-integral",
-            Method::ImmersedBoundary => "immersed-boundary",
+        let method = match self.setup.method {
+            Method::Integral(_) => "boundary-integral",
+            Method::Grid(_) => "immersed-boundary",
         };
         summary.put("method", method, "for the flow");
         if let Some(values) = self.recorder.last_solids() {
@@ -231,30 +249,39 @@ impl WatchedRun {
     /// # Errors
     /// Files that cannot be written.
     pub fn write_pictures<H: Hydrodynamics, I: Integrator>(&self, scene: &mut Scene<H, I>) -> Result<()> {
-        let (Some((film, _)), Some(last)) = (&self.pictures, self.recorder.last()) else { return Ok(()) };
+        let (Some((film, _)), Some(last)) = (&self.pictures, self.records().last()) else { return Ok(()) };
         let (directory, trajectory) = (&self.directory, self.recorder.table());
         time_series(trajectory)?.write(directory, "time_series")?;
         let body = scene.body(self.droplet)?;
         let frame = Frame::of_motion(last.observables.centroid, last.observables.velocity)?;
         let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
-        concentration_plot(&self.start, &profile, self.cost.time, self.swimmer.mean_concentration)?
+        concentration_plot(&self.start, &profile, self.cost.time, self.particles.concentration)
             .write(directory, "concentration_profile")?;
-        let times = trajectory.column("time")?;
-        let path: Vec<Vec2> = trajectory.curve("x", "y")?.into_iter().map(|(x, y)| Vec2::new(x, y)).collect();
+        let tracks = [self.recorder.track()];
         let seen = Snapshot::take(scene.system_mut(), self.raster)?;
-        film.look().write_picture(&seen, &path, &directory.join("final.png"))?;
-        let track: Vec<(f64, Vec2)> = times.into_iter().zip(path).collect();
-        film.write(&track, &directory.join("swim.gif"))
+        film.look().write_picture(&seen, &tracks, directory.join("final.png"))?;
+        Ok(film.write(&tracks, directory.join("swim.gif"))?)
+    }
+
+    fn records(&self) -> &[TrajectoryRecord] {
+        self.recorder.records().records()
     }
 }
 
-/// The parameters of a swimmer as they stand above a picture.
+/// The parameters of a scene's first droplet as they stand above a picture.
 #[must_use]
-pub fn caption(swimmer: &Swimmer) -> String {
-    let Swimmer { activity, excluded_volume, viscosity, .. } = swimmer;
-    let viscosities = match swimmer.viscosity_inside {
-        Some(inside) => format!("η = {inside} in {viscosity}"),
-        None => format!("η = {viscosity}"),
+pub fn caption(setup: &Setup) -> String {
+    let droplet = setup.droplets.first();
+    let viscosities = match droplet.and_then(|droplet| droplet.viscosity) {
+        Some(inside) => format!("η = {inside} in {}", setup.viscosity),
+        None => format!("η = {}", setup.viscosity),
     };
-    format!("ζΔμ = {activity},  A = {excluded_volume},  {viscosities}").replace('-', "−")
+    let particles = match droplet.and_then(|droplet| droplet.particles) {
+        Some(Particles { activity, excluded_volume: Exclusion::Step(strength), .. }) => {
+            format!("ζΔμ = {activity},  A = {strength},  ")
+        }
+        Some(Particles { activity, .. }) => format!("ζΔμ = {activity},  "),
+        None => String::new(),
+    };
+    format!("{particles}{viscosities}").replace('-', "−")
 }

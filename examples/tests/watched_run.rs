@@ -2,8 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use motile::Swimmer;
-use motile_examples::{OutputFlags, Summary, WatchedRun, caption};
+use clap::Parser;
+use motile::ib_core::StepSize;
+use motile::setup::{Built, GridMethod, Method, Region, Setup};
+use motile::stokes_grid::Drive;
+use motile_examples::{MethodFlags, OutputFlags, Summary, WatchedRun, caption};
+
+#[derive(Debug, Parser)]
+struct Flags {
+    #[command(flatten)]
+    method: MethodFlags,
+}
+
+/// The flags of a run to that time.
+fn method(time: &str) -> MethodFlags {
+    Flags::parse_from(["test", "--time", time]).method
+}
 
 fn directory(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("motile-{name}-{}", std::process::id()))
@@ -16,10 +30,13 @@ fn output(directory: &Path, no_pictures: bool) -> OutputFlags {
 #[test]
 fn a_run_in_a_channel_leaves_all_its_files() {
     let directory = directory("channel-run");
-    let swimmer = Swimmer { spacing: 0.25, lengths: [6.0, 3.0], ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build_in_channel(motile::stokes_grid::Drive::ZeroGradient).unwrap();
-    let (flags, title) = (output(&directory, false), caption(&swimmer));
-    let mut run = WatchedRun::new(&mut scene, droplet, &swimmer, 1.0, &flags, "", title).unwrap();
+    let region = Region::Channel { length: 6.0, width: 3.0, drive: Drive::ZeroGradient };
+    let setup = Setup { region, ..Setup::default() };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    let (mut flags, title) = (output(&directory, false), caption(&setup));
+    std::fs::create_dir_all(&directory).unwrap();
+    flags.write_scene = Some(directory.join("scene.toml"));
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &method("1"), &flags, "", title).unwrap();
     run.go(&mut scene).unwrap().unwrap();
     let summary = run.summary().unwrap();
     run.write_pictures(&mut scene).unwrap();
@@ -29,9 +46,11 @@ fn a_run_in_a_channel_leaves_all_its_files() {
     for file in files {
         assert!(directory.join(file).metadata().is_ok_and(|data| data.len() > 200), "{file}");
     }
+    let written = std::fs::read_to_string(directory.join("scene.toml")).unwrap();
+    assert_eq!(Setup::from_toml(&written).unwrap(), setup);
     let header = std::fs::read_to_string(directory.join("trajectory.csv")).unwrap();
     assert!(header.starts_with("time,x,y,") && header.lines().next().unwrap().contains(",gap,"));
-    assert_eq!(run.recorder().table().len(), run.recorder().records().len());
+    assert_eq!(run.recorder().table().rows().len(), run.recorder().records().len());
     assert_eq!(summary.number("time"), 1.0);
     assert!(summary.number("speed") > 0.05 && summary.number("area_relative_change").abs() < 1e-4);
     std::fs::remove_dir_all(&directory).unwrap();
@@ -41,12 +60,15 @@ fn a_run_in_a_channel_leaves_all_its_files() {
 fn a_run_that_breaks_off_keeps_what_it_has() {
     // A step that is stable at the start, but not when the particles have gathered.
     let directory = directory("broken-run");
-    let step = motile::ib_core::StepSize::Fixed(0.1);
-    let method = motile::Method::ImmersedBoundary;
-    let swimmer = Swimmer { method, spacing: 0.1, lengths: [4.0, 4.0], step, ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build().unwrap();
+    let setup = Setup {
+        region: Region::Box { lengths: [4.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        step: StepSize::Fixed(0.1),
+        ..Setup::default()
+    };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
     let flags = output(&directory, true);
-    let mut run = WatchedRun::new(&mut scene, droplet, &swimmer, 100.0, &flags, "", String::new()).unwrap();
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &method("100"), &flags, "", String::new()).unwrap();
     let error = run.go(&mut scene).unwrap().unwrap_err();
     let summary: Summary = run.summary().unwrap();
     let time = summary.number("time");
@@ -62,10 +84,10 @@ fn a_run_that_breaks_off_keeps_what_it_has() {
 #[test]
 fn an_unstable_step_is_refused_before_anything_is_written() {
     let directory = directory("refused-run");
-    let swimmer = Swimmer { spacing: 0.25, step: motile::ib_core::StepSize::Fixed(5.0), ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build().unwrap();
+    let setup = Setup { step: StepSize::Fixed(5.0), ..Setup::default() };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
     let flags = output(&directory, true);
-    let refused = WatchedRun::new(&mut scene, droplet, &swimmer, 10.0, &flags, "", String::new());
+    let refused = WatchedRun::new(&mut scene, &droplets, &setup, &method("10"), &flags, "", String::new());
     assert!(refused.unwrap_err().to_string().contains("time step 5"));
     assert!(!directory.exists());
 }

@@ -2,12 +2,11 @@
 //! works, never a panic, and never something that is made of a value that is not finite.
 
 use motile::active_interface::{
-    ActiveDroplet, ConstantTension, ContractileTension, Curve, InitialConcentration, NoExcludedVolume,
-    QuadraticExcludedVolume, StepExcludedVolume, Units,
+    ActiveDroplet, ConstantTension, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Units,
     observables::Frame,
     theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
-use motile::boundary_integral::{BoundaryIntegral, Channel, FreeSpace, PeriodicBox, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Forcing, Region, Settings};
 use motile::elastic_solids::{
     Mesher, Moduli, NeoHookean, Outline, Solid,
     channel::{Constriction, SinusoidalChannel, StraightChannel, Valve},
@@ -111,13 +110,18 @@ fn makers() -> Vec<Maker> {
         }),
         maker("ConstantTension", &[1.0], "0", |v| ConstantTension::new(v[0]).is_ok()),
         maker("ContractileTension", &[10.0, -1.0], "0-", |v| {
-            ContractileTension::new(v[0], v[1], NoExcludedVolume).is_ok()
+            ContractileTension::new(v[0], v[1], ExcludedVolume::None).is_ok()
         }),
         maker("ContractileTension::thesis", &[10.0, -1.0, 10.0, 100.0], "0-0+", |v| {
             ContractileTension::thesis(v[0], v[1], v[2], v[3]).is_ok()
         }),
-        maker("StepExcludedVolume", &[10.0, 200.0, 0.1], "0++", |v| StepExcludedVolume::new(v[0], v[1], v[2]).is_ok()),
-        maker("QuadraticExcludedVolume", &[0.1], "0", |v| QuadraticExcludedVolume::new(v[0]).is_ok()),
+        maker("ExcludedVolume::Step", &[10.0, 200.0, 0.1], "0++", |v| {
+            let excluded_volume = ExcludedVolume::Step { strength: v[0], threshold: v[1], steepness: v[2] };
+            ContractileTension::new(10.0, -1.0, excluded_volume).is_ok()
+        }),
+        maker("ExcludedVolume::Quadratic", &[0.1], "0", |v| {
+            ContractileTension::new(10.0, -1.0, ExcludedVolume::Quadratic { strength: v[0] }).is_ok()
+        }),
         maker("InitialConcentration::uniform", &[100.0], "0", |v| InitialConcentration::uniform(v[0]).is_ok()),
         maker("InitialConcentration::polarised", &[100.0, 0.3], "0-", |v| {
             InitialConcentration::polarised(v[0], v[1]).is_ok()
@@ -147,11 +151,17 @@ fn makers() -> Vec<Maker> {
             })
             .is_ok()
         }),
-        maker("PeriodicBox", &[4.0, 4.0], "++", |v| PeriodicBox::new(v[0], v[1]).is_ok()),
-        maker("Channel", &[4.0, 4.0], "++", |v| Channel::new(v[0], v[1]).is_ok()),
+        maker("Region::Box", &[4.0, 4.0], "++", |v| {
+            BoundaryIntegral::new(Region::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
+        }),
+        maker("Region::Channel", &[4.0, 4.0, 0.1], "++-", |v| {
+            let region = Region::Channel { length: v[0], width: v[1], forcing: Forcing::Flux(v[2]) };
+            BoundaryIntegral::new(region, 1.0, settings()).is_ok()
+        }),
         maker("BoundaryIntegral", &[1.0, 1e-8, 6.0], "+++", |v| {
-            let settings = Settings { tolerance: v[1], reference_perimeter: v[2], ..settings() };
-            BoundaryIntegral::new(FreeSpace, v[0], settings).is_ok()
+            let settings = Settings { tolerance: v[1], ..settings() };
+            let flow = BoundaryIntegral::new(Region::Plane, v[0], settings);
+            flow.and_then(|flow| flow.with_reference_perimeter(v[2])).is_ok()
         }),
         maker("Moduli", &[1.0, 2.0], "++", |v| Moduli::new(v[0], v[1]).is_ok()),
         maker("Moduli::of_springs", &[1.0], "+", |v| Moduli::of_springs(v[0]).is_ok()),

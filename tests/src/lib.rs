@@ -3,3 +3,14 @@
 
 pub mod hard_cases;
 pub mod validation;
+
+/// The programs of the documents, run as tests.
+#[cfg(doctest)]
+mod documents {
+    #[doc = include_str!("../../README.md")]
+    struct Readme;
+    #[doc = include_str!("../../docs/architecture.md")]
+    struct Architecture;
+    #[doc = include_str!("../../docs/guide.md")]
+    struct Guide;
+}

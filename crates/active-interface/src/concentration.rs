@@ -7,5 +7,6 @@ mod transport;
 
 pub use flux::Flux;
 pub use initial::InitialConcentration;
-pub use positivity::{Repair, repair_positivity};
-pub use transport::{Transport, cell_peclet};
+pub use positivity::Repair;
+pub(crate) use positivity::repair_positivity;
+pub(crate) use transport::{Transport, cell_peclet};

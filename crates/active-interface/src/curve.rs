@@ -13,7 +13,7 @@ use ib_core::Vec2;
 use nalgebra::Rotation2;
 
 use crate::InterfaceError;
-use crate::error::{all_finite, all_points_finite, enough, finite, positive};
+use crate::error::{all_finite, all_points_finite, enough, finite, not_negative, positive};
 pub use crossing::{CrossingFinder, first_crossing};
 use equidistant::equidistant;
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
@@ -212,6 +212,22 @@ impl Curve {
             })
             .collect();
         Self::build(Shape::Polygon { points: points.to_vec(), ends })
+    }
+
+    /// Two half circles about (-`straight`, 0) and (`straight`, 0) with this radius (length), joined by straight sides
+    /// of the length 2 `straight`, as a polygon of 720 corners on it.
+    ///
+    /// # Errors
+    /// A radius that is not positive, a negative length.
+    pub fn stadium(straight: f64, radius: f64) -> Result<Self, InterfaceError> {
+        const CORNERS: u32 = 720;
+        positive("the radius", radius)?;
+        not_negative("half the length of the straight sides", straight)?;
+        let corners: Vec<Vec2> = (0..CORNERS)
+            .map(|k| TAU * (f64::from(k) + 0.5) / f64::from(CORNERS))
+            .map(|angle| Vec2::new(radius * angle.cos() + straight * angle.cos().signum(), radius * angle.sin()))
+            .collect();
+        Self::polygon(&corners)
     }
 
     fn build(shape: Shape) -> Result<Self, InterfaceError> {

@@ -130,7 +130,7 @@ impl ActiveDroplet {
             not_negative("a particle number", number)?;
         }
         not_negative("the diffusion constant", diffusion)?;
-        let transport = Transport::new(markers.len().max(MINIMUM_MARKERS), Flux::Weno5)?;
+        let transport = Transport::new(markers.len().max(MINIMUM_MARKERS), Flux::Weno5);
         Self::build(markers, numbers, Arc::new(tension), diffusion, Some(transport))
     }
 
@@ -205,14 +205,10 @@ impl ActiveDroplet {
     }
 
     /// The same droplet with another flux of its particles.
-    ///
-    /// # Errors
-    /// None for a droplet that was made.
-    pub fn with_flux(mut self, flux: Flux) -> Result<Self, InterfaceError> {
-        if let Some(transport) = &self.transport {
-            self.transport = Some(Transport::new(transport.len(), flux)?);
-        }
-        Ok(self)
+    #[must_use]
+    pub fn with_flux(mut self, flux: Flux) -> Self {
+        self.transport = self.transport.map(|transport| Transport::new(transport.len(), flux));
+        self
     }
 
     /// The same droplet with its area put back to the initial one after each step, by an equal normal displacement of
@@ -323,12 +319,10 @@ impl ActiveDroplet {
     }
 
     /// The cell Peclet number `ds max|V_t - W| / D` of the last evaluation; 0 for a passive droplet.
-    ///
-    /// # Errors
-    /// None for a droplet that was made.
-    pub fn cell_peclet(&self) -> Result<f64, InterfaceError> {
+    #[must_use]
+    pub fn cell_peclet(&self) -> f64 {
         if self.transport.is_none() || self.diffusion == 0.0 {
-            return Ok(0.0);
+            return 0.0;
         }
         cell_peclet(&self.slip, &self.geometry.lengths, self.diffusion)
     }
@@ -337,9 +331,8 @@ impl ActiveDroplet {
     #[must_use]
     pub fn warnings(&self) -> Vec<DropletWarning> {
         let mut warnings: Vec<_> = self.tension.warning().map(DropletWarning::from).into_iter().collect();
-        if let Ok(peclet) = self.cell_peclet()
-            && peclet > PECLET_LIMIT
-        {
+        let peclet = self.cell_peclet();
+        if peclet > PECLET_LIMIT {
             let spacing = self.geometry.mean_length() * PECLET_LIMIT / peclet;
             warnings.push(DropletWarning::CellPeclet { peclet, spacing });
         }

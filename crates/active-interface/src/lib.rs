@@ -79,8 +79,5 @@ pub use curve::Curve;
 pub use droplet::{ActiveDroplet, DropletWarning, Motion};
 pub use error::InterfaceError;
 pub use observables::{Convention, Observables, observe};
-pub use tension::{
-    ConstantTension, ContractileTension, ExcludedVolume, NoExcludedVolume, QuadraticExcludedVolume, StepExcludedVolume,
-    Tension,
-};
+pub use tension::{ConstantTension, ContractileTension, ExcludedVolume, Tension};
 pub use units::Units;

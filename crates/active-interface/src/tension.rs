@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::InterfaceError;
 use crate::error::{finite, length, not_negative};
-pub use excluded_volume::{ExcludedVolume, NoExcludedVolume, QuadraticExcludedVolume, StepExcludedVolume};
+pub use excluded_volume::ExcludedVolume;
 
 /// A tension law: the tension gamma (force; a line tension in two dimensions) as a function of the concentration c
 /// (particles per length).
@@ -29,18 +29,6 @@ pub trait Tension: Debug + Send + Sync {
         length("tensions", concentrations.len(), tensions.len())?;
         for (tension, &c) in tensions.iter_mut().zip(concentrations) {
             *tension = self.value(c);
-        }
-        Ok(())
-    }
-
-    /// d gamma / d c at every concentration.
-    ///
-    /// # Errors
-    /// Slices of different length.
-    fn slopes(&self, concentrations: &[f64], slopes: &mut [f64]) -> Result<(), InterfaceError> {
-        length("slopes", concentrations.len(), slopes.len())?;
-        for (slope, &c) in slopes.iter_mut().zip(concentrations) {
-            *slope = self.slope(c);
         }
         Ok(())
     }
@@ -96,21 +84,30 @@ impl Tension for ConstantTension {
 ///
 /// The activity zeta_dmu is negative for particles that contract the interface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContractileTension<E> {
+pub struct ContractileTension {
     bare: f64,
     activity: f64,
-    excluded_volume: E,
+    excluded_volume: ExcludedVolume,
 }
 
-impl<E: ExcludedVolume> ContractileTension<E> {
+impl ContractileTension {
     /// Bare tension gamma0 >= 0 (force), activity zeta_dmu (force times length, of either sign) and excluded volume.
     ///
     /// # Errors
-    /// A negative bare tension, or values that are not finite.
-    pub fn new(bare: f64, activity: f64, excluded_volume: E) -> Result<Self, InterfaceError> {
+    /// A negative bare tension, an excluded volume out of its range, values that are not finite.
+    pub fn new(bare: f64, activity: f64, excluded_volume: ExcludedVolume) -> Result<Self, InterfaceError> {
         let bare = not_negative("the bare tension", bare)?;
+        excluded_volume.check()?;
         let activity = finite("the activity", activity)?;
         Ok(Self { bare, activity, excluded_volume })
+    }
+
+    /// The thesis' law: step-like excluded volume of strength A (force times length), threshold 2 c0 and steepness 20.
+    ///
+    /// # Errors
+    /// As [`ContractileTension::new`].
+    pub fn thesis(bare: f64, activity: f64, strength: f64, mean_concentration: f64) -> Result<Self, InterfaceError> {
+        Self::new(bare, activity, ExcludedVolume::thesis(strength, mean_concentration))
     }
 
     /// The bare tension gamma0 (force).
@@ -127,8 +124,8 @@ impl<E: ExcludedVolume> ContractileTension<E> {
 
     /// The excluded volume.
     #[must_use]
-    pub fn excluded_volume(&self) -> &E {
-        &self.excluded_volume
+    pub fn excluded_volume(&self) -> ExcludedVolume {
+        self.excluded_volume
     }
 
     /// The concentration at which the tension is largest (particles per length): below it particles draw each other
@@ -139,17 +136,7 @@ impl<E: ExcludedVolume> ContractileTension<E> {
     }
 }
 
-impl ContractileTension<StepExcludedVolume> {
-    /// The thesis' law: step-like excluded volume of strength A (force times length), threshold 2 c0 and steepness 20.
-    ///
-    /// # Errors
-    /// Values outside the ranges of [`ContractileTension::new`] and [`StepExcludedVolume::thesis`].
-    pub fn thesis(bare: f64, activity: f64, strength: f64, mean_concentration: f64) -> Result<Self, InterfaceError> {
-        Self::new(bare, activity, StepExcludedVolume::thesis(strength, mean_concentration)?)
-    }
-}
-
-impl<E: ExcludedVolume> Tension for ContractileTension<E> {
+impl Tension for ContractileTension {
     fn value(&self, c: f64) -> f64 {
         self.bare - self.activity * c - self.excluded_volume.pressure(c)
     }
@@ -163,27 +150,30 @@ impl<E: ExcludedVolume> Tension for ContractileTension<E> {
     }
 }
 
-impl<T: Tension + ?Sized> Tension for Arc<T> {
-    fn value(&self, c: f64) -> f64 {
-        (**self).value(c)
-    }
+/// A law that is shared, or chosen at run time, is a law.
+macro_rules! laws_behind_pointers {
+    ($($pointer:ident),*) => {$(
+        impl<T: Tension + ?Sized> Tension for $pointer<T> {
+            fn value(&self, c: f64) -> f64 {
+                (**self).value(c)
+            }
 
-    fn slope(&self, c: f64) -> f64 {
-        (**self).slope(c)
-    }
+            fn slope(&self, c: f64) -> f64 {
+                (**self).slope(c)
+            }
 
-    fn values(&self, concentrations: &[f64], tensions: &mut [f64]) -> Result<(), InterfaceError> {
-        (**self).values(concentrations, tensions)
-    }
+            fn values(&self, concentrations: &[f64], tensions: &mut [f64]) -> Result<(), InterfaceError> {
+                (**self).values(concentrations, tensions)
+            }
 
-    fn slopes(&self, concentrations: &[f64], slopes: &mut [f64]) -> Result<(), InterfaceError> {
-        (**self).slopes(concentrations, slopes)
-    }
-
-    fn warning(&self) -> Option<TensionWarning> {
-        (**self).warning()
-    }
+            fn warning(&self) -> Option<TensionWarning> {
+                (**self).warning()
+            }
+        }
+    )*};
 }
+
+laws_behind_pointers!(Arc, Box);
 
 #[cfg(test)]
 mod tests;

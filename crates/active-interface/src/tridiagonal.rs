@@ -3,7 +3,6 @@
 use std::ops::{Add, Mul};
 
 use crate::InterfaceError;
-use crate::error::{enough, length};
 
 /// Solves `lower[k] x[k-1] + diagonal[k] x[k] + upper[k] x[k+1] = rhs[k]`, indices modulo n, for coefficients that
 /// vary along the curve.
@@ -19,19 +18,15 @@ pub(crate) struct CyclicTridiagonal {
 
 impl CyclicTridiagonal {
     /// A plan for `n` unknowns, n >= 3.
-    ///
-    /// # Errors
-    /// Fewer than three unknowns.
-    pub(crate) fn new(n: usize) -> Result<Self, InterfaceError> {
-        enough("unknowns", n, 3)?;
-        Ok(Self { ratios: vec![0.0; n], correction: vec![0.0; n] })
+    pub(crate) fn new(n: usize) -> Self {
+        Self { ratios: vec![0.0; n], correction: vec![0.0; n] }
     }
 
     /// Replaces `x`, which holds the right-hand side, by the solution. `lower[0]` multiplies `x[n-1]`, `upper[n-1]`
     /// multiplies `x[0]`.
     ///
     /// # Errors
-    /// Slices whose length is not that of the plan, and a pivot that is zero or not finite.
+    /// A pivot that is zero or not finite.
     pub(crate) fn solve(
         &mut self,
         lower: &[f64],
@@ -40,11 +35,6 @@ impl CyclicTridiagonal {
         x: &mut [f64],
     ) -> Result<(), InterfaceError> {
         let n = self.ratios.len();
-        for (name, found) in
-            [("lower", lower.len()), ("diagonal", diagonal.len()), ("upper", upper.len()), ("x", x.len())]
-        {
-            length(name, n, found)?;
-        }
         // A = T + u v^T with u = (gamma, 0, ..., upper[n-1]) and v = (1, 0, ..., lower[0]/gamma).
         let gamma = -diagonal[0];
         let (first, last) = (diagonal[0] - gamma, diagonal[n - 1] - upper[n - 1] * lower[0] / gamma);

@@ -2,7 +2,7 @@
 
 #[cfg(test)]
 mod tests {
-    use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration, Motion, NoExcludedVolume};
+    use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion};
     use ib_core::{Body, CubicQuadratic, Hydrodynamics, ImmersedBoundary, Medium, Scene, Vec2};
     use proptest::prelude::*;
     use stokes_grid::{Grid, PeriodicStokes};
@@ -21,7 +21,7 @@ mod tests {
         let curve = Curve::ellipse(1.2, 0.9).unwrap().rotated(angle).translated(centre);
         let markers = curve.markers(96).unwrap();
         let numbers = InitialConcentration::polarised(1.0, angle).unwrap().particle_numbers(&markers).unwrap();
-        let law = ContractileTension::new(1.0, -0.5, NoExcludedVolume).unwrap();
+        let law = ContractileTension::new(1.0, -0.5, ExcludedVolume::None).unwrap();
         ActiveDroplet::new(&markers, numbers, law, 0.05).unwrap().with_motion(motion)
     }
 
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn wrong_droplets_are_refused() {
         let markers = Curve::circle(1.0).unwrap().markers(32).unwrap();
-        let law = || ContractileTension::new(1.0, -0.5, NoExcludedVolume).unwrap();
+        let law = || ContractileTension::new(1.0, -0.5, ExcludedVolume::None).unwrap();
         let numbers = vec![1.0; 32];
         assert!(ActiveDroplet::new(&markers, numbers.clone(), law(), 0.1).is_ok());
         assert!(ActiveDroplet::new(&markers[..7], vec![1.0; 7], law(), 0.1).is_err());

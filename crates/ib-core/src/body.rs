@@ -104,13 +104,11 @@ pub trait Body: Any + std::fmt::Debug + Send {
     /// The largest stable time steps of the explicit midpoint rule at the present state, one for each reason there is.
     fn step_limits(&self, medium: &Medium) -> StepLimits;
 
-    /// Adds the body's boundary, to which gaps are measured: by default the polygon of an interface, and nothing of
-    /// other bodies.
-    fn write_boundary(&self, boundary: &mut Boundary) {
-        if !matches!(self.kind(), MarkerKind::Points) {
-            let mut positions = vec![Vec2::zeros(); self.marker_count()];
-            self.write_markers(&mut positions);
-            boundary.push_loop(&positions);
+    /// Adds the body's boundary, to which gaps are measured, given where its markers are (length): by default the
+    /// polygon through those of an interface, and nothing of other bodies.
+    fn write_boundary(&self, markers: &[Vec2], boundary: &mut Boundary) {
+        if self.kind().is_interface() {
+            boundary.push_loop(markers);
         }
     }
 

@@ -98,7 +98,7 @@ impl Body for Points {
         Ok(())
     }
     /// Single points enclose nothing.
-    fn write_boundary(&self, _: &mut Boundary) {}
+    fn write_boundary(&self, _: &[Vec2], _: &mut Boundary) {}
     fn step_limits(&self, _: &Medium) -> StepLimits {
         StepLimits::none()
     }

@@ -259,7 +259,7 @@ impl ElasticChannel {
             Some((0.0, _)) => swimmer.droplet(),
             Some((straight, half)) => {
                 let [x, y] = swimmer.offset;
-                let curve = stadium(straight, half)?.translated(Vec2::new(x, y));
+                let curve = Curve::stadium(straight, half)?.translated(Vec2::new(x, y));
                 swimmer.droplet_with(&swimmer.markers_along(&curve)?)
             }
             None => {
@@ -270,13 +270,4 @@ impl ElasticChannel {
             }
         }
     }
-}
-
-/// The stadium around the points (-s, 0) and (s, 0) at the distance r.
-fn stadium(s: f64, r: f64) -> Result<Curve, SetupError> {
-    let points: Vec<Vec2> = (0..720)
-        .map(|k| std::f64::consts::TAU * (f64::from(k) + 0.5) / 720.0)
-        .map(|angle| Vec2::new(r * angle.cos() + s * angle.cos().signum(), r * angle.sin()))
-        .collect();
-    Ok(Curve::polygon(&points)?)
 }

@@ -1,8 +1,6 @@
 //! One active droplet in a box, from a few numbers.
 
-use active_interface::{
-    ActiveDroplet, ContractileTension, Curve, Flux, InitialConcentration, InterfaceError, Motion, StepExcludedVolume,
-};
+use active_interface::{ActiveDroplet, ContractileTension, Curve, Flux, InitialConcentration, InterfaceError, Motion};
 use ib_core::{AnyKernel, StepSize, Vec2};
 
 use crate::{ContrastMethod, Method, SetupError};
@@ -155,7 +153,7 @@ impl Swimmer {
     ///
     /// # Errors
     /// Parameters out of their range.
-    pub fn tension(&self) -> Result<ContractileTension<StepExcludedVolume>, SetupError> {
+    pub fn tension(&self) -> Result<ContractileTension, SetupError> {
         Ok(ContractileTension::thesis(self.bare_tension, self.activity, self.excluded_volume, self.mean_concentration)?)
     }
 
@@ -191,7 +189,7 @@ impl Swimmer {
         let numbers = self.numbers(&self.circle()?.markers(markers.len())?)?;
         let droplet = ActiveDroplet::new(markers, numbers, self.tension()?, self.diffusion)?
             .with_motion(self.motion)
-            .with_flux(self.flux)?
+            .with_flux(self.flux)
             .with_area_constraint(self.area_constraint);
         Ok(match self.viscosity_inside {
             Some(inside) => droplet.with_viscosity_inside(inside)?,

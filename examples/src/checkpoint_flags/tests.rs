@@ -1,15 +1,15 @@
 use super::*;
-use motile::Swimmer;
 use motile::ib_core::StepSize;
+use motile::setup::{GridMethod, Method, Setup};
 
 #[test]
 fn a_run_in_two_parts_is_a_whole_one() {
     let directory = std::env::temp_dir().join(format!("motile-flags-{}", std::process::id()));
     crate::make_directory(&directory).unwrap();
     let path = directory.join("state");
-    let swimmer = Swimmer { spacing: 0.25, ..Swimmer::default() };
+    let setup = Setup { method: Method::Grid(GridMethod::of_spacing(0.25)), ..Setup::default() };
     let flags = CheckpointFlags { checkpoint: Some(path.clone()), ..CheckpointFlags::default() };
-    let make = || swimmer.build_on_grid().unwrap().0;
+    let make = || setup.build().unwrap().scene;
     let mut first = make();
     let run = first.run(0.25).step_size(StepSize::Fixed(0.025));
     let outcome = flags.watch(run, "a droplet").unwrap().go();

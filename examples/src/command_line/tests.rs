@@ -1,10 +1,8 @@
 use super::*;
-use crate::{BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, MethodFlags, OutputFlags, Preset};
+use crate::{BoxFlags, ChannelFlags, DropletFlags, MethodFlags, OutputFlags, Preset};
 use clap::CommandFactory as _;
-use motile::{
-    Method,
-    ib_core::{AnyKernel, StepSize},
-};
+use motile::ib_core::{AnyKernel, StepSize};
+use motile::setup::{DropletSetup, Exclusion, GridMethod, Method, MethodKind, Region, Setup, Start};
 
 #[derive(Debug, Parser)]
 struct Flags {
@@ -29,43 +27,83 @@ fn parse(line: &str) -> Result<Flags, String> {
 fn all_flags_with_their_values() {
     let line = "--activity -4 --excluded-volume 8 --viscosity 10 --box 12 --spacing 0.1 --dt auto --time 250 \
                 --angle -30 --offset -0.03,0.01 --kernel gaussian6 --preset thesis --initial perturbed --seed 7 \
-                --no-pictures --out somewhere --width 2 --length 8 --lateral-offset -0.2 --drive zero-flux";
+                --no-pictures --out somewhere --width 2.4 --length 8 --lateral-offset -0.2 --drive zero-flux";
     let flags = parse(line).unwrap();
-    assert_eq!((flags.droplet.activity, flags.droplet.excluded_volume, flags.droplet.viscosity), (-4.0, 8.0, 10.0));
-    assert_eq!((flags.droplet.angle, flags.droplet.initial, flags.droplet.seed), (-30.0, Initial::Perturbed, 7));
-    assert_eq!((flags.region.side, flags.region.offset), (12.0, [-0.03, 0.01]));
-    assert_eq!((flags.method.spacing(), flags.method.time, flags.method.step()), (0.1, 250.0, StepSize::OfLimit(0.5)));
-    assert_eq!((flags.method.kernel, flags.method.preset), (Some(AnyKernel::Gaussian6), Preset::Thesis));
-    assert_eq!((flags.channel.lateral_offset, flags.channel.drive), (-0.2, Drive::ZeroFlux));
+    assert_eq!((flags.method.time, flags.method.preset), (250.0, Preset::Thesis));
     assert!(flags.output.no_pictures && flags.output.out.as_deref() == Some("somewhere".as_ref()));
+    let mut setup = setup(line).unwrap();
+    let Method::Grid(grid) = setup.method else { panic!("{setup:?}") };
+    assert_eq!((grid.spacing, grid.kernel, setup.step), (0.1, AnyKernel::Gaussian6, StepSize::OfLimit(0.5)));
+    assert_eq!((setup.viscosity, setup.region), (10.0, Region::Box { lengths: [12.0, 12.0] }));
+    let DropletSetup { centre, angle, particles: Some(particles), .. } = setup.droplets[0] else { panic!("{setup:?}") };
+    assert_eq!((centre, angle, particles.activity), ([-0.03, 0.01], f64::to_radians(-30.0), -4.0));
+    assert_eq!(particles.excluded_volume, Exclusion::Step(8.0));
+    assert_eq!(particles.start, Start::Perturbed { amplitude: 0.05, seed: 7 });
+    flags.channel.apply(&mut setup, &flags.method).unwrap();
+    assert_eq!(setup.region, Region::Channel { length: 8.0, width: 2.4, drive: motile::stokes_grid::Drive::ZeroFlux });
+    assert_eq!(setup.droplets[0].centre, [0.0, -0.2]);
+}
+
+/// The scene of a command line, in a box.
+fn setup(line: &str) -> Result<Setup, String> {
+    over(None, line)
+}
+
+/// The same over a scene file.
+fn over(file: Option<Setup>, line: &str) -> Result<Setup, String> {
+    let flags = parse(line).unwrap();
+    let setup = || {
+        let mut setup = flags.method.setup(&flags.droplet, file)?;
+        flags.region.apply(&mut setup, &flags.method)?;
+        Ok(setup)
+    };
+    setup().map_err(|error: anyhow::Error| error.to_string())
 }
 
 #[test]
 fn presets_set_what_is_not_said() {
-    let swimmer = |line: &str| {
-        let flags = parse(line).unwrap();
-        flags.droplet.swimmer(&flags.method)
+    assert_eq!(setup("--preset thesis").unwrap(), Setup::thesis());
+    assert_eq!(setup("").unwrap(), Setup::default());
+    let mixed = setup("--preset thesis --dt auto --kernel bspline5").unwrap();
+    let grid = GridMethod { kernel: AnyKernel::BSpline5, ..GridMethod::thesis() };
+    assert_eq!(mixed, Setup { method: Method::Grid(grid), step: StepSize::OfLimit(0.5), ..Setup::thesis() });
+    // An arithmetic contrast has no mobility correction.
+    let arithmetic = setup("--contrast-method arithmetic --viscosity-in 10").unwrap();
+    assert!(matches!(arithmetic.method, Method::Grid(GridMethod { corrected: false, .. })));
+    let equal = setup("--contrast-method arithmetic").unwrap();
+    assert!(matches!(equal.method, Method::Grid(GridMethod { corrected: true, .. })));
+}
+
+#[test]
+fn flags_override_a_scene_file_and_leave_the_rest() {
+    let file = Setup {
+        region: Region::Plane,
+        viscosity: 7.0,
+        step: StepSize::Fixed(1e-2),
+        droplets: vec![
+            DropletSetup { centre: [1.0, 2.0], viscosity: Some(3.0), ..DropletSetup::active(-5.0) },
+            DropletSetup { centre: [5.0, 2.0], ..DropletSetup::passive(3.0) },
+        ],
+        ..Setup::default()
     };
-    let thesis = swimmer("--preset thesis");
-    assert_eq!((thesis.step, thesis.kernel), (StepSize::Fixed(1e-3), AnyKernel::Peskin4));
-    assert!(!thesis.corrected && thesis.area_constraint);
-    let accurate = swimmer("");
-    assert_eq!((accurate.step, accurate.kernel), (StepSize::OfLimit(0.5), AnyKernel::BSpline4));
-    let mixed = swimmer("--preset thesis --dt auto --kernel bspline5");
-    assert_eq!((mixed.step, mixed.kernel), (StepSize::OfLimit(0.5), AnyKernel::BSpline5));
+    assert_eq!(over(Some(file.clone()), "").unwrap(), file);
+    let mut expected = file.clone();
+    expected.droplets[0] = DropletSetup { centre: [0.0, 0.5], ..DropletSetup::active(-1.0) };
+    expected.droplets[0].viscosity = Some(9.0);
+    expected.region = Region::Box { lengths: [20.0, 20.0] };
+    expected.method = Method::Grid(GridMethod::of_spacing(0.1));
+    let line = "--activity -1 --viscosity-in 9 --offset 0,0.5 --box 20 --spacing 0.1";
+    assert_eq!(over(Some(file), line).unwrap(), expected);
 }
 
 #[test]
 fn the_method_follows_from_the_flags() {
-    let method = |line: &str| {
-        let flags = parse(line).unwrap();
-        flags.region.check(&flags.method).map(|()| flags.method.method()).map_err(|e| e.to_string())
-    };
+    let method = |line: &str| setup(line).map(|setup| setup.method.kind());
     for line in ["", "--nodes 64", "--spacing 0.1 --method boundary-integral", "--nodes 64 --spacing 0.1"] {
-        assert_eq!(method(line), Ok(Method::BoundaryIntegral), "{line}");
+        assert_eq!(method(line), Ok(MethodKind::Integral), "{line}");
     }
     for line in ["--spacing 0.1", "--kernel roma3", "--preset thesis", "--contrast-method arithmetic"] {
-        assert_eq!(method(line), Ok(Method::ImmersedBoundary), "{line}");
+        assert_eq!(method(line), Ok(MethodKind::Grid), "{line}");
     }
     for line in [
         "--method immersed-boundary --nodes 64",
@@ -79,9 +117,8 @@ fn the_method_follows_from_the_flags() {
 #[test]
 fn viscosities_inside_and_outside() {
     let viscosities = |line: &str| {
-        let flags = parse(line).unwrap();
-        let swimmer = flags.droplet.swimmer(&flags.method);
-        (swimmer.viscosity_inside.unwrap_or(swimmer.viscosity), swimmer.viscosity)
+        let setup = setup(line).unwrap();
+        (setup.droplets[0].viscosity.unwrap_or(setup.viscosity), setup.viscosity)
     };
     assert_eq!(viscosities("--viscosity 7"), (7.0, 7.0));
     assert_eq!(viscosities("--viscosity-in 1000 --viscosity-out 10"), (1000.0, 10.0));
@@ -124,21 +161,13 @@ fn causes_are_told_once() {
 
 #[test]
 fn regions_that_do_not_fit_are_refused() {
-    let cells = |line: &str| {
-        let flags = parse(line).unwrap();
-        flags.region.check(&flags.method).map_err(|e| e.to_string())
-    };
-    let side = |line: &str| parse(line).unwrap().method.cells(6.0, "box").map_err(|e| e.to_string());
-    assert_eq!(side("--spacing 0.05"), Ok(120));
-    assert_eq!(side("--spacing 0.1"), Ok(60));
-    for line in ["--box 1.5", "--box 1e5", "--box 6 --spacing 1", "--box 6 --spacing 0.07", "--box 600 --spacing 0.01"]
-    {
-        assert!(cells(line).is_err(), "{line}");
+    for line in ["--box 1.5", "--box 1e5", "--spacing 1", "--box 6 --spacing 0.07", "--box 600 --spacing 0.01"] {
+        assert!(setup(line).is_err(), "{line}");
     }
-    assert!(cells("--time 1 --dt 2").is_err() && cells("--time 1e4 --dt 1e-9").is_err());
+    assert!(setup("--time 1 --dt 2").is_err() && setup("--time 1e4 --dt 1e-9").is_err());
     let channel = |line: &str| {
         let flags = parse(line).unwrap();
-        flags.channel.check(&flags.method).map_err(|e| e.to_string())
+        flags.channel.apply(&mut setup(line)?, &flags.method).map_err(|e| e.to_string())
     };
     assert_eq!(channel("--width 2 --length 12 --spacing 0.05"), Ok(()));
     assert!(channel("--width 1.9").is_err() && channel("--width 3 --lateral-offset 0.6").is_err());

@@ -12,9 +12,10 @@ struct Flags {
     method: MethodFlags,
 }
 
-fn channel(line: &str) -> Result<ElasticChannel> {
+fn channel(line: &str) -> Result<Setup> {
     let flags = Flags::try_parse_from(std::iter::once("test").chain(line.split_whitespace()))?;
-    flags.walls.channel(&flags.droplet, &flags.method, 0.0)
+    let shape = ChannelShape::Straight { width: flags.walls.width };
+    flags.walls.setup(&shape, &flags.droplet, &flags.method, 0.0, None)
 }
 
 #[test]

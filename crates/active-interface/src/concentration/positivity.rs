@@ -16,7 +16,7 @@ pub struct Repair {
 
 impl Repair {
     /// Adds another repair to this one, for a count over a run.
-    pub fn accumulate(&mut self, other: Self) {
+    pub(crate) fn accumulate(&mut self, other: Self) {
         self.segments += other.segments;
         self.moved += other.moved;
         self.furthest = self.furthest.max(other.furthest);
@@ -30,7 +30,7 @@ impl Repair {
 /// # Errors
 /// Numbers that are not finite, and a total that is negative, so that there is not enough to take from. The numbers are
 /// then as they were.
-pub fn repair_positivity(numbers: &mut [f64]) -> Result<Repair, InterfaceError> {
+pub(crate) fn repair_positivity(numbers: &mut [f64]) -> Result<Repair, InterfaceError> {
     let mut repair = Repair::default();
     if numbers.iter().all(|&number| number >= 0.0 && number.is_finite()) {
         return Ok(repair);

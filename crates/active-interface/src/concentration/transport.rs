@@ -1,7 +1,7 @@
 //! Particles carried along a closed curve by a flow and by diffusion.
 
 use super::flux::{Flux, weno5};
-use crate::error::{all_finite, all_positive, enough, length, not_negative};
+use crate::error::{all_finite, all_positive, not_negative};
 use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
 
 /// Conservative transport of particles along a closed curve of M segments.
@@ -20,7 +20,7 @@ use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
 /// All velocities, fluxes and diffusivities are lists of M values, one a marker; numbers and lengths are lists of M
 /// values, one a segment. Nothing is allocated after construction.
 #[derive(Debug, Clone)]
-pub struct Transport {
+pub(crate) struct Transport {
     flux: Flux,
     concentrations: Vec<f64>,
     fluxes: Vec<f64>,
@@ -30,61 +30,32 @@ pub struct Transport {
     solver: CyclicTridiagonal,
 }
 
-/// Fewest segments that a five-segment reconstruction makes sense on.
-const MINIMUM: usize = 6;
-
 /// What a number, length or velocity that is not finite shows up in.
 const FLUXES: &str = "the fluxes of particles";
 
 impl Transport {
-    /// A plan for `segments` segments.
-    ///
-    /// # Errors
-    /// Fewer than six segments.
-    pub fn new(segments: usize, flux: Flux) -> Result<Self, InterfaceError> {
-        enough("segments", segments, MINIMUM)?;
+    /// A plan for `segments` segments, at least as many as a reconstruction takes.
+    pub(crate) fn new(segments: usize, flux: Flux) -> Self {
         let zeros = || vec![0.0; segments];
-        Ok(Self {
+        Self {
             flux,
             concentrations: zeros(),
             fluxes: zeros(),
             lower: zeros(),
             diagonal: zeros(),
             upper: zeros(),
-            solver: CyclicTridiagonal::new(segments)?,
-        })
+            solver: CyclicTridiagonal::new(segments),
+        }
     }
 
     /// Number of segments.
-    #[must_use]
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.concentrations.len()
     }
 
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.concentrations.is_empty()
-    }
-
     /// The flux in use.
-    #[must_use]
-    pub fn flux(&self) -> Flux {
+    pub(crate) fn flux(&self) -> Flux {
         self.flux
-    }
-
-    fn check(&self, lists: [(&'static str, usize); 3]) -> Result<(), InterfaceError> {
-        lists.into_iter().try_for_each(|(name, found)| length(name, self.len(), found))
-    }
-
-    /// Writes the concentrations c_k = n_k / l_k (particles per length) of the segments.
-    ///
-    /// # Errors
-    /// Slices of the wrong length.
-    pub fn concentrations(&self, numbers: &[f64], lengths: &[f64], out: &mut [f64]) -> Result<(), InterfaceError> {
-        self.check([("numbers", numbers.len()), ("lengths", lengths.len()), ("concentrations", out.len())])?;
-        write_concentrations(numbers, lengths, out);
-        Ok(())
     }
 
     /// Adds the advective part of dn_k/dt to `rate` (particles per time), for the velocities V_t - W of the fluid
@@ -93,16 +64,14 @@ impl Transport {
     /// Face values are not allowed to be negative: where a reconstruction undershoots zero nothing flows.
     ///
     /// # Errors
-    /// Slices of the wrong length; fluxes that are not finite (`rate` is then as it was).
-    pub fn add_advection(
+    /// Fluxes that are not finite (`rate` is then as it was).
+    pub(crate) fn add_advection(
         &mut self,
         numbers: &[f64],
         lengths: &[f64],
         relative_velocities: &[f64],
         rate: &mut [f64],
     ) -> Result<(), InterfaceError> {
-        self.check([("numbers", numbers.len()), ("lengths", lengths.len()), ("rate", rate.len())])?;
-        length("relative_velocities", self.len(), relative_velocities.len())?;
         write_concentrations(numbers, lengths, &mut self.concentrations);
         let c = &self.concentrations;
         let m = c.len();
@@ -130,8 +99,8 @@ impl Transport {
     /// squared per time).
     ///
     /// # Errors
-    /// Slices of the wrong length; fluxes that are not finite (`out` is then as it was).
-    pub fn add_diffusion(
+    /// Fluxes that are not finite (`out` is then as it was).
+    pub(crate) fn add_diffusion(
         &mut self,
         lengths: &[f64],
         diffusivities: &[f64],
@@ -139,8 +108,6 @@ impl Transport {
         factor: f64,
         out: &mut [f64],
     ) -> Result<(), InterfaceError> {
-        self.check([("numbers", numbers.len()), ("lengths", lengths.len()), ("out", out.len())])?;
-        length("diffusivities", self.len(), diffusivities.len())?;
         write_concentrations(numbers, lengths, &mut self.concentrations);
         self.diffuse(lengths, diffusivities)?;
         add_flux_differences(&self.fluxes, factor, out);
@@ -154,16 +121,15 @@ impl Transport {
     /// so are all y, but for round-off.
     ///
     /// # Errors
-    /// Slices of the wrong length, lengths that are not positive, a negative factor, a singular system (negative
+    /// Lengths that are not positive, a negative factor, a singular system (negative
     /// diffusivities), fluxes that are not finite (`numbers` is then as it was).
-    pub fn solve_diffusion(
+    pub(crate) fn solve_diffusion(
         &mut self,
         lengths: &[f64],
         diffusivities: &[f64],
         factor: f64,
         numbers: &mut [f64],
     ) -> Result<(), InterfaceError> {
-        self.check([("numbers", numbers.len()), ("lengths", lengths.len()), ("diffusivities", diffusivities.len())])?;
         not_negative("the factor of the implicit diffusion", factor)?;
         all_positive("the segment lengths", lengths)?;
         let m = self.len();
@@ -228,18 +194,13 @@ fn after(k: usize, distance: usize, m: usize) -> usize {
 /// markers, segment lengths and the diffusivity D; infinite for D = 0 where anything moves.
 ///
 /// Above 0.5 the edge of the concentration is not resolved: use a smaller marker spacing.
-///
-/// # Errors
-/// Slices of different length, a negative diffusivity.
-pub fn cell_peclet(relative_velocities: &[f64], lengths: &[f64], diffusivity: f64) -> Result<f64, InterfaceError> {
-    length("lengths", relative_velocities.len(), lengths.len())?;
-    not_negative("the diffusivity", diffusivity)?;
+pub(crate) fn cell_peclet(relative_velocities: &[f64], lengths: &[f64], diffusivity: f64) -> f64 {
     let largest = relative_velocities
         .iter()
         .enumerate()
         .map(|(k, velocity)| velocity.abs() * spacing_at(lengths, k))
         .fold(0.0, f64::max);
-    Ok(if largest == 0.0 { 0.0 } else { largest / diffusivity })
+    if largest == 0.0 { 0.0 } else { largest / diffusivity }
 }
 
 #[cfg(test)]

@@ -28,7 +28,7 @@ impl PeriodicSpline {
         let lower: Vec<f64> = (0..m).map(|k| chords[before(k)] / 6.0).collect();
         let upper: Vec<f64> = chords.iter().map(|chord| chord / 6.0).collect();
         let diagonal: Vec<f64> = (0..m).map(|k| (chords[before(k)] + chords[k]) / 3.0).collect();
-        let mut plan = CyclicTridiagonal::new(m)?;
+        let mut plan = CyclicTridiagonal::new(m);
         let mut bends = vec![Vec2::zeros(); m];
         for axis in 0..2 {
             let slope = |k: usize| (points[(k + 1) % m][axis] - points[k][axis]) / chords[k];

@@ -146,3 +146,19 @@ proptest! {
         prop_assert!((polygon_area(&markers).unwrap() / curve.area() - 1.0).abs() < 1e-12);
     }
 }
+
+#[test]
+fn a_stadium_is_two_half_circles_and_straight_sides() {
+    for (straight, radius) in [(0.7, 0.4), (0.0, 2.0)] {
+        let curve = Curve::stadium(straight, radius).unwrap();
+        // The corners lie on the curve, at the angles that its half circles are divided into evenly.
+        let step = TAU / 720.0;
+        let area = 4.0 * straight * radius * (0.5 * step).cos() + 360.0 * radius * radius * step.sin();
+        let perimeter = 4.0 * straight + 1440.0 * radius * (0.5 * step).sin();
+        assert_relative_eq!(curve.area(), area, max_relative = 1e-13);
+        assert_relative_eq!(curve.perimeter(), perimeter, max_relative = 1e-13);
+        assert_relative_eq!(curve.area(), 4.0 * straight * radius + PI * radius * radius, max_relative = 2e-5);
+    }
+    assert!(Curve::stadium(-0.1, 1.0).is_err() && Curve::stadium(1.0, 0.0).is_err());
+    assert!(Curve::stadium(f64::INFINITY, 1.0).is_err());
+}

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
+use ib_core::{Body, BodyError, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
 
 use super::geometry::{equidistribute, outward, signed_area};
 use super::redistribution::redistribute;
@@ -125,10 +125,6 @@ impl Body for ActiveDroplet {
                 numbers.fill(f64::NAN);
             }
         }
-    }
-
-    fn write_boundary(&self, boundary: &mut Boundary) {
-        boundary.push_loop(&self.markers);
     }
 
     fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
@@ -301,7 +297,7 @@ impl ActiveDroplet {
         if let Some(transport) = &self.transport {
             self.numbers.resize(count, 0.0);
             if transport.len() != count {
-                self.transport = Some(Transport::new(count, transport.flux())?);
+                self.transport = Some(Transport::new(count, transport.flux()));
             }
         }
         if self.diffusivities.len() != count {

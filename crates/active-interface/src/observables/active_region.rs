@@ -2,7 +2,7 @@
 
 use ib_core::Vec2;
 
-use super::circle_fit::weighted_curvature;
+use super::circle_fit::fitted_curvature;
 use crate::InterfaceError;
 use crate::curve::polygon::edges;
 use crate::error::{all_finite, all_points_finite, all_positive, enough, length};
@@ -130,7 +130,7 @@ pub fn active_curvature(markers: &[Vec2], region: &ActiveRegion) -> Result<f64, 
     places.push(end);
     let n = places.len();
     let weights: Vec<f64> = (0..n).map(|i| 0.5 * (places[(i + 1).min(n - 1)] - places[i.max(1) - 1])).collect();
-    weighted_curvature(&points, &weights)
+    fitted_curvature(&points, &weights)
 }
 
 /// The point at an arc length, on the cubic through the two markers on either side.

@@ -7,7 +7,7 @@ use crate::InterfaceError;
 use crate::curve::polygon::cross;
 use crate::error::{all_points_finite, enough};
 
-/// Signed curvature (1/length) of the circle with the least sum of squared distances from the points of an open arc, in
+/// Signed curvature (1/length) of the circle with the least sum of squared distances, times `weights`, from the points of an open arc, in
 /// their order: positive where the arc turns to the left, as a convex interface in counter-clockwise order does,
 /// negative where it turns to the right, zero for points on a line.
 ///
@@ -16,12 +16,7 @@ use crate::error::{all_points_finite, enough};
 ///
 /// # Errors
 /// Fewer than three points, points that are not finite, points that determine no circle, no convergence.
-pub fn fitted_curvature(points: &[Vec2]) -> Result<f64, InterfaceError> {
-    weighted_curvature(points, &vec![1.0; points.len()])
-}
-
-/// [`fitted_curvature`] with weights of the squared distances.
-pub(crate) fn weighted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, InterfaceError> {
+pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, InterfaceError> {
     enough("points of an arc", points.len(), 3)?;
     all_points_finite("the points of the arc", points)?;
     let n = points.len();

@@ -103,11 +103,7 @@ pub(crate) fn raw_centroid_velocity(markers: &[Vec2], velocities: &[Vec2], momen
 /// across it (no dimension): that of the ellipse with the same moments. Exact for the polygon through the markers.
 ///
 /// # Errors
-/// Fewer than three markers, values that are not finite, no area, moments that no simple polygon has.
-pub fn aspect_ratio_from_moments(markers: &[Vec2], frame: &Frame) -> Result<f64, InterfaceError> {
-    aspect_ratio_of(&polygon_moments(markers)?, frame)
-}
-
+/// Moments that no simple polygon has.
 pub(crate) fn aspect_ratio_of(moments: &AreaMoments, frame: &Frame) -> Result<f64, InterfaceError> {
     let (c, s) = (frame.direction.x, frame.direction.y);
     let along = c * c * moments.xx + 2.0 * s * c * moments.xy + s * s * moments.yy;

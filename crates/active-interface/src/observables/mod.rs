@@ -13,10 +13,9 @@ mod squirmer;
 
 pub use active_region::{ActiveRegion, active_curvature, active_region};
 pub use channel_flow::{GapFlow, gap_flow, net_flux, pressure_drop};
-pub use circle_fit::fitted_curvature;
 pub use ellipse_fit::{EllipseFit, fit_ellipse};
 pub use fourier::{FourierModes, concentration_modes, shape_modes};
-pub use frame::{Frame, aspect_ratio_from_moments, centroid_velocity};
+pub use frame::{Frame, centroid_velocity};
 pub use moments::{Convention, ForceMoments, force_moments};
 pub use profile::{ConcentrationProfile, concentration_profile};
 pub use record::{InterfaceState, Observables, observe};

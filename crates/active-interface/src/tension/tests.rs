@@ -1,11 +1,10 @@
 use super::*;
-use crate::{NoExcludedVolume, QuadraticExcludedVolume};
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 
 #[test]
 fn linear_law_is_equation_2_38() {
-    let law = ContractileTension::new(10.0, -2.0, NoExcludedVolume).unwrap();
+    let law = ContractileTension::new(10.0, -2.0, ExcludedVolume::None).unwrap();
     assert_relative_eq!(law.value(100.0), 210.0);
     assert_relative_eq!(law.slope(100.0), 2.0);
     assert_eq!(ConstantTension::new(3.0).unwrap().value(7.0), 3.0);
@@ -17,7 +16,7 @@ fn tension_is_largest_on_the_plateau() {
     let c = law.plateau().unwrap();
     assert!(law.slope(c).abs() < 1e-10);
     assert!(law.value(c) > law.value(c - 5.0) && law.value(c) > law.value(c + 5.0));
-    let quadratic = ContractileTension::new(10.0, -4.0, QuadraticExcludedVolume::new(0.02).unwrap()).unwrap();
+    let quadratic = ContractileTension::new(10.0, -4.0, ExcludedVolume::Quadratic { strength: 0.02 }).unwrap();
     assert_relative_eq!(quadratic.plateau().unwrap(), 200.0);
 }
 
@@ -27,7 +26,7 @@ fn a_missing_plateau_is_reported() {
     assert_eq!(law(-9.9).warning(), None);
     assert_eq!(law(-10.0).warning(), Some(TensionWarning::NoPlateau { activity: -10.0 }));
     assert_eq!(law(1.0).warning(), None);
-    assert!(ContractileTension::new(10.0, -1.0, NoExcludedVolume).unwrap().warning().is_some());
+    assert!(ContractileTension::new(10.0, -1.0, ExcludedVolume::None).unwrap().warning().is_some());
     assert_eq!(ConstantTension::new(1.0).unwrap().warning(), None);
 }
 
@@ -37,11 +36,17 @@ fn slices_and_errors() {
     let mut out = [0.0; 3];
     law.values(&[0.0, 100.0, 300.0], &mut out).unwrap();
     assert_eq!(out[2], law.value(300.0));
-    law.slopes(&[0.0, 100.0, 300.0], &mut out).unwrap();
-    assert_eq!(out[1], law.slope(100.0));
+    let boxed: Box<dyn Tension> = Box::new(Arc::clone(&law));
+    assert_eq!((boxed.value(150.0), boxed.slope(150.0)), (law.value(150.0), law.slope(150.0)));
+    assert!(
+        Box::<dyn Tension>::from(Box::new(ContractileTension::thesis(1.0, -9.0, 3.0, 1.0).unwrap()))
+            .warning()
+            .is_some()
+    );
     assert!(law.values(&[0.0; 2], &mut out).is_err());
     assert!(ConstantTension::new(-1.0).is_err());
-    assert!(ContractileTension::new(1.0, f64::NAN, NoExcludedVolume).is_err());
+    assert!(ContractileTension::new(1.0, f64::NAN, ExcludedVolume::None).is_err());
+    assert!(ContractileTension::new(1.0, -1.0, ExcludedVolume::Quadratic { strength: -1.0 }).is_err());
 }
 
 proptest! {

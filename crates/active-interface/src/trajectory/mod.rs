@@ -3,7 +3,6 @@
 mod classify;
 mod extrema;
 mod linear_mode;
-mod linear_pair;
 mod quadrature;
 mod recorder;
 mod regime;
@@ -15,7 +14,6 @@ mod tendency;
 
 pub use extrema::{Extremum, extrema};
 pub use linear_mode::{LinearMode, fit_linear_mode};
-pub use linear_pair::{LinearPair, fit_linear_pair};
 pub use recorder::{TrajectoryRecord, TrajectoryRecorder};
 pub use regime::{Doubt, Evidence, Regime, RegimeCriteria, RegimeReport};
 pub use regression::Estimate;

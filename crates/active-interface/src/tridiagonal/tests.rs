@@ -8,11 +8,9 @@ fn apply(lower: &[f64], diagonal: &[f64], upper: &[f64], x: &[f64]) -> Vec<f64> 
 }
 
 #[test]
-fn sizes_and_singular_systems_are_refused() {
-    assert!(CyclicTridiagonal::new(2).is_err());
-    let mut plan = CyclicTridiagonal::new(4).unwrap();
+fn singular_systems_are_refused() {
+    let mut plan = CyclicTridiagonal::new(4);
     let mut x = [1.0, 2.0, 3.0, 4.0];
-    assert!(plan.solve(&[1.0; 3], &[4.0; 4], &[1.0; 4], &mut x).is_err());
     assert!(plan.solve(&[0.0; 4], &[0.0; 4], &[0.0; 4], &mut x).is_err());
     assert!(CirculantTridiagonal::new(2.0, -1.0).is_err());
     assert!(CirculantTridiagonal::new(f64::NAN, 0.0).is_err());
@@ -42,7 +40,7 @@ proptest! {
         let diagonal: Vec<f64> = seed[..n].iter().map(|s| s.0.abs() + s.1.abs() + s.2).collect();
         let rhs: Vec<f64> = seed[..n].iter().map(|s| s.3).collect();
         let mut x = rhs.clone();
-        CyclicTridiagonal::new(n).unwrap().solve(&lower, &diagonal, &upper, &mut x).unwrap();
+        CyclicTridiagonal::new(n).solve(&lower, &diagonal, &upper, &mut x).unwrap();
         for (found, wanted) in apply(&lower, &diagonal, &upper, &x).iter().zip(&rhs) {
             prop_assert!((found - wanted).abs() < 1e-10);
         }
@@ -54,7 +52,7 @@ proptest! {
         let mut fast = rhs[..n].to_vec();
         let mut general = fast.clone();
         CirculantTridiagonal::new(diagonal, off).unwrap().solve(&mut fast);
-        CyclicTridiagonal::new(n).unwrap().solve(&vec![off; n], &vec![diagonal; n], &vec![off; n], &mut general).unwrap();
+        CyclicTridiagonal::new(n).solve(&vec![off; n], &vec![diagonal; n], &vec![off; n], &mut general).unwrap();
         for (a, b) in fast.iter().zip(&general) {
             prop_assert!((a - b).abs() < 1e-10 * (1.0 + b.abs()));
         }

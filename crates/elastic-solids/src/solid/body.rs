@@ -84,7 +84,8 @@ impl Body for Solid {
         if self.may_invert { Ok(()) } else { Ok(self.check_inversion()?) }
     }
 
-    fn write_boundary(&self, boundary: &mut Boundary) {
+    /// Its whole surface, pinned points too.
+    fn write_boundary(&self, _markers: &[Vec2], boundary: &mut Boundary) {
         let period = self.mesh.period();
         for outline in self.mesh.boundary_loops() {
             let points = &outline.points;

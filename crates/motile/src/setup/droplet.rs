@@ -63,6 +63,14 @@ impl DropletSetup {
         Self { particles: Some(Particles { activity, ..Particles::default() }), ..Self::default() }
     }
 
+    /// The default droplet with this activity and this strength A of the step-like excluded volume (both force times
+    /// length).
+    #[must_use]
+    pub fn contractile(activity: f64, excluded_volume: f64) -> Self {
+        let excluded_volume = Exclusion::Step(excluded_volume);
+        Self { particles: Some(Particles { activity, excluded_volume, ..Particles::default() }), ..Self::default() }
+    }
+
     /// A droplet without particles, of constant tension (force).
     #[must_use]
     pub fn passive(tension: f64) -> Self {
@@ -239,7 +247,7 @@ impl DropletShape {
             &Self::Squeezed { radius, half_height, to } => {
                 let curve = match to {
                     Squeezed::Ellipse => Curve::ellipse(radius * radius / half_height, half_height)?,
-                    Squeezed::Stadium => stadium(straight(radius, half_height), half_height)?,
+                    Squeezed::Stadium => Curve::stadium(straight(radius, half_height), half_height)?,
                 };
                 (curve, false, Some(radius))
             }
@@ -256,13 +264,4 @@ impl DropletShape {
 /// Half the length of the straight sides of the stadium with ends of radius `half` (length) that has the area of a circle.
 fn straight(radius: f64, half: f64) -> f64 {
     0.25 * PI * (radius * radius - half * half) / half
-}
-
-/// The stadium around the points (-s, 0) and (s, 0) at the distance r.
-fn stadium(s: f64, r: f64) -> Result<Curve, InterfaceError> {
-    let points: Vec<Vec2> = (0..720)
-        .map(|k| std::f64::consts::TAU * (f64::from(k) + 0.5) / 720.0)
-        .map(|angle| Vec2::new(r * angle.cos() + s * angle.cos().signum(), r * angle.sin()))
-        .collect();
-    Curve::polygon(&points)
 }

@@ -25,7 +25,7 @@ fn quarter_turn(m: usize, flux: Flux, forward: bool) -> f64 {
     };
     let sign = if forward { 1.0 } else { -1.0 };
     let mut numbers: Vec<f64> = (0..m).map(|k| average(k, 0.0)).collect();
-    let mut transport = Transport::new(m, flux).unwrap();
+    let mut transport = Transport::new(m, flux);
     // The time error must stay below that of the fluxes: dt ~ h^(5/3).
     let steps = (0.25 * TAU / (0.4 * h.powf(5.0 / 3.0))).ceil() as usize;
     let dt = 0.25 * TAU / steps as f64;
@@ -53,7 +53,7 @@ fn a_plateau_turns_once_without_overshoot() {
     let h = TAU / m as f64;
     let start: Vec<f64> = (0..m).map(|k| if (50..110).contains(&k) { h } else { 0.0 }).collect();
     let mut numbers = start.clone();
-    let mut transport = Transport::new(m, Flux::Weno5).unwrap();
+    let mut transport = Transport::new(m, Flux::Weno5);
     let steps = 2 * m;
     let mut repaired = 0.0;
     for _ in 0..steps {
@@ -76,7 +76,7 @@ fn a_mode_decays_as_the_discrete_laplacian_says() {
     let mode = 3.0 * TAU / m as f64;
     let (diffusivity, factor) = (0.2, 1.7);
     let start: Vec<f64> = (0..m).map(|k| h * (1.0 + 0.3 * (mode * k as f64).cos())).collect();
-    let mut transport = Transport::new(m, Flux::Weno5).unwrap();
+    let mut transport = Transport::new(m, Flux::Weno5);
     let mut numbers = start.clone();
     transport.solve_diffusion(&vec![h; m], &vec![diffusivity; m], factor, &mut numbers).unwrap();
     let eigenvalue = -diffusivity * (2.0 * (0.5 * mode).sin() / h).powi(2);
@@ -91,17 +91,12 @@ fn a_mode_decays_as_the_discrete_laplacian_says() {
 
 #[test]
 fn peclet_number_and_errors() {
-    assert_eq!(cell_peclet(&[0.5, -2.0, 1.0], &[0.1; 3], 0.1).unwrap(), 2.0);
-    assert_eq!(cell_peclet(&[0.0; 3], &[0.1; 3], 0.0).unwrap(), 0.0);
-    assert!(cell_peclet(&[0.0; 3], &[0.1; 2], 0.0).is_err());
-    assert!(cell_peclet(&[0.0; 3], &[0.1; 3], -1.0).is_err());
-    assert!(Transport::new(5, Flux::Upwind).is_err());
-    let mut transport = Transport::new(8, Flux::Upwind).unwrap();
-    assert!(transport.add_advection(&[1.0; 8], &[1.0; 8], &[1.0; 8], &mut [0.0; 7]).is_err());
+    assert_eq!(cell_peclet(&[0.5, -2.0, 1.0], &[0.1; 3], 0.1), 2.0);
+    assert_eq!(cell_peclet(&[0.0; 3], &[0.1; 3], 0.0), 0.0);
+    let mut transport = Transport::new(8, Flux::Upwind);
     let mut rate = [0.5; 8];
     let nothing = transport.add_advection(&[f64::NAN; 8], &[1.0; 8], &[1.0; 8], &mut rate);
     assert!(matches!(nothing, Err(InterfaceError::EntryNotFinite { .. })) && rate == [0.5; 8]);
-    assert!(transport.add_diffusion(&[1.0; 8], &[1.0; 3], &[1.0; 8], 1.0, &mut [0.0; 8]).is_err());
     assert!(transport.solve_diffusion(&[0.0; 8], &[1.0; 8], 1.0, &mut [1.0; 8]).is_err());
     assert!(transport.solve_diffusion(&[1.0; 8], &[1.0; 8], -1.0, &mut [1.0; 8]).is_err());
 }
@@ -114,7 +109,7 @@ fn particles_are_kept_over_many_steps() {
     let diffusivities: Vec<f64> = (0..m).map(|k| 0.1 + 0.05 * (k as f64).cos()).collect();
     let mut numbers: Vec<f64> = (0..m).map(|k| 10.0 * (1.0 - (TAU * k as f64 / m as f64).cos())).collect();
     let total: f64 = numbers.iter().sum();
-    let mut transport = Transport::new(m, Flux::Weno5).unwrap();
+    let mut transport = Transport::new(m, Flux::Weno5);
     let mut rate = vec![0.0; m];
     for _ in 0..20_000 {
         rate.fill(0.0);
@@ -138,7 +133,7 @@ proptest! {
         let lengths: Vec<f64> = seed[..m].iter().map(|s| s.1).collect();
         let diffusivities: Vec<f64> = seed[..m].iter().map(|s| s.2).collect();
         let before = numbers.clone();
-        let mut transport = Transport::new(m, Flux::Weno5).unwrap();
+        let mut transport = Transport::new(m, Flux::Weno5);
         transport.solve_diffusion(&lengths, &diffusivities, factor, &mut numbers).unwrap();
         let mut residual = numbers.clone();
         transport.add_diffusion(&lengths, &diffusivities, &numbers, -factor, &mut residual).unwrap();

@@ -2,6 +2,10 @@ use super::*;
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 
+fn fitted_curvature(points: &[Vec2]) -> Result<f64, InterfaceError> {
+    super::fitted_curvature(points, &vec![1.0; points.len()])
+}
+
 fn arc(radius: f64, from: f64, to: f64, n: usize) -> Vec<Vec2> {
     (0..n)
         .map(|k| {

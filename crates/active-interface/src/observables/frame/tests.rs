@@ -7,7 +7,7 @@ fn aspect_ratio_of_an_ellipse() {
     let errors = [50, 100].map(|count| {
         let markers = Curve::ellipse(1.3, 1.0 / 1.3).unwrap().rotated(0.7).markers(count).unwrap();
         let along = Frame::new(Vec2::zeros(), 0.7).unwrap();
-        (aspect_ratio_from_moments(&markers, &along).unwrap() - 1.69).abs()
+        (aspect_ratio_of(&polygon_moments(&markers).unwrap(), &along).unwrap() - 1.69).abs()
     });
     assert!(errors[1] < 1e-3 && (errors[0] / errors[1]).log2() > 1.9, "{errors:?}");
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{ContractileTension, Curve, InitialConcentration, StepExcludedVolume, Tension, theory::SquirmerFlow};
+use crate::{ContractileTension, Curve, ExcludedVolume, InitialConcentration, Tension, theory::SquirmerFlow};
 use approx::assert_relative_eq;
 use std::collections::HashSet;
 
@@ -18,7 +18,7 @@ fn droplet(count: usize, heading: f64, forces: bool) -> (Vec<Vec2>, Vec<Vec2>, V
         })
         .collect();
     // gamma = 10 + c - Pi(c), as in the reference: A = 2, T = 2, a = 20, c0 = 100.
-    let law = ContractileTension::new(10.0, -1.0, StepExcludedVolume::thesis(2.0, 100.0).unwrap()).unwrap();
+    let law = ContractileTension::new(10.0, -1.0, ExcludedVolume::thesis(2.0, 100.0)).unwrap();
     let pull = |k: usize| {
         let chord = markers[(k + 1) % count] - markers[k];
         chord.normalize() * law.value(numbers[k] / chord.norm())

@@ -2,8 +2,12 @@ use super::*;
 use approx::assert_relative_eq;
 use proptest::prelude::*;
 
-fn thesis() -> StepExcludedVolume {
-    StepExcludedVolume::thesis(10.0, 100.0).unwrap()
+fn thesis() -> ExcludedVolume {
+    ExcludedVolume::thesis(10.0, 100.0)
+}
+
+fn step(strength: f64, threshold: f64, steepness: f64) -> ExcludedVolume {
+    ExcludedVolume::Step { strength, threshold, steepness }
 }
 
 #[test]
@@ -35,7 +39,7 @@ fn step_pressure_is_the_integral_of_the_slope() {
 
 #[test]
 fn nothing_overflows_far_above_the_threshold() {
-    let law = StepExcludedVolume::new(10.0, 200.0, 300.0).unwrap();
+    let law = step(10.0, 200.0, 300.0);
     assert_relative_eq!(law.pressure(1e9), 10.0 * (1e9 - 200.0), max_relative = 1e-14);
     assert_relative_eq!(law.slope(1e9), 10.0);
     assert_eq!(law.pressure(0.0), 0.0);
@@ -43,31 +47,32 @@ fn nothing_overflows_far_above_the_threshold() {
 
 #[test]
 fn plateau_is_where_the_slope_equals_the_pull() {
-    for law in [thesis(), StepExcludedVolume::new(8.0, 90.0, 300.0).unwrap()] {
+    for law in [thesis(), step(8.0, 90.0, 300.0)] {
         for pull in [0.5, 2.0, 4.0, 7.9] {
             let c = law.plateau(pull).unwrap();
             assert_relative_eq!(law.slope(c), pull, max_relative = 1e-11);
         }
         assert_eq!(law.plateau(10.0), None);
     }
-    assert_eq!(QuadraticExcludedVolume::new(0.02).unwrap().plateau(3.0), Some(150.0));
-    assert_eq!(NoExcludedVolume.plateau(1.0), None);
+    assert_eq!(ExcludedVolume::Quadratic { strength: 0.02 }.plateau(3.0), Some(150.0));
+    assert_eq!(ExcludedVolume::None.plateau(1.0), None);
 }
 
 #[test]
 fn bad_values_are_refused() {
-    assert!(StepExcludedVolume::new(-1.0, 200.0, 20.0).is_err());
-    assert!(StepExcludedVolume::new(1.0, 0.0, 20.0).is_err());
-    assert!(StepExcludedVolume::new(1.0, 200.0, f64::NAN).is_err());
-    assert!(StepExcludedVolume::new(1.0, 200.0, 301.0).is_err());
-    assert!(StepExcludedVolume::thesis(1.0, -100.0).is_err());
-    assert!(QuadraticExcludedVolume::new(f64::INFINITY).is_err());
+    assert!(thesis().check().is_ok() && ExcludedVolume::None.check().is_ok());
+    assert!(step(-1.0, 200.0, 20.0).check().is_err());
+    assert!(step(1.0, 0.0, 20.0).check().is_err());
+    assert!(step(1.0, 200.0, f64::NAN).check().is_err());
+    assert!(step(1.0, 200.0, 301.0).check().is_err());
+    assert!(ExcludedVolume::thesis(1.0, -100.0).check().is_err());
+    assert!(ExcludedVolume::Quadratic { strength: f64::INFINITY }.check().is_err());
 }
 
 proptest! {
     #[test]
     fn pressure_and_slope_agree(c in 0.0..3000.0f64, a in 1.0..60.0f64, strength in 0.0..50.0f64) {
-        let law = StepExcludedVolume::new(strength, 200.0, a).unwrap();
+        let law = step(strength, 200.0, a);
         let step = 1e-3;
         let difference = (law.pressure(c + step) - law.pressure(c - step)) / (2.0 * step);
         prop_assert!((difference - law.slope(c)).abs() < 1e-6 * (1.0 + strength));
