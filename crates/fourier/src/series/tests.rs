@@ -34,9 +34,9 @@ fn operators_do_to_waves_what_they_say() {
 
             series.differentiate();
             let slope = |alpha: f64| [-wave * (wave * alpha + 0.7).sin(), 2.0 * wave * (wave * alpha).cos()];
-            assert_is(&mut series, 1e-12, slope);
+            assert_is(&mut series, 1e-11, slope);
             series.shift(0.3);
-            assert_is(&mut series, 1e-12, |alpha| slope(alpha + 0.3));
+            assert_is(&mut series, 1e-11, |alpha| slope(alpha + 0.3));
 
             series.analyse_vectors(&vectors).unwrap();
             series.scale(|m| PI / m.max(1) as f64);
