@@ -44,7 +44,6 @@
 //! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
 //! docs/method.md in the repository.
 
-mod band_limit;
 mod body;
 mod checkpoint;
 mod contrast;
@@ -58,7 +57,6 @@ mod mobility;
 mod scene;
 mod transfer;
 
-pub use band_limit::BandLimit;
 pub use body::{Body, MarkerBody, Observe, StepCause, StepInfo, StepLimit, StepLimits};
 pub use checkpoint::{Checkpoint, CheckpointError, ForeignState, SavedState};
 pub use error::{BodyError, FlowError, SceneError};

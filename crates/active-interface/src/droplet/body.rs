@@ -106,7 +106,8 @@ impl Body for ActiveDroplet {
             }
         }
         if let Some(band) = self.band.as_mut() {
-            band.apply(&mut self.motions);
+            // As long as the droplet since `fit`.
+            let _ = band.apply(&mut self.motions);
         }
         let (positions, numbers) = rate.split_at_mut(2 * count);
         for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {
