@@ -180,8 +180,12 @@ fn a_file_that_is_not_whole_is_refused() {
     let longer = [bytes.as_slice(), &[0]].concat();
     assert!(matches!(Checkpoint::from_bytes(&longer), Err(CheckpointError::Length { .. })));
     let mut later = bytes.clone();
-    later[8] = 2;
-    assert!(matches!(Checkpoint::from_bytes(&later), Err(CheckpointError::Version { found: 2, supported: 1 })));
+    for version in [1, 3] {
+        later[8] = version;
+        let error = Checkpoint::from_bytes(&later).expect_err("another version");
+        let expected = u32::from(version);
+        assert!(matches!(error, CheckpointError::Version { found, supported: 2 } if found == expected), "{error}");
+    }
     assert!(matches!(Checkpoint::from_bytes(b"some other file"), Err(CheckpointError::Foreign)));
 }
 
@@ -202,9 +206,46 @@ fn a_checkpoint_of_another_scene_is_refused_and_changes_nothing() {
     others.push(other.checkpoint(""));
     for other in others {
         let error = scene.resume(&other).expect_err("another scene");
-        assert!(matches!(error, SceneError::ForeignCheckpoint { .. } | SceneError::Body { .. }), "{error}");
+        let refused = matches!(error, SceneError::ForeignCheckpoint { .. } | SceneError::OtherProperty { .. });
+        assert!(refused, "{error}");
         assert!(bits(&scene) == before);
     }
+}
+
+/// What differs is named with both values, whatever it is.
+#[test]
+fn a_checkpoint_of_other_physics_is_refused_by_name() {
+    let good = Swimmer { viscosity_inside: Some(20.0), ..coarse() };
+    let saved = built(good.build()).checkpoint("");
+    let others = [
+        ("the tension at a concentration", Swimmer { activity: -2.0, ..good.clone() }),
+        ("the tension at a concentration", Swimmer { excluded_volume: 2.0 * good.excluded_volume, ..good.clone() }),
+        ("the tension at a concentration", Swimmer { bare_tension: 7.0, ..good.clone() }),
+        ("the diffusion constant is 0.1 in it and 0.2 here", Swimmer { diffusion: 0.2, ..good.clone() }),
+        ("the exterior viscosity is 100 in it and 50 here", Swimmer { viscosity: 50.0, ..good.clone() }),
+        ("the viscosity inside is 20 in it and 30 here", Swimmer { viscosity_inside: Some(30.0), ..good.clone() }),
+        ("the viscosity inside is 20 in it and not given here", Swimmer { viscosity_inside: None, ..good.clone() }),
+        ("the number of markers is", Swimmer { marker_spacing: Some(0.1), ..good.clone() }),
+    ];
+    for (expected, other) in others {
+        let error = built(other.build()).resume(&saved).expect_err(expected);
+        assert!(matches!(error, SceneError::OtherProperty { .. }), "{error}");
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    let channel = |modulus: f64, width: f64| {
+        let swimmer = Swimmer { lengths: [4.0, width], ..coarse() };
+        ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(modulus).expect("moduli"))
+            .build()
+            .expect("a scene")
+            .0
+    };
+    let saved = channel(1e4, 2.4).checkpoint("");
+    let error = channel(2e4, 2.4).resume(&saved).expect_err("softer walls");
+    assert!(error.to_string().contains("the energy of a shear"), "{error}");
+    // Another grid for the same bodies is no obstacle.
+    let finer = Swimmer { spacing: 0.15, marker_spacing: Some(0.1), ..coarse() };
+    let saved = built(Swimmer { spacing: 0.2, ..finer.clone() }.build()).checkpoint("");
+    built(finer.build()).resume(&saved).expect("the same bodies");
 }
 
 /// Every kind of scene in every other: refused, or taken, and what is refused changes nothing.
@@ -241,11 +282,11 @@ fn every_scene_in_every_other() {
 }
 
 #[test]
-fn another_integrator_or_viscosity_goes_on_from_the_state() {
+fn another_integrator_goes_on_from_the_state() {
     let mut scene = built(coarse().build());
     scene.run(1.0).go().expect("a run");
     let saved = scene.checkpoint("");
-    let mut other = built(Swimmer { viscosity: 50.0, ..coarse() }.build()).advanced_by(RungeKuttaChebyshev::new());
+    let mut other = built(coarse().build()).advanced_by(RungeKuttaChebyshev::new());
     other.resume(&saved).expect("the same bodies");
     assert_eq!((other.time(), other.steps()), (1.0, scene.steps()));
     other.run(1.5).go().expect("a run");
@@ -287,7 +328,11 @@ fn a_run_saves_checkpoints_and_stops_when_told() {
     let error = scene.run(4.0).save(1, &nowhere, "").go().expect_err("no such directory");
     assert!(matches!(error, SceneError::Checkpoint { .. }), "{error}");
     assert!(error.explanation().contains("missing"), "{}", error.explanation());
-    assert!(matches!(Checkpoint::read(&nowhere), Err(CheckpointError::File { .. })));
+    let error = Checkpoint::read(&nowhere).expect_err("no file");
+    assert!(matches!(error, CheckpointError::Missing { .. }), "{error}");
+    assert_eq!(error.to_string(), format!("there is no checkpoint at {}", nowhere.display()));
+    let error = Checkpoint::read(&directory.0).expect_err("no file");
+    assert!(matches!(error, CheckpointError::Directory { .. }), "{error}");
     // What is not a file stays what it is.
     assert!(matches!(scene.checkpoint("").write(&directory.0), Err(CheckpointError::File { .. })));
     assert!(directory.0.is_dir());
