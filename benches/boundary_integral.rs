@@ -6,9 +6,7 @@
 
 use std::{cell::Cell, f64::consts::TAU, hint::black_box, rc::Rc, time::Instant};
 
-use motile::boundary_integral::{
-    BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, PeriodicCalculus, Settings, TensionPlacement,
-};
+use motile::boundary_integral::{BoundaryIntegral, Forcing, PeriodicCalculus, Region, Settings, TensionPlacement};
 use motile::ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 use motile_timing::PlainPair;
 
@@ -31,7 +29,7 @@ fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Mark
         }
         let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
         let (positions, forces) = (&markers.positions[range.clone()], &mut markers.forces[range]);
-        calculus.tension_forces(positions, &tension, TensionPlacement::Markers, forces).expect("a valid scene");
+        calculus.tension_forces(positions, &tension, TensionPlacement::Points, forces).expect("a valid scene");
     }
     markers
 }
@@ -63,9 +61,9 @@ impl Row {
     }
 }
 
-fn evaluation<D: FluidDomain + 'static>(name: &str, domain: D, nodes: usize, ratio: f64, droplets: usize) -> Row {
+fn evaluation(name: &str, region: Region, nodes: usize, ratio: f64, droplets: usize) -> Row {
     let settings = Settings { nodes, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
     let inside = if ratio == 1.0 { None } else { Some(ratio) };
     let mut markers = markers(nodes, inside, droplets);
     let (positions, forces) = (markers.positions.clone(), markers.forces.clone());
@@ -91,8 +89,8 @@ fn evaluation<D: FluidDomain + 'static>(name: &str, domain: D, nodes: usize, rat
 }
 
 /// A thousand samples on a square that holds the droplet.
-fn samples<D: FluidDomain + 'static>(name: &str, domain: D) -> Row {
-    let mut solver = BoundaryIntegral::new(domain, 1.0, Settings::default()).expect("a valid scene");
+fn samples(name: &str, region: Region) -> Row {
+    let mut solver = BoundaryIntegral::new(region, 1.0, Settings::default()).expect("a valid scene");
     let mut markers = markers(64, Some(100.0), 1);
     solver.velocities(&mut markers).expect("a valid scene");
     let points: Vec<Vec2> =
@@ -110,22 +108,22 @@ fn transform_pair(n: usize) -> Row {
 }
 
 fn main() {
-    let square = |side| PeriodicBox::new(side, side).expect("a valid scene");
-    let channel = || Channel::new(12.0, 3.0).expect("a valid scene");
+    let square = |side| Region::Box { lengths: [side, side] };
+    let channel = || Region::Channel { length: 12.0, width: 3.0, forcing: Forcing::default() };
     let mut rows = vec![transform_pair(120), transform_pair(240)];
     for nodes in [64, 128, 256] {
         for ratio in [1.0, 100.0] {
-            rows.push(evaluation("free space", FreeSpace, nodes, ratio, 1));
+            rows.push(evaluation("free space", Region::Plane, nodes, ratio, 1));
             rows.push(evaluation("box 6", square(6.0), nodes, ratio, 1));
             rows.push(evaluation("channel 12 x 3", channel(), nodes, ratio, 1));
         }
     }
     for ratio in [1.0, 100.0] {
-        rows.push(evaluation("free space", FreeSpace, 64, ratio, 10));
+        rows.push(evaluation("free space", Region::Plane, 64, ratio, 10));
         rows.push(evaluation("box 10.4", square(10.4), 64, ratio, 10));
     }
     rows.extend([
-        samples("free space", FreeSpace),
+        samples("free space", Region::Plane),
         samples("box 6", square(6.0)),
         samples("channel 12 x 3", channel()),
     ]);

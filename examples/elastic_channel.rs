@@ -53,7 +53,7 @@ fn swim(flags: &Flags) -> Result<()> {
     let Evidence { amplitude, .. } = report.evidence;
     summary.put("regime", report.regime.to_string(), "across the channel");
     summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
-    if let Some(last) = run.recorder().last() {
+    if let Some(last) = run.recorder().records().records().last() {
         summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
     }
     summary.write(&run.directory().join("summary.json"))?;

@@ -10,8 +10,8 @@ use anyhow::Result;
 use clap::Args;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{AnyKernel, Body, Hydrodynamics, Transfer, Vec2};
-use motile::stokes_grid::{ChannelStokes, Grid, StaggeredField, StokesSolver};
-use motile::{ElasticChannel, Swimmer};
+use motile::setup::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
+use motile::stokes_grid::{ChannelStokes, Drive, Grid, StaggeredField, StokesSolver};
 use motile_examples::{positive, say};
 
 /// Times the parts of a step between elastic walls.
@@ -29,17 +29,21 @@ pub(crate) struct Flags {
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let swimmer = Swimmer { activity: -4.0, lengths: [12.0, 2.0], spacing: flags.spacing, ..Swimmer::default() };
-    let channel = ElasticChannel {
-        mesh_spacing: flags.mesh_spacing,
-        ..ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e5)?)
+    let [lx, height] = [12.0, 5.0];
+    let shear = Moduli::from_thesis_spring_constant(1e5)?.shear();
+    let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear });
+    let setup = Setup {
+        region: Region::Channel { length: lx, width: height, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(flags.spacing)),
+        droplets: vec![DropletSetup::active(-4.0)],
+        solids: walls.into_iter().map(|wall| SolidSetup { mesh_spacing: flags.mesh_spacing, ..wall }).collect(),
+        ..Setup::default()
     };
-    let (mut scene, _, walls) = channel.build()?;
+    let Built { mut scene, solids: walls, .. } = setup.build()?;
     (0..10).try_for_each(|_| scene.step(0.01))?;
     let medium = scene.system().hydrodynamics().medium();
     let markers = scene.system_mut().evaluate()?.clone();
 
-    let [lx, height] = [12.0, 2.0 + 2.0 * channel.thickness];
     let cells = [lx, height].map(|length| (length / flags.spacing).round() as usize);
     let grid = Grid::channel(cells[0], cells[1], flags.spacing)?;
     let mut solver = ChannelStokes::new(grid, medium.viscosity)?;

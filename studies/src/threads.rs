@@ -9,7 +9,8 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{Hydrodynamics, Scene};
-use motile::{ElasticChannel, Method, Swimmer};
+use motile::setup::{ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
+use motile::stokes_grid::Drive;
 use motile_examples::say;
 
 /// Compares one thread with several.
@@ -32,18 +33,23 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         "motile runs on one thread here: cargo run --release -p studies --features rayon -- threads"
     );
     let (cells, spacing) = if flags.quick { (900.0, 0.04) } else { (1024.0, 0.025) };
-    let boxed = Swimmer {
-        activity: -3.0,
-        lengths: [4.0, 4.0],
-        spacing: 4.0 / cells,
-        method: Method::ImmersedBoundary,
-        ..Swimmer::default()
+    let boxed = Setup {
+        region: Region::Box { lengths: [4.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(4.0 / cells)),
+        droplets: vec![DropletSetup::active(-3.0)],
+        ..Setup::default()
     };
     let title = format!("a box of {cells} x {cells} cells");
-    turns(flags, &title, || Ok(boxed.build_on_grid()?.0))?;
-    let swimmer = Swimmer { activity: -4.0, lengths: [12.0, 2.0], spacing, ..Swimmer::default() };
-    let channel = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e5)?);
-    turns(flags, "elastic walls", || Ok(channel.build()?.0))
+    turns(flags, &title, || Ok(boxed.build()?.scene))?;
+    let shear = Moduli::from_thesis_spring_constant(1e5)?.shear();
+    let elastic = Setup {
+        region: Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(spacing)),
+        droplets: vec![DropletSetup::active(-4.0)],
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear }),
+        ..Setup::default()
+    };
+    turns(flags, "elastic walls", || Ok(elastic.build()?.scene))
 }
 
 /// Steps two equal scenes by turns, one on one thread.

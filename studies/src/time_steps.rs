@@ -16,7 +16,11 @@ use motile::elastic_solids::Moduli;
 use motile::ib_core::{
     Checkpoint, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2,
 };
-use motile::{AnyFlow, ElasticChannel, Method, Swimmer, WallSurface};
+use motile::setup::{
+    AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup,
+    SolidSetup, Surface,
+};
+use motile::stokes_grid::Drive;
 use motile_examples::{make_directory, positive, say};
 
 /// Which table.
@@ -79,13 +83,21 @@ type Channel<I> = Scene<AnyFlow, I>;
 
 /// The thesis' stiffest walls: k = 1e6, viscosity 10, width 2, with a droplet of this activity between them.
 fn channel<I: Integrator>(integrator: I, activity: f64) -> Result<(Channel<I>, Handle<ActiveDroplet>)> {
-    let swimmer = Swimmer { activity, viscosity: 10.0, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };
-    let moduli = Moduli::from_thesis_spring_constant(1e6)?;
+    let shear = Moduli::from_thesis_spring_constant(1e6)?.shear();
+    let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear });
     // The grid does not resolve the edge of the active region here. Between corrected surfaces there are then two
     // states, and which one a run finds says nothing about the error of its steps.
-    let surface = WallSurface::SetBack;
-    let (scene, droplet, _) = ElasticChannel { surface, ..ElasticChannel::new(swimmer, moduli) }.build()?;
-    Ok((scene.advanced_by(integrator), droplet))
+    let surface = Surface::SetBack;
+    let setup = Setup {
+        region: Region::Channel { length: 6.0, width: 5.0, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        viscosity: 10.0,
+        droplets: vec![DropletSetup::active(activity)],
+        solids: walls.into_iter().map(|wall| SolidSetup { surface, ..wall }).collect(),
+        ..Setup::default()
+    };
+    let Built { scene, droplets, .. } = setup.build()?;
+    Ok((scene.advanced_by(integrator), droplets[0]))
 }
 
 /// What a run came to and what it cost.
@@ -206,9 +218,9 @@ fn limits(report: &mut String) -> Result<()> {
 }
 
 /// A swimmer's scene, its particles coupled with the stabiliser or without.
-fn free(swimmer: &Swimmer, stabilised: bool) -> Result<Scene<AnyFlow>> {
-    let mut scene = swimmer.empty_box()?;
-    scene.add(swimmer.droplet_for_method()?.with_stabiliser(stabilised));
+fn free(setup: &Setup, stabilised: bool) -> Result<Scene<AnyFlow>> {
+    let mut scene = Scene::new(setup.flow()?).with_step_size(setup.step);
+    scene.add(setup.droplet(&setup.droplets[0])?.with_stabiliser(stabilised));
     Ok(scene)
 }
 
@@ -253,10 +265,12 @@ fn coupling(report: &mut String) -> Result<()> {
         "\nLargest step that keeps the speed of a steady swimmer (viscosity 100, h = 0.1 or 48 nodes; 150 steps, to 1 %), over the predicted one:\n\n\
          | activity | flow | steps | predicted | set by | largest/predicted |\n|---|---|---|---|---|---|",
     )?;
-    for (flow, method) in [("grid", Method::ImmersedBoundary), ("integrals", Method::BoundaryIntegral)] {
+    for (flow, method) in [
+        ("grid", Method::Grid(GridMethod::of_spacing(0.1))),
+        ("integrals", Method::Integral(IntegralMethod { nodes: 48, cells: 192 })),
+    ] {
         for activity in [-2.0, -4.0] {
-            let base =
-                Swimmer { activity, spacing: 0.1, method, nodes: 48, concentration_cells: 192, ..Swimmer::default() };
+            let base = Setup { method, droplets: vec![DropletSetup::active(activity)], ..Setup::default() };
             let mut scene = free(&base, true)?;
             scene.run(30.0).go()?;
             let steady = scene.checkpoint("");
@@ -276,8 +290,9 @@ fn coupling(report: &mut String) -> Result<()> {
 
 fn transient(report: &mut String) -> Result<()> {
     let until = 10.0;
-    let swimmer = Swimmer { activity: -4.0, spacing: 0.1, method: Method::ImmersedBoundary, ..Swimmer::default() };
-    let midpoint = || swimmer.build();
+    let method = Method::Grid(GridMethod::of_spacing(0.1));
+    let setup = Setup { method, droplets: vec![DropletSetup::active(-4.0)], ..Setup::default() };
+    let midpoint = || setup.build().map(|Built { scene, droplets, .. }| (scene, droplets[0]));
     tell(
         report,
         format_args!("\nA swimmer of activity -4 starts, viscosity 100, h = 0.1, to t = {until}:\n\n{HEADING}"),

@@ -11,16 +11,13 @@ mod interfaces;
 mod solids;
 
 use clap::{Args, ValueEnum};
-use motile::Swimmer;
-use motile::active_interface::Motion;
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
-use motile::stokes_grid::Drive;
+use motile::setup::{DropletSetup, GridMethod, Method, Region, Setup};
 use motile_examples::say;
 use motile_tests::validation::growth::Mode;
-use motile_tests::validation::swimmers::{
-    LongRun, long_run, reference_swimmer, steady, steady_without_grid, transient,
-};
-use motile_tests::validation::{Case, StudyError, Table, channel, fixed_shapes, growth, order, relaxation, resolution};
+use motile_tests::validation::scene::{on_grid, open_channel, reference, without_grid};
+use motile_tests::validation::swimmers::{LongRun, long_run, speeds, steady, transient};
+use motile_tests::validation::{Case, StudyError, Table, fixed_shapes, growth, order, relaxation, resolution};
 
 /// A study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -83,7 +80,7 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
         (Study::Relaxation, relax),
         (Study::Growth, grow),
         (Study::Steady, swim),
-        (Study::WithoutGrid, without_grid),
+        (Study::WithoutGrid, integrals),
         (Study::Transient, start),
         (Study::Threshold, threshold),
         (Study::MarkerSpacing, marker_spacing),
@@ -177,10 +174,10 @@ fn grow(quick: bool) -> Tables {
         "Growth rates of small perturbations, box effect removed, h = 0.05: error in %",
         &["mode", "theory", "default", "error", "thesis preset", "error"],
     );
-    let (accurate, thesis) = (Swimmer::default(), Swimmer::thesis());
+    let (accurate, thesis) = (on_grid(0.05), Setup::thesis());
     let modes = if quick { &Mode::ALL[..3] } else { &Mode::ALL[..] };
     for &mode in modes {
-        let theory = mode.theory(&accurate);
+        let theory = mode.theory(&accurate)?;
         let rates = [growth::rate(&accurate, mode)?, growth::rate(&thesis, mode)?];
         let mut row = vec![format!("{mode:?}"), format!("{theory:.4}")];
         for rate in rates {
@@ -205,17 +202,17 @@ fn swim(quick: bool) -> Tables {
     let thesis: &[(f64, f64)] =
         if quick { &[(0.1, 0.05), (0.05, 0.025)] } else { &[(0.2, 0.1), (0.1, 0.05), (0.05, 0.025), (0.025, 0.0125)] };
     for activity in [-2.0, -4.0] {
-        for (name, base, resolutions) in
-            [("default", Swimmer::default(), accurate), ("thesis", Swimmer::thesis(), thesis)]
-        {
+        for (name, resolutions) in [("default", accurate), ("thesis", thesis)] {
             for &(h, ds) in resolutions {
-                let mut swimmer = Swimmer { marker_spacing: Some(ds), ..reference_swimmer(&base, activity, h) };
-                if name == "thesis" {
+                let (preset, base) = if name == "thesis" {
                     // The error of the time step is far below that of the grid at ten times the thesis' step.
-                    swimmer.step = StepSize::Fixed(0.2 * h);
-                }
+                    (GridMethod::thesis(), Setup { step: StepSize::Fixed(0.2 * h), ..Setup::thesis() })
+                } else {
+                    (GridMethod::default(), Setup::default())
+                };
+                let method = Method::Grid(GridMethod { spacing: h, marker_spacing: Some(ds), ..preset });
                 let clock = std::time::Instant::now();
-                let errors = steady(&swimmer, 80.0)?;
+                let errors = steady(&reference(Setup { method, ..base }, activity), 80.0)?;
                 table.push([
                     name.to_owned(),
                     activity.to_string(),
@@ -236,7 +233,7 @@ fn start(quick: bool) -> Tables {
     let mut table =
         Table::new("Transient at activity -1: largest relative error of the speed", &["h", "error in %", "at time"]);
     for &h in spacings(quick) {
-        let (error, time) = transient(&Swimmer::default(), h)?;
+        let (error, time) = transient(&reference(on_grid(h), -1.0))?;
         table.push([h.to_string(), per_cent(error), time.to_string()]);
     }
     Ok(vec![table])
@@ -258,33 +255,33 @@ fn threshold(quick: bool) -> Tables {
             verdict.to_owned(),
         ]);
     }
-    let weak = Swimmer { activity: -1.0, lengths: [12.0, 2.0], spacing: 0.1, ..Swimmer::default() };
+    let droplets = vec![DropletSetup::active(-1.0)];
+    let weak = Setup { region: open_channel(12.0, 2.0), droplets, ..on_grid(0.1) };
     let mut narrow = Table::new(
         "Activity -1 in a channel of width 2 R0, polarised start: speed at two times",
         &["t = 50", "t = 300"],
     );
-    let speed = |time| channel::speed(&weak, Drive::ZeroGradient, time);
-    narrow.push([format!("{:.1e}", speed(50.0)?), format!("{:.1e}", speed(300.0)?)]);
+    narrow.push(speeds(&weak, &[50.0, 300.0])?.iter().map(|speed| format!("{speed:.1e}")));
     Ok(vec![table, narrow])
 }
 
-fn without_grid(quick: bool) -> Tables {
+fn integrals(quick: bool) -> Tables {
     let mut table = Table::new(
         "Steady swimmers without a grid, 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active fraction, maximum concentration",
         &["viscosities in/out", "activity", "nodes", "cells", "errors", "area change", "steps", "seconds"],
     );
     let all = [(32, 256), (48, 256), (64, 256), (64, 512), (96, 384), (128, 512), (192, 768)];
     for (inside, viscosity, activity) in [(None, 100.0, -2.0), (None, 100.0, -4.0), (Some(100.0), 10.0, -1.0)] {
-        for &(nodes, concentration_cells) in if quick { &all[2..5] } else { &all[..] } {
-            let base = Swimmer { nodes, concentration_cells, viscosity_inside: inside, ..Swimmer::default() };
-            let swimmer = Swimmer { viscosity, ..reference_swimmer(&base, activity, 0.05) };
+        for &(nodes, cells) in if quick { &all[2..5] } else { &all[..] } {
+            let droplets = vec![DropletSetup { viscosity: inside, ..DropletSetup::default() }];
+            let setup = Setup { viscosity, droplets, ..without_grid(nodes, cells) };
             let clock = std::time::Instant::now();
-            let errors = steady_without_grid(&swimmer, 80.0)?;
+            let errors = steady(&reference(setup, activity), 80.0)?;
             table.push([
                 format!("{}/{viscosity}", inside.unwrap_or(viscosity)),
                 activity.to_string(),
                 nodes.to_string(),
-                concentration_cells.to_string(),
+                cells.to_string(),
                 errors.list().map(per_cent).join(" / "),
                 format!("{:.1e}", errors.area_change),
                 errors.steps.to_string(),
@@ -320,7 +317,7 @@ fn push_run(table: &mut Table, name: String, run: &LongRun) {
         format!("{:.1e}", run.area_change),
         format!("{:.0e}", run.particle_change),
         format!("{:.1e}", run.perimeter_creep),
-        format!("{:.2e}", run.turning_rate),
+        format!("{:.2e}", run.turning_rate()),
     ]);
 }
 
@@ -336,13 +333,12 @@ const RUN_HEADER: [&str; 7] = [
 
 fn long(quick: bool) -> Tables {
     let mut table = Table::new("A long run: activity -4, A = 10, box 6, to t = 250 (quick: 60)", &RUN_HEADER);
-    let unfiltered = Motion::Equidistributed { relaxation: 5.0, filter: false };
     for h in if quick { vec![0.1] } else { vec![0.1, 0.05] } {
-        let swimmer = Swimmer { activity: -4.0, spacing: h, ..Swimmer::default() };
+        let setup = Setup { droplets: vec![DropletSetup::active(-4.0)], ..on_grid(h) };
         let time = if quick { 60.0 } else { 250.0 };
-        push_run(&mut table, format!("h = {h}"), &long_run(&swimmer, time)?);
-        let swimmer = Swimmer { motion: unfiltered, ..swimmer };
-        match long_run(&swimmer, time) {
+        push_run(&mut table, format!("h = {h}"), &long_run(&setup, time)?);
+        let unfiltered = GridMethod { filter: false, ..GridMethod::of_spacing(h) };
+        match long_run(&Setup { method: Method::Grid(unfiltered), ..setup }, time) {
             Ok(run) => push_run(&mut table, format!("h = {h}, without the filter"), &run),
             Err(error) => table.push([format!("h = {h}, without the filter"), format!("ends: {error}")]),
         }
@@ -361,15 +357,13 @@ fn invariance(quick: bool) -> Tables {
                 if quick && degrees > 0.0 && offset != [0.0, 0.0] {
                     continue;
                 }
-                let swimmer = Swimmer {
-                    activity: -4.0,
-                    spacing: h,
-                    lengths: [12.0, 12.0],
+                let droplet = DropletSetup {
                     angle: degrees.to_radians(),
-                    offset: offset.map(|x| x * h),
-                    ..Swimmer::default()
+                    centre: offset.map(|x| x * h),
+                    ..DropletSetup::active(-4.0)
                 };
-                let run = long_run(&swimmer, 40.0)?;
+                let region = Region::Box { lengths: [12.0; 2] };
+                let run = long_run(&Setup { region, droplets: vec![droplet], ..on_grid(h) }, 40.0)?;
                 speeds.push((degrees, run.speed));
                 push_run(&mut table, format!("{degrees} degrees, offset ({}, {}) h", offset[0], offset[1]), &run);
             }

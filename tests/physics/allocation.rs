@@ -3,8 +3,8 @@
 use allocation_counter::measure;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{Integrator, RungeKuttaChebyshev, Scene};
-use motile::stokes_grid::Drive;
-use motile::{AnyFlow, ContrastMethod, ElasticChannel, Method, Swimmer};
+use motile::setup::{AnyFlow, ChannelShape, Contrast, GridMethod, Material, Method, Setup, SolidSetup};
+use motile_tests::validation::scene::{on_grid, open_channel, without_grid};
 
 const DT: f64 = 0.002;
 
@@ -19,50 +19,57 @@ fn allocations_after<I: Integrator>(steps: usize, mut scene: Scene<AnyFlow, I>) 
     measure(|| (0..steps).for_each(|_| scene.step(DT).expect("a good scene"))).count_total
 }
 
+/// Between soft elastic walls.
+fn elastic() -> Setup {
+    let shear = Moduli::from_thesis_spring_constant(1e4).expect("moduli").shear();
+    let solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
+    Setup { region: open_channel(6.0, 5.4), solids, ..on_grid(0.1) }
+}
+
+/// The same scene with droplets of another viscosity.
+fn thick(mut setup: Setup) -> Setup {
+    setup.droplets.iter_mut().for_each(|droplet| droplet.viscosity = Some(1000.0));
+    setup
+}
+
 #[test]
 fn steps_allocate_nothing() {
     assert_eq!(measure(|| drop(std::hint::black_box(vec![1.0; 10]))).count_total, 1);
-    let grid = Swimmer { method: Method::ImmersedBoundary, spacing: 0.2, ..Swimmer::default() };
-    let integrals = Swimmer { nodes: 32, concentration_cells: 128, ..Swimmer::default() };
-    let thesis = Swimmer { spacing: 0.2, ..Swimmer::thesis() };
-    for (name, base) in [("grid", grid.clone()), ("integrals", integrals.clone()), ("thesis", thesis)] {
-        let contrasts = [
-            (None, ContrastMethod::Sharp),
-            (Some(1000.0), ContrastMethod::Sharp),
-            (Some(1000.0), ContrastMethod::Arithmetic),
-        ];
-        for (viscosity_inside, contrast) in contrasts {
-            let swimmer = Swimmer { viscosity_inside, contrast, ..base.clone() };
-            let name = format!("{name}, {viscosity_inside:?}, {contrast:?}");
-            assert_eq!(allocations(swimmer.build().unwrap().0), 0, "{name}");
-            for width in [2.0, 3.0] {
-                let swimmer = Swimmer { lengths: [6.0, width], ..swimmer.clone() };
-                let scene = swimmer.build_in_channel(Drive::ZeroGradient).unwrap().0;
-                assert_eq!(allocations(scene), 0, "{name}, channel of width {width}");
-            }
+    let smooth = GridMethod { corrected: false, contrast: Contrast::Arithmetic, ..GridMethod::of_spacing(0.2) };
+    let smooth = Setup { method: Method::Grid(smooth), ..Setup::default() };
+    let coarse = GridMethod { spacing: 0.2, ..GridMethod::thesis() };
+    let thesis = Setup { method: Method::Grid(coarse), ..Setup::thesis() };
+    let sharp = Method::Grid(GridMethod { contrast: Contrast::Sharp, ..coarse });
+    let scenes = [
+        ("grid", on_grid(0.2)),
+        ("grid, contrast", thick(on_grid(0.2))),
+        ("grid, arithmetic contrast", thick(smooth)),
+        ("integrals", without_grid(32, 128)),
+        ("integrals, contrast", thick(without_grid(32, 128))),
+        ("thesis", thesis.clone()),
+        ("thesis, sharp contrast", thick(Setup { method: sharp, ..thesis.clone() })),
+        ("thesis, contrast", thick(thesis)),
+    ];
+    for (name, base) in scenes {
+        for region in [base.region, open_channel(6.0, 2.0), open_channel(6.0, 3.0)] {
+            let setup = Setup { region, ..base.clone() };
+            assert_eq!(allocations(setup.build().unwrap().scene), 0, "{name}, {region:?}");
         }
     }
 }
 
 #[test]
 fn steps_between_elastic_walls_allocate_nothing() {
-    let swimmer = Swimmer { lengths: [6.0, 2.4], spacing: 0.1, ..Swimmer::default() };
-    for viscosity_inside in [None, Some(1000.0)] {
-        let swimmer = Swimmer { viscosity_inside, ..swimmer.clone() };
-        let channel = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e4).unwrap());
-        assert_eq!(allocations(channel.build().unwrap().0), 0, "{viscosity_inside:?}");
+    for setup in [elastic(), thick(elastic())] {
+        assert_eq!(allocations(setup.build().unwrap().scene), 0, "{:?}", setup.droplets[0].viscosity);
     }
 }
 
 /// With the measurement of the spectral radius that comes every 25 steps.
 #[test]
 fn steps_of_the_chebyshev_method_allocate_nothing() {
-    let grid = Swimmer { method: Method::ImmersedBoundary, spacing: 0.2, ..Swimmer::default() };
-    let integrals = Swimmer { nodes: 32, concentration_cells: 128, ..Swimmer::default() };
-    let walls = Swimmer { lengths: [6.0, 2.4], spacing: 0.1, ..Swimmer::default() };
-    let channel = ElasticChannel::new(walls, Moduli::from_thesis_spring_constant(1e4).unwrap());
-    let scenes = [grid.build().unwrap().0, integrals.build().unwrap().0, channel.build().unwrap().0];
-    for (name, scene) in ["grid", "integrals", "elastic walls"].into_iter().zip(scenes) {
-        assert_eq!(allocations_after(30, scene.advanced_by(RungeKuttaChebyshev::new())), 0, "{name}");
+    for (name, setup) in [("grid", on_grid(0.2)), ("integrals", without_grid(32, 128)), ("elastic walls", elastic())] {
+        let scene = setup.build().unwrap().scene.advanced_by(RungeKuttaChebyshev::new());
+        assert_eq!(allocations_after(30, scene), 0, "{name}");
     }
 }

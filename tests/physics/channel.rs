@@ -1,8 +1,9 @@
 //! Channels with no-slip walls against boundary-integral values.
 
-use motile::Swimmer;
 use motile::ib_core::CubicQuadratic;
-use motile::stokes_grid::Drive;
+use motile::setup::{DropletSetup, Setup};
+use motile_tests::validation::scene::{on_grid, open_channel};
+use motile_tests::validation::swimmers::{speeds, steady};
 use motile_tests::validation::{Case, channel, order};
 
 const SPACINGS: [f64; 3] = [0.1, 0.05, 0.025];
@@ -39,19 +40,18 @@ fn fixed_shapes_are_second_order() {
 /// Activity -1 is above the threshold in a box but not in a channel of its own width (thesis section 3.1).
 #[test]
 fn a_weak_swimmer_comes_to_rest() {
-    let swimmer = Swimmer { activity: -1.0, lengths: [12.0, 2.0], spacing: 0.1, ..Swimmer::default() };
-    let late = channel::speed(&swimmer, Drive::ZeroGradient, 300.0).unwrap();
-    assert!(late < 1e-4, "{late}");
+    let droplets = vec![DropletSetup::active(-1.0)];
+    let late = speeds(&Setup { region: open_channel(12.0, 2.0), droplets, ..on_grid(0.1) }, &[300.0]).unwrap();
+    assert!(late[0] < 1e-4, "{late:?}");
 }
 
 /// The droplet as wide as the channel starts in contact with both walls and opens a film of 0.09 R0.
 #[test]
 fn steady_swimmers() {
     for (width, speed, time) in [(2.0, 0.01, 120.0), (3.0, 0.005, 60.0)] {
-        let swimmer = Swimmer { activity: -2.0, lengths: [12.0, width], ..Swimmer::default() };
-        let errors = channel::steady(&swimmer, time).unwrap();
+        let errors = steady(&Setup { region: open_channel(12.0, width), ..on_grid(0.05) }, time).unwrap();
         assert!(errors.speed.abs() < speed, "{errors:?}");
-        assert!(errors.gap.abs() < 0.01 && errors.flux.abs() < 0.01, "{errors:?}");
+        assert!(errors.gap.unwrap().abs() < 0.01 && errors.flux.unwrap().abs() < 0.01, "{errors:?}");
         assert!(errors.area_change.abs() < 1e-5 && errors.particle_change.abs() < 1e-12, "{errors:?}");
     }
 }

@@ -1,17 +1,19 @@
-//! Droplets of another viscosity than their surroundings on a grid, against boundary integrals.
+//! Droplets of another viscosity than the exterior fluid on a grid, against boundary integrals.
 
 use allocation_counter::measure;
-use motile::Swimmer;
 use motile::ib_core::{
     CubicQuadratic, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2,
 };
+use motile::setup::{DropletSetup, Region, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes};
-use motile_tests::validation::contrast::{Droplet, Errors, Exact, Region, field_errors};
-use motile_tests::validation::swimmers::{reference_swimmer, steady};
+use motile_tests::validation::contrast::{Droplet, Errors, Exact, exact_flow, field_errors};
+use motile_tests::validation::scene::{on_grid, open_channel, reference};
+use motile_tests::validation::swimmers::{speeds, steady};
 use motile_tests::validation::{Reference, ReferenceFile, order, relaxation};
 
 const SPACINGS: [f64; 3] = [0.1, 0.05, 0.025];
 const RATIOS: [f64; 5] = [0.01, 1.0, 10.0, 100.0, 1000.0];
+const SQUARE: Region = Region::Box { lengths: [6.0; 2] };
 
 /// Errors of each droplet at the three spacings.
 fn errors(region: Region, droplets: &[Droplet]) -> Vec<[Errors; 3]> {
@@ -34,7 +36,7 @@ fn the_exact_velocities_are_those_of_the_table() {
         let table = table.select("shape", name).select("gamma", gamma).select("L", "6").select("kind", "marker");
         let (vx, vy) = (table.column("vx").unwrap(), table.column("vy").unwrap());
         assert_eq!(vx.len(), 8);
-        let exact = Exact::new(Region::Box(6.0), &[droplet], 256).unwrap();
+        let exact = Exact::new(SQUARE, &[droplet], 256).unwrap();
         for (j, (vx, vy)) in vx.iter().zip(&vy).enumerate() {
             let v = exact.velocities(0)[32 * j];
             assert!((v.x - vx).abs() < 1e-9 && (v.y - vy).abs() < 1e-9, "{name} {j}: {v} {vx} {vy}");
@@ -45,7 +47,7 @@ fn the_exact_velocities_are_those_of_the_table() {
 #[test]
 fn a_circle_at_every_ratio() {
     for ratio in RATIOS {
-        let [errors] = errors(Region::Box(6.0), &[Droplet::circle(1, ratio)])[..] else { unreachable!() };
+        let [errors] = errors(SQUARE, &[Droplet::circle(1, ratio)])[..] else { unreachable!() };
         assert!(errors[1].speed < 1e-3 && errors[1].maximum < 1.4e-3, "{ratio}: {errors:?}");
         assert!(errors[2].rms < 2e-4, "{ratio}: {errors:?}");
         let [speed, rms] = orders(&errors);
@@ -56,7 +58,7 @@ fn a_circle_at_every_ratio() {
 #[test]
 fn higher_modes_on_a_circle() {
     for (mode, ratio) in [(2, 0.01), (2, 100.0), (3, 10.0), (3, 1000.0)] {
-        let [errors] = errors(Region::Box(6.0), &[Droplet::circle(mode, ratio)])[..] else { unreachable!() };
+        let [errors] = errors(SQUARE, &[Droplet::circle(mode, ratio)])[..] else { unreachable!() };
         assert!(errors[1].rms < 8e-4 && errors[2].rms < 3e-4, "{mode} {ratio}: {errors:?}");
         assert!(orders(&errors)[1] > 1.4, "{mode} {ratio}: {errors:?}");
     }
@@ -65,7 +67,7 @@ fn higher_modes_on_a_circle() {
 #[test]
 fn an_ellipse_at_every_ratio() {
     for ratio in RATIOS {
-        let [errors] = errors(Region::Box(6.0), &[Droplet::ellipse(ratio)])[..] else { unreachable!() };
+        let [errors] = errors(SQUARE, &[Droplet::ellipse(ratio)])[..] else { unreachable!() };
         assert!(errors[1].speed < 3e-3 && errors[1].maximum < 3e-3, "{ratio}: {errors:?}");
         let [speed, rms] = orders(&errors);
         assert!(speed > 1.8 && rms > 1.8, "{ratio}: {speed} {rms} {errors:?}");
@@ -75,7 +77,7 @@ fn an_ellipse_at_every_ratio() {
 /// What the thesis' way is kept for: it is of first order, and its errors grow with the ratio.
 #[test]
 fn a_smeared_viscosity_is_first_order() {
-    for region in [Region::Box(6.0), Region::Channel(8.0, 5.0)] {
+    for region in [SQUARE, open_channel(8.0, 5.0)] {
         let mut last = 0.0;
         for ratio in [1.0, 10.0, 100.0] {
             let exact = Exact::new(region, &[Droplet::circle(1, ratio)], 128).unwrap();
@@ -97,7 +99,7 @@ fn a_smeared_viscosity_is_first_order() {
 fn beside_a_wall() {
     let height = 1.5 - 0.075 - 1.0 / 1.3;
     let droplet = Droplet::ellipse(100.0).at(0.1, height);
-    let [errors] = errors(Region::Channel(6.0, 3.0), &[droplet])[..] else { unreachable!() };
+    let [errors] = errors(open_channel(6.0, 3.0), &[droplet])[..] else { unreachable!() };
     assert!(errors[1].speed < 0.01 && errors[1].rms < 0.01, "{errors:?}");
     assert!(orders(&errors).iter().all(|order| *order > 1.8), "{errors:?}");
 }
@@ -106,7 +108,7 @@ fn beside_a_wall() {
 #[test]
 fn two_droplets_close_to_each_other() {
     let droplets = [Droplet::circle(1, 10.0).at(-1.0375, 0.02), Droplet::circle(1, 100.0).at(1.0375, -0.01)];
-    for errors in errors(Region::Box(6.0), &droplets) {
+    for errors in errors(SQUARE, &droplets) {
         assert!(errors[1].speed < 3e-3 && errors[1].rms < 3e-3, "{errors:?}");
         assert!(orders(&errors).iter().all(|order| *order > 1.7), "{errors:?}");
     }
@@ -119,7 +121,7 @@ fn beside_an_interface_of_equal_viscosity() {
     for gap in [0.5, 0.075] {
         let x = 1.0 + 0.5 * gap;
         let droplets = [Droplet::circle(1, 100.0).at(-x, 0.02), Droplet::circle(1, 1.0).at(x, -0.01)];
-        let all = errors(Region::Box(6.0), &droplets);
+        let all = errors(SQUARE, &droplets);
         for errors in &all {
             assert!(errors[1].speed < 3e-3 && errors[1].rms < 3e-3, "{gap}: {errors:?}");
             assert!(orders(errors)[1] > 1.7, "{gap}: {errors:?}");
@@ -131,7 +133,7 @@ fn beside_an_interface_of_equal_viscosity() {
 #[test]
 fn a_thin_and_a_thick_droplet_in_a_channel() {
     let droplets = [Droplet::circle(1, 0.01).at(-1.25, 0.2), Droplet::circle(1, 1000.0).at(1.25, -0.1)];
-    for errors in errors(Region::Channel(8.0, 3.0), &droplets) {
+    for errors in errors(open_channel(8.0, 3.0), &droplets) {
         assert!(errors[1].speed < 3e-3 && errors[1].rms < 3e-3, "{errors:?}");
         assert!(orders(&errors).iter().all(|order| *order > 1.7), "{errors:?}");
     }
@@ -140,7 +142,7 @@ fn a_thin_and_a_thick_droplet_in_a_channel() {
 /// Its errors are of second order at any distance from the interface, on both sides, and do not grow with the ratio.
 #[test]
 fn the_flow_beside_the_markers() {
-    for region in [Region::Box(6.0), Region::Channel(6.0, 4.0)] {
+    for region in [SQUARE, open_channel(6.0, 4.0)] {
         for ratio in [0.01, 10.0, 1000.0] {
             let droplet = Droplet::ellipse(ratio).at(0.02, 0.03);
             let [coarse, fine] = [0.1, 0.025].map(|h| field_errors(region, &droplet, h).unwrap());
@@ -180,8 +182,7 @@ fn other_markers_move_with_the_flow() {
         markers.positions[droplet..].copy_from_slice(&places);
         flow.velocities(&mut markers).unwrap();
         let largest = markers.velocities[..droplet].iter().map(Vec2::norm).fold(0.0, f64::max);
-        let exact = motile_tests::validation::contrast::exact_flow(Region::Box(6.0), &Droplet::ellipse(ratio), &places)
-            .unwrap();
+        let exact = exact_flow(SQUARE, &Droplet::ellipse(ratio), &places).unwrap();
         let worst = |found: &mut dyn Iterator<Item = Vec2>| {
             found.zip(&exact).map(|(found, exact)| (found - exact).norm() / largest).fold(0.0, f64::max)
         };
@@ -212,11 +213,15 @@ fn an_ellipse_relaxes() {
     assert!(fine.area_change.abs() < 1e-6, "{fine:?}");
 }
 
+/// A droplet of activity -1 and a viscosity, with A = 2, in fluid of viscosity 10.
+fn swimmer(viscosity: f64, h: f64) -> Setup {
+    let droplet = DropletSetup { viscosity: Some(viscosity), ..DropletSetup::default() };
+    reference(Setup { viscosity: 10.0, droplets: vec![droplet], ..on_grid(h) }, -1.0)
+}
+
 #[test]
 fn a_steady_swimmer() {
-    let base = reference_swimmer(&Swimmer::default(), -1.0, 0.05);
-    let swimmer = Swimmer { viscosity: 10.0, viscosity_inside: Some(100.0), ..base };
-    let errors = steady(&swimmer, 40.0).unwrap();
+    let errors = steady(&swimmer(100.0, 0.05), 40.0).unwrap();
     assert!(errors.speed.abs() < 3e-3, "{errors:?}");
     assert!(errors.area_change.abs() < 1e-5, "{errors:?}");
 }
@@ -224,32 +229,19 @@ fn a_steady_swimmer() {
 /// From exact theory: this droplet decays to rest.
 #[test]
 fn a_stiff_droplet_of_little_activity_stops() {
-    let swimmer = Swimmer {
-        viscosity: 10.0,
-        viscosity_inside: Some(1000.0),
-        spacing: 0.1,
-        ..reference_swimmer(&Swimmer::default(), -1.0, 0.1)
-    };
-    let (mut scene, droplet) = swimmer.build_on_grid().unwrap();
-    let mut speeds = Vec::new();
-    for time in [20.0, 40.0] {
-        scene.run(time).step_size(swimmer.step).go().unwrap();
-        speeds.push(motile_tests::validation::swimmers::look(&mut scene, droplet).unwrap().speed());
-    }
+    let speeds = speeds(&swimmer(1000.0, 0.1), &[20.0, 40.0]).unwrap();
     assert!(speeds[1] < 0.8 * speeds[0], "{speeds:?}");
 }
 
 #[test]
 fn work_is_counted_and_nothing_is_allocated() {
-    let equal = Swimmer { spacing: 0.1, viscosity: 10.0, viscosity_inside: Some(10.0), ..Swimmer::default() };
-    let (mut scene, _) = equal.build_on_grid().unwrap();
+    let mut scene = swimmer(10.0, 0.1).build().unwrap().scene;
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     let work = scene.system().hydrodynamics().work();
     // Two evaluations a step, and that of the state the last one led to.
     assert_eq!((work.iterations, work.stokes_solves, work.evaluations), (0, 7, 7));
 
-    let thick = Swimmer { viscosity_inside: Some(1000.0), ..equal };
-    let (mut scene, _) = thick.build_on_grid().unwrap();
+    let mut scene = swimmer(1000.0, 0.1).build().unwrap().scene;
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     let before = scene.system().hydrodynamics().work();
     assert_eq!((before.stokes_solves, before.evaluations), (7, 7));
@@ -261,8 +253,6 @@ fn work_is_counted_and_nothing_is_allocated() {
 
 #[test]
 fn viscosities_are_checked() {
-    let swimmer = Swimmer { spacing: 0.1, viscosity_inside: Some(f64::NAN), ..Swimmer::default() };
-    assert!(swimmer.build_on_grid().is_err());
     let mut flow = ImmersedBoundary::new(
         PeriodicStokes::new(Grid::periodic(32, 32, 0.1).unwrap(), 1.0).unwrap(),
         CubicQuadratic::default(),

@@ -1,42 +1,25 @@
 //! Stiff elastic walls against rigid ones, without a grid.
 
+use motile::active_interface::curve::polygon_moments;
 use motile::elastic_solids::Moduli;
-use motile::prelude::*;
-use motile::stokes_grid::Drive;
-use motile::{ElasticChannel, WallSurface};
+use motile::setup::{Built, ChannelShape, DropletSetup, Material, Setup, SolidSetup, Surface};
+use motile_tests::validation::scene::{on_grid, open_channel};
 
-const TIME: f64 = 3.0;
-
-fn swimmer(activity: f64, width: f64, spacing: f64) -> Swimmer {
-    Swimmer { activity, lengths: [6.0, width], spacing, ..Swimmer::default() }
+/// Where a droplet has swum to along a channel at t = 3.
+fn place(setup: &Setup) -> f64 {
+    let Built { mut scene, droplets, .. } = setup.build().expect("a scene");
+    scene.run(3.0).go().expect("a run");
+    polygon_moments(scene.body(droplets[0]).expect("its droplet").markers()).expect("a droplet").centroid.x
 }
 
-/// Where the centre of a droplet is along the channel.
-fn centre(droplet: &ActiveDroplet) -> f64 {
-    let (mut area, mut moment) = (0.0, 0.0);
-    let markers = droplet.markers();
-    for (a, b) in markers.iter().zip(markers.iter().cycle().skip(1)) {
-        area += a.perp(b);
-        moment += a.perp(b) * (a.x + b.x) / 3.0;
-    }
-    moment / area
-}
-
-/// How far the droplet swims between rigid walls.
-fn rigid(activity: f64, width: f64) -> f64 {
-    let swimmer = Swimmer { method: Method::BoundaryIntegral, ..swimmer(activity, width, 0.1) };
-    let (mut scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient).expect("a scene");
-    scene.run(TIME).go().expect("a run");
-    centre(scene.body(droplet).unwrap())
-}
-
-/// How far it swims between walls of springs of the thesis' k = 1e6, over that.
-fn error(activity: f64, width: f64, spacing: f64, surface: WallSurface) -> f64 {
-    let moduli = Moduli::from_thesis_spring_constant(1e6).expect("moduli");
-    let channel = ElasticChannel { surface, ..ElasticChannel::new(swimmer(activity, width, spacing), moduli) };
-    let (mut scene, droplet, _) = channel.build().expect("a scene");
-    scene.run(TIME).go().expect("a run");
-    centre(scene.body(droplet).unwrap()) / rigid(activity, width) - 1.0
+/// How far it swims between walls of springs of the thesis' k = 1e6, over how far it swims between rigid ones.
+fn error(activity: f64, width: f64, h: f64, surface: Surface) -> f64 {
+    let droplets = vec![DropletSetup::active(activity)];
+    let rigid = Setup { region: open_channel(6.0, width), droplets: droplets.clone(), ..Setup::default() };
+    let shear = Moduli::from_thesis_spring_constant(1e6).expect("moduli").shear();
+    let walls = SolidSetup::walls(&ChannelShape::Straight { width }, &Material::Springs { shear });
+    let solids = walls.into_iter().map(|wall| SolidSetup { surface, ..wall }).collect();
+    place(&Setup { region: open_channel(6.0, width + 3.0), droplets, solids, ..on_grid(h) }) / place(&rigid) - 1.0
 }
 
 /// Springs of 1e6 are not rigid: what is left at h = 0.05 is theirs, 0.1 and 0.3 %. The grid's part is what changes
@@ -45,7 +28,7 @@ fn error(activity: f64, width: f64, spacing: f64, surface: WallSurface) -> f64 {
 fn stiff_walls_are_where_they_are_said_to_be() {
     for activity in [-2.0, -4.0] {
         let errors = |surface| [0.1, 0.05].map(|h| error(activity, 3.0, h, surface));
-        let (corrected, plain) = (errors(WallSurface::Corrected), errors(WallSurface::Plain));
+        let (corrected, plain) = (errors(Surface::Corrected), errors(Surface::Plain));
         assert!(corrected[0].abs() < 6e-3 && corrected[1].abs() < 3e-3, "{activity}: {corrected:?}");
         let [change, change_plain] = [corrected, plain].map(|[coarse, fine]| (coarse - fine).abs());
         assert!(change < 0.35 * change_plain, "{activity}: {corrected:?} {plain:?}");

@@ -1,55 +1,33 @@
 //! Wrong input ends in an error that names it, before any work; a run that goes wrong leaves the last good state.
 
-use motile::Swimmer;
-use motile::ib_core::{FlowError, SceneError, StepSize};
-use motile::setup::{DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Setup};
-use motile::stokes_grid::Drive;
+use motile::ib_core::{Body, FlowError, SceneError, StepSize};
+use motile::setup::{Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Setup};
+use motile_tests::validation::scene::{on_grid, open_channel};
 
 #[test]
 fn wrong_numbers_are_refused() {
-    let good = Swimmer { spacing: 0.2, ..Swimmer::default() };
-    assert!(good.build_on_grid().is_ok());
-    for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0] {
-        let named = [
-            ("viscosity", Swimmer { viscosity: bad, ..good.clone() }),
-            ("diffusion", Swimmer { diffusion: bad, ..good.clone() }),
-            ("concentration", Swimmer { mean_concentration: bad, ..good.clone() }),
-            ("tension", Swimmer { bare_tension: bad, ..good.clone() }),
-            ("radius", Swimmer { radius: bad, ..good.clone() }),
-            ("spacing", Swimmer { marker_spacing: Some(bad), ..good.clone() }),
-            ("excluded volume", Swimmer { excluded_volume: bad, ..good.clone() }),
-        ];
-        for (name, swimmer) in named {
-            let message = swimmer.build_on_grid().expect_err(name).to_string();
-            assert!(message.contains(&format!("{bad}")), "{name}: {message}");
-            if name != "spacing" {
-                let message = swimmer.build().expect_err(name).to_string();
-                assert!(message.contains(&format!("{bad}")), "{name}: {message}");
+    for base in [on_grid(0.2), Setup::default()] {
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let droplets = [
+                ("particles.activity", DropletSetup::active(bad)),
+                ("angle", DropletSetup { angle: bad, ..DropletSetup::default() }),
+                ("viscosity", DropletSetup { viscosity: Some(bad), ..DropletSetup::default() }),
+            ];
+            for (key, droplet) in droplets {
+                let setup = Setup { droplets: vec![droplet], region: open_channel(6.0, 3.0), ..base.clone() };
+                let message = setup.build().expect_err(key).to_string();
+                assert!(message.starts_with(&format!("droplets[0].{key} = {bad}")), "{message}");
             }
         }
-        let mut others = vec![
-            Swimmer { lengths: [bad, 6.0], ..good.clone() },
-            Swimmer { lengths: [6.0, bad], ..good.clone() },
-            Swimmer { spacing: bad, ..good.clone() },
-        ];
-        if !bad.is_finite() {
-            others.push(Swimmer { activity: bad, ..good.clone() });
-            others.push(Swimmer { angle: bad, ..good.clone() });
-            others.push(Swimmer { offset: [0.0, bad], ..good.clone() });
-        }
-        for swimmer in others {
-            assert!(swimmer.build_on_grid().is_err(), "{swimmer:?}");
-            assert!(swimmer.build_on_grid_in_channel(Drive::ZeroFlux).is_err(), "{swimmer:?}");
-        }
     }
-    assert!(Swimmer { lengths: [6.03, 6.0], ..good.clone() }.build_on_grid().is_err(), "no whole number of cells");
-    assert!(Swimmer { lengths: [1.6, 6.0], ..good.clone() }.build_on_grid().is_err(), "a box smaller than the droplet");
-    assert!(Swimmer { lengths: [6.0, 1.6], ..good }.build_on_grid_in_channel(Drive::ZeroFlux).is_err());
+    let narrow =
+        Setup { region: open_channel(6.0, 1.6), ..on_grid(0.2) }.build().expect_err("narrower than the droplet");
+    assert!(narrow.to_string().contains("6 x 1.6"), "{narrow}");
 }
 
 #[test]
 fn a_step_above_the_limit_is_refused_before_any_work() {
-    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build_on_grid().unwrap();
+    let mut scene = on_grid(0.1).build().unwrap().scene;
     let error = scene.run(1.0).step_size(StepSize::Fixed(5.0)).go().unwrap_err();
     assert!(matches!(error, SceneError::TimeStepTooLarge { .. }), "{error}");
     assert!(error.to_string().contains("time step 5 is above the stable"), "{error}");
@@ -62,8 +40,9 @@ fn a_step_above_the_limit_is_refused_before_any_work() {
 }
 
 #[test]
-fn a_step_that_fails_is_taken_back() {
-    let (mut scene, droplet) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build_on_grid().unwrap();
+fn a_step_that_fails_leaves_the_last_state() {
+    let Built { mut scene, droplets, .. } = on_grid(0.1).build().unwrap();
+    let droplet = droplets[0];
     scene.step(0.01).unwrap();
     let before = scene.body(droplet).unwrap().markers().to_vec();
     let error = (0..50).find_map(|_| scene.step(50.0).err()).expect("steps 500 times too large end in an error");
@@ -76,10 +55,9 @@ fn a_step_that_fails_is_taken_back() {
 
 #[test]
 fn markers_beyond_a_wall_are_named() {
-    let swimmer = Swimmer { lengths: [6.0, 2.0], spacing: 0.1, ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient).unwrap();
-    use motile::ib_core::Body;
-    let body = scene.body_mut(droplet).unwrap();
+    let setup = Setup { region: open_channel(6.0, 2.0), ..on_grid(0.1) };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    let body = scene.body_mut(droplets[0]).unwrap();
     let mut state = vec![0.0; body.state_len()];
     body.write_state(&mut state);
     let markers = body.marker_count();

@@ -1,14 +1,15 @@
 //! Growth rates of small perturbations against linear theory (thesis (2.18), (2.19)), the box's effect removed.
 
-use motile::Swimmer;
-use motile_tests::validation::growth::{Mode, rate, rate_in_box};
+use motile::setup::{DropletSetup, Setup};
+use motile_tests::validation::growth::{Mode, rate, rate_in_region};
+use motile_tests::validation::scene::on_grid;
 
 #[test]
 fn growth_rates() {
-    let swimmer = Swimmer { spacing: 0.1, ..Swimmer::default() };
+    let setup = on_grid(0.1);
     for mode in [Mode::Concentration(1), Mode::Concentration(2), Mode::Concentration(3), Mode::Shape(2), Mode::Shape(3)]
     {
-        let (theory, measured) = (mode.theory(&swimmer), rate(&swimmer, mode).unwrap());
+        let (theory, measured) = (mode.theory(&setup).unwrap(), rate(&setup, mode).unwrap());
         assert!((measured / theory - 1.0).abs() < 0.01, "{mode:?}: {measured} {theory}");
     }
 }
@@ -18,7 +19,8 @@ fn growth_rates() {
 /// couples it to others.
 #[test]
 fn box_effect() {
-    let passive = Swimmer { activity: 0.0, bare_tension: 1.0, viscosity: 1.0, ..Swimmer::default() };
-    let measured = rate_in_box(&passive, Mode::Shape(2)).unwrap();
+    let droplet = DropletSetup { tension: 1.0, ..DropletSetup::active(0.0) };
+    let setup = Setup { viscosity: 1.0, droplets: vec![droplet], ..on_grid(0.05) };
+    let measured = rate_in_region(&setup, Mode::Shape(2)).unwrap();
     assert!((measured + 0.4183).abs() < 6e-4, "{measured}");
 }

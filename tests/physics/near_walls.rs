@@ -1,11 +1,17 @@
 //! Droplets that meet walls: nothing tunnels, nothing is lost.
 
-use motile::active_interface::curve::polygon_area;
-use motile::prelude::*;
+use motile::active_interface::{
+    ActiveDroplet,
+    curve::{polygon_area, polygon_moments},
+};
+use motile::ib_core::{StepSize, wall_gap};
+use motile::setup::{Built, DropletSetup, DropletShape, Region, Setup};
+use motile::stokes_grid::Drive;
+use motile_tests::validation::scene::{on_grid, open_channel};
 
-/// Smallest distance of a droplet's markers from the walls at y = +-height.
+/// Gap between a droplet and the walls at y = -height and height.
 fn gap(droplet: &ActiveDroplet, height: f64) -> f64 {
-    droplet.markers().iter().map(|marker| height - marker.y.abs()).fold(f64::INFINITY, f64::min)
+    wall_gap(droplet.markers(), [-height, height])
 }
 
 fn area_change(droplet: &ActiveDroplet) -> f64 {
@@ -16,19 +22,23 @@ fn area_change(droplet: &ActiveDroplet) -> f64 {
 /// viscosity contrast moves away from the wall.
 #[test]
 fn passive_droplet_in_poiseuille_flow() {
-    let (l, w, h) = (6.0, 3.0, 0.1);
-    let mut solver = ChannelStokes::new(Grid::channel(60, 30, h).unwrap(), 1.0).unwrap();
-    solver.set_drive(Drive::Gradient(-1.0)).unwrap();
-    let mut scene = Scene::new(ImmersedBoundary::new(solver, AnyKernel::BSpline4));
-    let curve = Curve::circle(0.6).unwrap().translated(Vec2::new(0.0, 0.7));
-    let droplet = scene.add(ActiveDroplet::passive(&curve.markers(80).unwrap(), 5.0).unwrap());
+    let (l, w) = (6.0, 3.0);
+    let shape = DropletShape::Round { radius: 0.6 };
+    let setup = Setup {
+        region: Region::Channel { length: l, width: w, drive: Drive::Gradient(-1.0) },
+        viscosity: 1.0,
+        droplets: vec![DropletSetup { centre: [0.0, 0.7], shape, ..DropletSetup::passive(5.0) }],
+        ..on_grid(0.1)
+    };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    let droplet = droplets[0];
     let start = gap(scene.body(droplet).unwrap(), 0.5 * w);
     scene.run(20.0).step_size(StepSize::OfLimit(0.25)).go().unwrap();
     let body = scene.body(droplet).unwrap();
     assert!(area_change(body).abs() < 1e-5, "{:e}", area_change(body));
     assert!(gap(body, 0.5 * w) > start, "it moves away from the wall");
     // Undisturbed flow at the centre of the channel: w^2/8 per unit gradient and viscosity; the droplet is slower.
-    let travelled = body.markers().iter().map(|marker| marker.x).sum::<f64>() / 80.0;
+    let travelled = polygon_moments(body.markers()).unwrap().centroid.x;
     assert!(travelled > l && travelled < 20.0 * w * w / 8.0, "{travelled}");
 }
 
@@ -36,15 +46,10 @@ fn passive_droplet_in_poiseuille_flow() {
 #[test]
 fn swimmer_driven_into_a_wall() {
     for (h, degrees) in [(0.1, 45.0_f64), (0.05, 80.0)] {
-        let swimmer = Swimmer {
-            activity: -4.0,
-            lengths: [12.0, 3.0],
-            spacing: h,
-            angle: degrees.to_radians(),
-            offset: [0.0, 0.3],
-            ..Swimmer::default()
-        };
-        let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient).unwrap();
+        let droplet = DropletSetup { angle: degrees.to_radians(), centre: [0.0, 0.3], ..DropletSetup::active(-4.0) };
+        let setup = Setup { region: open_channel(12.0, 3.0), droplets: vec![droplet], ..on_grid(h) };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        let droplet = droplets[0];
         let particles: f64 = scene.body(droplet).unwrap().particle_numbers().iter().sum();
         let mut closest = f64::INFINITY;
         for step in 1..=100 {

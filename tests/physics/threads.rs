@@ -1,14 +1,15 @@
 //! The bits of a run do not depend on the number of threads (feature `rayon`).
 
 use motile::elastic_solids::Moduli;
-use motile::ib_core::{Hydrodynamics, Scene};
-use motile::{ElasticChannel, Method, Swimmer};
+use motile::ib_core::Scene;
+use motile::setup::{AnyFlow, ChannelShape, DropletSetup, Material, Region, Setup, SolidSetup};
+use motile_tests::validation::scene::{on_grid, open_channel};
 
 /// State and velocities, bit for bit, after three steps on that many threads.
-fn bits<H: Hydrodynamics>(threads: usize, build: impl Fn() -> Scene<H> + Sync) -> Vec<u64> {
+fn bits(threads: usize, setup: &Setup) -> Vec<u64> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
     pool.install(|| {
-        let mut scene = build();
+        let mut scene: Scene<AnyFlow> = setup.build().expect("a scene").scene;
         for _ in 0..3 {
             scene.step(2e-3).expect("a step");
         }
@@ -22,27 +23,24 @@ fn bits<H: Hydrodynamics>(threads: usize, build: impl Fn() -> Scene<H> + Sync) -
 
 #[test]
 fn a_large_box() {
-    let swimmer = Swimmer {
-        activity: -3.0,
-        lengths: [4.5, 4.5],
-        spacing: 0.005,
-        method: Method::ImmersedBoundary,
-        ..Swimmer::default()
-    };
-    let build = || swimmer.build_on_grid().expect("a scene").0;
-    let expected = bits(1, build);
-    assert_eq!(bits(2, build), expected);
-    assert_eq!(bits(3, build), expected);
+    let (region, droplets) = (Region::Box { lengths: [4.5; 2] }, vec![DropletSetup::active(-3.0)]);
+    let setup = Setup { region, droplets, ..on_grid(0.005) };
+    let expected = bits(1, &setup);
+    assert_eq!(bits(2, &setup), expected);
+    assert_eq!(bits(3, &setup), expected);
 }
 
 #[test]
 fn elastic_walls_of_many_points() {
-    let swimmer = Swimmer { activity: -4.0, lengths: [12.0, 2.0], spacing: 0.025, ..Swimmer::default() };
-    let moduli = Moduli::from_thesis_spring_constant(1e5).expect("moduli");
-    let channel = ElasticChannel::new(swimmer, moduli);
-    let build = || channel.build().expect("a scene").0;
-    let expected = bits(1, build);
+    let shear = Moduli::from_thesis_spring_constant(1e5).expect("moduli").shear();
+    let setup = Setup {
+        region: open_channel(12.0, 5.0),
+        droplets: vec![DropletSetup::active(-4.0)],
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear }),
+        ..on_grid(0.025)
+    };
+    let expected = bits(1, &setup);
     assert!(expected.len() > 120_000, "enough points for several threads");
-    assert_eq!(bits(2, build), expected);
-    assert_eq!(bits(3, build), expected);
+    assert_eq!(bits(2, &setup), expected);
+    assert_eq!(bits(3, &setup), expected);
 }

@@ -1,17 +1,18 @@
 //! Integrators and step sizes: order, stability, accuracy, and what is reported of them.
 
-use motile::active_interface::{ActiveDroplet, Motion, observables::centroid_velocity};
+use motile::active_interface::{ActiveDroplet, observables::centroid_velocity};
 use motile::elastic_solids::{Moduli, NeoHookean, Solid, mesh::equilateral_strip};
 use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
     SceneError, SpectralEstimate, StepSize, Vec2,
 };
+use motile::setup::{AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Setup, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid};
-use motile::{ElasticChannel, Swimmer};
 use motile_tests::validation::order;
+use motile_tests::validation::scene::{on_grid, open_channel, without_grid};
 
 fn state<B: Body, H: Hydrodynamics, I: Integrator>(scene: &Scene<H, I>, body: Handle<B>) -> Vec<f64> {
-    let body = scene.body(body).unwrap();
+    let body = scene.body(body).expect("its body");
     let mut state = vec![0.0; body.state_len()];
     body.write_state(&mut state);
     state
@@ -23,12 +24,12 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 
 /// The droplet after a time of one, with equal steps; no filter, which is of first order in time.
 fn swimmer<I: Integrator>(integrator: I, dt: f64) -> Vec<f64> {
-    let motion = Motion::Equidistributed { relaxation: 5.0, filter: false };
-    let swimmer = Swimmer { spacing: 0.2, activity: -2.0, viscosity: 40.0, motion, ..Swimmer::default() };
-    let (scene, droplet) = swimmer.build_on_grid().expect("a scene");
+    let method = Method::Grid(GridMethod { filter: false, ..GridMethod::of_spacing(0.2) });
+    let setup = Setup { method, viscosity: 40.0, ..Setup::default() };
+    let Built { scene, droplets, .. } = setup.build().expect("a scene");
     let mut scene = scene.advanced_by(integrator);
     scene.run(0.8).step_size(StepSize::Fixed(dt)).go().expect("a run");
-    state(&scene, droplet)
+    state(&scene, droplets[0])
 }
 
 #[test]
@@ -111,10 +112,17 @@ fn the_stages_follow_the_step() {
 /// what the power method sees first.
 #[test]
 fn the_predicted_step_between_stiff_walls_is_stable() {
-    let swimmer = Swimmer { activity: 0.0, viscosity: 10.0, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };
-    let channel = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e6).expect("moduli"));
+    let shear = Moduli::from_thesis_spring_constant(1e6).expect("moduli").shear();
+    let setup = Setup {
+        region: open_channel(6.0, 5.0),
+        viscosity: 10.0,
+        droplets: vec![DropletSetup::active(0.0)],
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear }),
+        ..on_grid(0.1)
+    };
     for stages in [5, 8] {
-        let (scene, droplet, _) = channel.build().expect("a scene");
+        let Built { scene, droplets, .. } = setup.build().expect("a scene");
+        let droplet = droplets[0];
         let mut scene = scene.advanced_by(RungeKuttaChebyshev::new().with_most_stages(stages));
         let start = scene.body(droplet).unwrap().markers().to_vec();
         let (limit, reason, _) = scene.step_limit().expect("a limit");
@@ -131,8 +139,8 @@ fn the_predicted_step_between_stiff_walls_is_stable() {
 /// What decays sets no bound here, and the first thing that happens is over in a thousandth of such a step.
 #[test]
 fn steps_of_a_fraction_of_a_long_limit_are_accurate() {
-    let swimmer = Swimmer { activity: -4.0, nodes: 24, concentration_cells: 96, ..Swimmer::default() };
-    let build = || swimmer.build().expect("a scene").0;
+    let setup = Setup { droplets: vec![DropletSetup::active(-4.0)], ..without_grid(24, 96) };
+    let build = || setup.build().expect("a scene").scene;
     let (midpoint, _) = run_and_look(&mut build());
     let (chebyshev, steps) = run_and_look(&mut build().advanced_by(RungeKuttaChebyshev::new()));
     assert!((chebyshev / midpoint - 1.0).abs() < 1e-5, "{chebyshev} {midpoint}");
@@ -148,12 +156,12 @@ fn run_and_look<H: Hydrodynamics, I: Integrator>(scene: &mut Scene<H, I>) -> (f6
     (velocity.norm(), scene.steps())
 }
 
-fn adaptive<I: Integrator>(integrator: I, tolerance: f64) -> (Scene<motile::PeriodicBox, I>, Handle<ActiveDroplet>) {
-    let swimmer = Swimmer { spacing: 0.2, activity: -3.0, ..Swimmer::default() };
-    let (scene, droplet) = swimmer.build_on_grid().expect("a scene");
+fn adaptive<I: Integrator>(integrator: I, tolerance: f64) -> (Scene<AnyFlow, I>, Handle<ActiveDroplet>) {
+    let setup = Setup { droplets: vec![DropletSetup::active(-3.0)], ..on_grid(0.2) };
+    let Built { scene, droplets, .. } = setup.build().expect("a scene");
     let mut scene = scene.advanced_by(integrator);
     scene.run(6.0).step_size(StepSize::Adaptive { tolerance }).go().expect("a run");
-    (scene, droplet)
+    (scene, droplets[0])
 }
 
 #[test]
@@ -187,7 +195,7 @@ fn both_integrators_come_to_the_same() {
 
 #[test]
 fn a_bound_on_steps_and_their_number_ends_a_run() {
-    let (mut scene, _) = Swimmer { spacing: 0.2, ..Swimmer::default() }.build_on_grid().expect("a scene");
+    let mut scene = on_grid(0.2).build().expect("a scene").scene;
     let error = scene.run(10.0).most_steps(3).go().expect_err("too few steps");
     assert!(matches!(error, SceneError::TooManySteps { most: 3, .. }), "{error}");
     assert_eq!(scene.steps(), 3);

@@ -1,13 +1,14 @@
 //! Swimmers without a grid against independent values and against the grid.
 
-use motile::Swimmer;
 use motile::ib_core::Hydrodynamics;
-use motile_tests::validation::swimmers::{look, reference_swimmer, steady_without_grid};
+use motile::setup::{Built, DropletSetup, GridMethod, Method, Setup};
+use motile_tests::validation::scene::reference;
+use motile_tests::validation::swimmers::steady;
 
 #[test]
 fn steady_swimmers() {
     for activity in [-2.0, -4.0] {
-        let errors = steady_without_grid(&reference_swimmer(&Swimmer::default(), activity, 0.05), 60.0).unwrap();
+        let errors = steady(&reference(Setup::default(), activity), 60.0).unwrap();
         assert!(errors.speed.abs() < 1e-3, "{errors:?}");
         assert!(errors.stresslet.abs() < 5e-3 && errors.beta.abs() < 5e-3, "{errors:?}");
         assert!(errors.aspect_ratio.abs() < 1e-3 && errors.concentration_max.abs() < 2e-3, "{errors:?}");
@@ -16,24 +17,26 @@ fn steady_swimmers() {
 
 #[test]
 fn steady_swimmer_with_viscosity_contrast() {
-    let thick = Swimmer { viscosity_inside: Some(100.0), ..reference_swimmer(&Swimmer::default(), -1.0, 0.05) };
-    let errors = steady_without_grid(&Swimmer { viscosity: 10.0, ..thick }, 60.0).unwrap();
+    let thick = DropletSetup { viscosity: Some(100.0), ..DropletSetup::default() };
+    let setup = Setup { viscosity: 10.0, droplets: vec![thick], ..Setup::default() };
+    let errors = steady(&reference(setup, -1.0), 60.0).unwrap();
     assert!(errors.speed.abs() < 1e-3 && errors.beta.abs() < 5e-3, "{errors:?}");
 }
 
 /// The same droplet on a grid and without one: the difference shrinks at the grid's order.
 #[test]
 fn both_methods_agree() {
-    let swimmer = Swimmer { activity: -4.0, ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build_without_grid().unwrap();
-    scene.run(10.0).go().unwrap();
-    let exact = look(&mut scene, droplet).unwrap().aspect_ratio_moments;
-    assert_eq!(scene.system().hydrodynamics().work().stokes_solves, 0);
-    let differences = [0.2, 0.1].map(|spacing| {
-        let (mut scene, droplet) =
-            Swimmer { spacing, marker_spacing: Some(0.025), ..swimmer.clone() }.build_on_grid().unwrap();
+    let aspect_ratio = |method: Method| {
+        let setup = Setup { method, droplets: vec![DropletSetup::active(-4.0)], ..Setup::default() };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
         scene.run(10.0).go().unwrap();
-        (look(&mut scene, droplet).unwrap().aspect_ratio_moments - exact).abs()
+        (scene.observe(droplets[0]).unwrap().aspect_ratio_moments, scene.system().hydrodynamics().work().stokes_solves)
+    };
+    let (exact, solves) = aspect_ratio(Method::default());
+    assert_eq!(solves, 0);
+    let differences = [0.2, 0.1].map(|spacing| {
+        let grid = GridMethod { marker_spacing: Some(0.025), ..GridMethod::of_spacing(spacing) };
+        (aspect_ratio(Method::Grid(grid)).0 - exact).abs()
     });
     let order = (differences[0] / differences[1]).log2();
     assert!(order > 1.6 && differences[1] < 4e-3, "{differences:?}");

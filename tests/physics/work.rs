@@ -1,13 +1,14 @@
 //! What a scene computes: only what it needs.
 
-use motile::Swimmer;
 use motile::active_interface::{ActiveDroplet, Curve};
 use motile::ib_core::{Body, CubicQuadratic, FlowWork, Hydrodynamics, ImmersedBoundary, Scene};
+use motile::setup::{GridMethod, Method, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes};
+use motile_tests::validation::scene::on_grid;
 
 #[test]
 fn a_step_is_two_solves_of_two_transforms() {
-    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::default() }.build_on_grid().unwrap();
+    let mut scene = on_grid(0.1).build().unwrap().scene;
     for _ in 0..5 {
         scene.step(0.01).unwrap();
     }
@@ -30,7 +31,8 @@ fn a_step_is_two_solves_of_two_transforms() {
 
 #[test]
 fn the_thesis_preset_is_not_corrected() {
-    let (mut scene, _) = Swimmer { spacing: 0.1, ..Swimmer::thesis() }.build_on_grid().unwrap();
+    let method = Method::Grid(GridMethod { spacing: 0.1, ..GridMethod::thesis() });
+    let mut scene = Setup { method, ..Setup::thesis() }.build().unwrap().scene;
     scene.step(0.001).unwrap();
     assert_eq!(scene.system().hydrodynamics().work().corrections, 0);
 }

@@ -6,7 +6,7 @@ use motile::active_interface::{
     observables::Frame,
     theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
-use motile::boundary_integral::{BoundaryIntegral, Channel, FreeSpace, PeriodicBox, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Forcing, Region, Settings};
 use motile::elastic_solids::{
     Mesher, Moduli, NeoHookean, Outline, Solid,
     channel::{Constriction, SinusoidalChannel, StraightChannel, Valve},
@@ -151,11 +151,17 @@ fn makers() -> Vec<Maker> {
             })
             .is_ok()
         }),
-        maker("PeriodicBox", &[4.0, 4.0], "++", |v| PeriodicBox::new(v[0], v[1]).is_ok()),
-        maker("Channel", &[4.0, 4.0], "++", |v| Channel::new(v[0], v[1]).is_ok()),
+        maker("Region::Box", &[4.0, 4.0], "++", |v| {
+            BoundaryIntegral::new(Region::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
+        }),
+        maker("Region::Channel", &[4.0, 4.0, 0.1], "++-", |v| {
+            let region = Region::Channel { length: v[0], width: v[1], forcing: Forcing::Flux(v[2]) };
+            BoundaryIntegral::new(region, 1.0, settings()).is_ok()
+        }),
         maker("BoundaryIntegral", &[1.0, 1e-8, 6.0], "+++", |v| {
-            let settings = Settings { tolerance: v[1], reference_perimeter: v[2], ..settings() };
-            BoundaryIntegral::new(FreeSpace, v[0], settings).is_ok()
+            let settings = Settings { tolerance: v[1], ..settings() };
+            let flow = BoundaryIntegral::new(Region::Plane, v[0], settings);
+            flow.and_then(|flow| flow.with_reference_perimeter(v[2])).is_ok()
         }),
         maker("Moduli", &[1.0, 2.0], "++", |v| Moduli::new(v[0], v[1]).is_ok()),
         maker("Moduli::of_springs", &[1.0], "+", |v| Moduli::of_springs(v[0]).is_ok()),

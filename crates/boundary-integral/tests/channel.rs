@@ -2,25 +2,28 @@
 
 mod scenes;
 
-use boundary_integral::{BoundaryIntegral, Channel, Drive, Settings};
+use boundary_integral::{BoundaryIntegral, Forcing, Region, Settings, forcing};
 use ib_core::{FlowReport, FlowSample, Hydrodynamics, Markers, Vec2};
 use scenes::{Ellipse, markers};
+use stokes_grid::Drive;
 
 const COUNT: usize = 256;
 
 struct Solved {
-    solver: BoundaryIntegral<Channel>,
+    /// Period and width.
+    lengths: [f64; 2],
+    solver: BoundaryIntegral,
     markers: Markers,
     report: FlowReport,
 }
 
 fn solve(period: f64, width: f64, drive: Drive, ellipses: &[Ellipse]) -> Solved {
-    let domain = Channel::new(period, width).expect("a valid scene").with_drive(drive).expect("a valid scene");
+    let region = Region::Channel { length: period, width, forcing: forcing(drive) };
     let settings = Settings { nodes: 128, tolerance: 1e-14, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
     let mut markers = markers(ellipses, COUNT);
     let report = solver.velocities(&mut markers).expect("a valid scene");
-    Solved { solver, markers, report }
+    Solved { lengths: [period, width], solver, markers, report }
 }
 
 impl Solved {
@@ -33,7 +36,7 @@ impl Solved {
     /// Flux through the line at x, by the rule of Clenshaw and Curtis over the height.
     fn flux(&mut self, x: f64) -> f64 {
         const N: usize = 48;
-        let half = 0.5 * self.solver.domain().width();
+        let half = 0.5 * self.lengths[1];
         let angle = |k: usize| std::f64::consts::PI * k as f64 / N as f64;
         let points: Vec<Vec2> = (0..=N).map(|k| Vec2::new(x, half * angle(k).cos())).collect();
         let samples = self.at(&points);
@@ -51,7 +54,7 @@ impl Solved {
     /// Integral of the shear stress over the wall at y.
     fn wall_shear(&mut self, y: f64) -> f64 {
         const N: usize = 128;
-        let period = self.solver.domain().period();
+        let period = self.lengths[0];
         let points: Vec<Vec2> = (0..N).map(|k| Vec2::new(period * k as f64 / N as f64, y)).collect();
         self.at(&points).iter().map(|sample| sample.gradient[0][1]).sum::<f64>() * period / N as f64
     }
@@ -127,8 +130,12 @@ fn a_thin_film_converges() {
     let shape = Ellipse { viscosity: Some(5.0), ..Ellipse::circle(0.0, 0.45, tension) };
     let run = |nodes: usize| {
         let settings = Settings { nodes, tolerance: 1e-12, ..Settings::default() };
-        let mut solver = BoundaryIntegral::new(Channel::new(8.0, 3.0).expect("a valid scene"), 1.0, settings)
-            .expect("a valid scene");
+        let mut solver = BoundaryIntegral::new(
+            Region::Channel { length: 8.0, width: 3.0, forcing: Forcing::default() },
+            1.0,
+            settings,
+        )
+        .expect("a valid scene");
         let mut markers = markers(&[shape], 512);
         solver.velocities(&mut markers).expect("a valid scene");
         markers.velocities

@@ -4,11 +4,10 @@ mod reference;
 
 use std::f64::consts::TAU;
 
-use boundary_integral::{
-    BoundaryIntegral, Channel, Drive, FluidDomain, FreeSpace, PeriodicBox, PeriodicCalculus, Settings, TensionPlacement,
-};
+use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Region, Settings, TensionPlacement, forcing};
 use ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 use reference::Table;
+use stokes_grid::Drive;
 
 /// Markers of the shape of a table with spectrally accurate forces of the tension 1 + 0.5 cos t.
 fn markers(table: &Table, count: usize) -> Markers {
@@ -22,15 +21,15 @@ fn markers(table: &Table, count: usize) -> Markers {
     let tension: Vec<f64> = angles.iter().map(|t| 1.0 + 0.5 * t.cos()).collect();
     PeriodicCalculus::new(count)
         .expect("a valid scene")
-        .tension_forces(&markers.positions, &tension, TensionPlacement::Markers, &mut markers.forces)
+        .tension_forces(&markers.positions, &tension, TensionPlacement::Points, &mut markers.forces)
         .expect("a valid scene");
     markers
 }
 
 /// Largest errors at the interface and at the other points.
-fn errors<D: FluidDomain>(domain: D, table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
+fn errors(region: Region, table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
     let settings = Settings { nodes, tolerance, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(domain, 1.0, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
     // A multiple of eight, so that the points of the reference are markers.
     let count = nodes.next_multiple_of(8) * 2;
     let mut markers = markers(table, count);
@@ -46,9 +45,9 @@ fn errors<D: FluidDomain>(domain: D, table: &Table, nodes: usize, tolerance: f64
 
 fn errors_unbounded(table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
     if table.period.is_finite() {
-        errors(PeriodicBox::new(table.period, table.period).expect("a valid scene"), table, nodes, tolerance)
+        errors(Region::Box { lengths: [table.period, table.period] }, table, nodes, tolerance)
     } else {
-        errors(FreeSpace, table, nodes, tolerance)
+        errors(Region::Plane, table, nodes, tolerance)
     }
 }
 
@@ -74,8 +73,8 @@ fn ten_times_the_viscosity_inside() {
 fn channel() {
     for table in &reference::CHANNEL {
         let drive = if table.zero_flux { Drive::ZeroFlux } else { Drive::ZeroGradient };
-        let domain = Channel::new(table.period, 3.0).expect("a valid scene").with_drive(drive).expect("a valid scene");
-        let found = errors(domain, table, 128, 1e-13);
+        let region = Region::Channel { length: table.period, width: 3.0, forcing: forcing(drive) };
+        let found = errors(region, table, 128, 1e-13);
         println!("ellipse {} zero flux {}: {found:?}", table.ellipse, table.zero_flux);
         assert!(found[0] < 1e-11 && found[1] < 1e-11, "{found:?}");
     }

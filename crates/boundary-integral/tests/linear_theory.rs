@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use boundary_integral::{BoundaryIntegral, FreeSpace, PeriodicCalculus, Settings, TensionPlacement};
+use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Region, Settings, TensionPlacement};
 use ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
 
 const COUNT: usize = 128;
@@ -11,7 +11,7 @@ const VISCOSITIES: [[f64; 2]; 3] = [[100.0, 100.0], [1000.0, 10.0], [10.0, 100.0
 /// Radial and tangential velocities on `R = 1 + bump cos(k t)` with the tension `1 + wave cos(k t)`.
 fn velocities(k: usize, bump: f64, wave: f64, [inside, outside]: [f64; 2]) -> [Vec<f64>; 2] {
     let settings = Settings { tolerance: 1e-14, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(FreeSpace, outside, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(Region::Plane, outside, settings).expect("a valid scene");
     let mut markers = Markers::new();
     markers.push_group(COUNT, MarkerKind::Interface { viscosity_inside: Some(inside) });
     let angle = |j: usize| TAU * j as f64 / COUNT as f64;
@@ -22,7 +22,7 @@ fn velocities(k: usize, bump: f64, wave: f64, [inside, outside]: [f64; 2]) -> [V
     let tension: Vec<f64> = (0..COUNT).map(|j| 1.0 + wave * (k as f64 * angle(j)).cos()).collect();
     PeriodicCalculus::new(COUNT)
         .expect("a valid scene")
-        .tension_forces(&markers.positions, &tension, TensionPlacement::Markers, &mut markers.forces)
+        .tension_forces(&markers.positions, &tension, TensionPlacement::Points, &mut markers.forces)
         .expect("a valid scene");
     solver.velocities(&mut markers).expect("a valid scene");
     let component = |tangential: bool| {

@@ -2,14 +2,14 @@
 
 mod scenes;
 
-use boundary_integral::{BoundaryIntegral, PeriodicBox, PeriodicCalculus, Settings, TensionPlacement};
+use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Region, Settings, TensionPlacement};
 use ib_core::{Hydrodynamics, Markers, Vec2};
 use scenes::{Ellipse, markers};
 
 const COUNT: usize = 96;
 
 struct Relaxing {
-    solver: BoundaryIntegral<PeriodicBox>,
+    solver: BoundaryIntegral,
     calculus: PeriodicCalculus,
     markers: Markers,
 }
@@ -18,9 +18,7 @@ impl Relaxing {
     fn rate(&mut self, positions: &[Vec2]) -> Vec<Vec2> {
         let Markers { positions: own, forces, .. } = &mut self.markers;
         own.copy_from_slice(positions);
-        self.calculus
-            .tension_forces(own, &[1.0; COUNT], TensionPlacement::Markers, forces)
-            .expect("lengths that agree");
+        self.calculus.tension_forces(own, &[1.0; COUNT], TensionPlacement::Points, forces).expect("lengths that agree");
         self.solver.velocities(&mut self.markers).expect("a smooth shape");
         self.markers.velocities.clone()
     }
@@ -59,9 +57,9 @@ fn ellipse_in_a_box() {
         let ellipse =
             Ellipse { axes: [1.3, 1.0 / 1.3], viscosity: Some(viscosity), ..Ellipse::circle(0.0, 0.0, |_| 1.0) };
         let settings = Settings { nodes: COUNT, tolerance: 1e-11, ..Settings::default() };
-        let domain = PeriodicBox::new(6.0, 6.0).expect("periods");
+        let region = Region::Box { lengths: [6.0, 6.0] };
         let mut relaxing = Relaxing {
-            solver: BoundaryIntegral::new(domain, 1.0, settings).expect("settings"),
+            solver: BoundaryIntegral::new(region, 1.0, settings).expect("settings"),
             calculus: PeriodicCalculus::new(COUNT).expect("enough samples"),
             markers: markers(&[ellipse], COUNT),
         };

@@ -1,29 +1,22 @@
 //! Interfaces between fluids of different viscosity on a grid: a dense double layer on their markers.
 
-mod double_layer;
-mod droplet;
 mod equivalent;
+mod error;
 mod field;
-mod gmres;
-mod images;
 mod rigid;
-mod rigid_walls;
-mod stress;
-mod wall_flow;
-mod wall_points;
-mod walls;
 
-use crate::{FlowError, MarkerKind, Markers, SavedState, Vec2};
+use std::ops::Range;
 
-use double_layer::DoubleLayer;
-pub(crate) use droplet::Droplet;
+use stokes_layers::Region;
+use stokes_layers::dense::{DoubleLayerMatrix, NodeCurve};
+pub(crate) use stokes_layers::gmres::Outcome;
+use stokes_layers::gmres::{Gmres, dot};
+
 pub(crate) use equivalent::EquivalentForces;
 pub(crate) use field::Nearby;
-pub(crate) use gmres::Outcome;
-use gmres::{Gmres, dot};
-pub(crate) use images::Images;
 use rigid::RigidModes;
-pub(crate) use rigid_walls::RigidWalls;
+
+use crate::{FlowError, MarkerKind, Markers, SavedState, Vec2};
 
 /// Residual of the iterations relative to the right-hand side.
 const TOLERANCE: f64 = 1e-6;
@@ -42,7 +35,7 @@ pub(crate) struct Effort {
 /// Velocities on interfaces between different viscosities from the velocities that the same forces have in a fluid of
 /// one viscosity (boundary integral equation of Pozrikidis, 1992, with the single layer from a grid):
 ///
-/// `A v = s`, A the [`DoubleLayer`], s the one-viscosity velocity times viscosity.
+/// `A v = s`, A the [`DoubleLayerMatrix`], s the one-viscosity velocity times viscosity.
 ///
 /// A stiff droplet answers to a rigid motion with the viscosity of its surroundings, to all else with the mean
 /// viscosity. A small error of s along the corresponding left eigenvectors phi, `A^T phi = eta phi`, is therefore
@@ -51,12 +44,15 @@ pub(crate) struct Effort {
 /// while the flow of all other forces (solids, other interfaces, walls that move) keeps it.
 #[derive(Debug)]
 pub(crate) struct Contrast {
-    layer: DoubleLayer,
+    matrix: DoubleLayerMatrix,
     viscosity: f64,
     droplets: Vec<Droplet>,
-    count: usize,
+    /// The curves of the droplets.
+    curves: Vec<NodeCurve>,
     nodes: usize,
     rigid: RigidModes,
+    /// Droplets and nodes of the last solutions.
+    solved: [usize; 2],
     /// Left eigenvectors, dual to the rigid motions.
     left: Vec<f64>,
     gmres: Gmres,
@@ -66,6 +62,14 @@ pub(crate) struct Contrast {
     velocities: Vec<f64>,
     /// Markers that are not on a droplet of another viscosity.
     targets: Vec<usize>,
+}
+
+/// Which markers a droplet has.
+#[derive(Debug)]
+pub(crate) struct Droplet {
+    pub(crate) markers: Range<usize>,
+    /// Whether its markers are equally spaced.
+    pub(crate) even: bool,
 }
 
 /// The viscosity inside a group if it is an interface to another viscosity than that of the surroundings.
@@ -86,15 +90,17 @@ pub(crate) fn other_viscosity(kind: &MarkerKind, surroundings: f64) -> Result<Op
 }
 
 impl Contrast {
-    /// For surroundings of the given viscosity in a box or a channel.
-    pub(crate) fn new(images: Images, walls: Option<RigidWalls>, viscosity: f64) -> Self {
-        Self {
-            layer: DoubleLayer::new(images, walls, viscosity),
+    /// For exterior fluid of the given viscosity in a box or a channel, whose `middle` is at that height; nodes closer
+    /// to a wall than `least_gap` count as that far away.
+    pub(crate) fn new(region: Region, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, FlowError> {
+        Ok(Self {
+            matrix: DoubleLayerMatrix::new(region, middle, viscosity, least_gap)?,
             viscosity,
             droplets: Vec::new(),
-            count: 0,
+            curves: Vec::new(),
             nodes: 0,
             rigid: RigidModes::default(),
+            solved: [0; 2],
             left: Vec::new(),
             gmres: Gmres::default(),
             own: Vec::new(),
@@ -102,12 +108,17 @@ impl Contrast {
             right: Vec::new(),
             velocities: Vec::new(),
             targets: Vec::new(),
-        }
+        })
     }
 
     /// The droplets of another viscosity.
     pub(crate) fn droplets(&self) -> &[Droplet] {
-        &self.droplets[..self.count]
+        &self.droplets
+    }
+
+    /// Their curves.
+    pub(crate) fn curves(&self) -> &[NodeCurve] {
+        &self.curves
     }
 
     /// The markers that are not on them.
@@ -117,7 +128,8 @@ impl Contrast {
 
     /// The last solutions, from which the next ones start.
     pub(crate) fn save(&self) -> SavedState {
-        let counts = [self.count, self.nodes, self.left.len()].map(|count| count as u64).to_vec();
+        let [count, nodes] = self.solved;
+        let counts = [count, nodes, self.left.len()].map(|count| count as u64).to_vec();
         SavedState { reals: [self.left.as_slice(), &self.velocities].concat(), counts }
     }
 
@@ -131,38 +143,39 @@ impl Contrast {
         let fits = |list: &[f64], columns: u64| list.is_empty() || list.len() as u64 == columns.saturating_mul(len);
         if fits(left, count.saturating_mul(3)) && fits(velocities, 1) {
             (self.left, self.velocities) = (left.to_vec(), velocities.to_vec());
-            (self.count, self.nodes) = (count as usize, nodes as usize);
+            self.solved = [count as usize, nodes as usize];
         }
     }
 
     /// Takes over the shapes of the droplets.
     pub(crate) fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
-        let (mut count, mut nodes) = (0, 0);
         self.targets.clear();
+        self.droplets.clear();
+        self.nodes = 0;
         for group in markers.groups() {
             let Some(viscosity) = other_viscosity(&group.kind, self.viscosity)? else {
                 self.targets.extend(group.range.clone());
                 continue;
             };
-            if count == self.droplets.len() {
-                self.droplets.push(Droplet::default());
+            let index = self.droplets.len();
+            if index == self.curves.len() {
+                self.curves.push(NodeCurve::default());
             }
-            let droplet = &mut self.droplets[count];
-            droplet.markers = group.range.clone();
-            droplet.first = nodes;
-            droplet.viscosity = viscosity;
-            droplet.contrast = viscosity - self.viscosity;
-            droplet.even = matches!(group.kind, MarkerKind::Interface { .. });
-            droplet.load(self.layer.kernel(), &markers.positions[group.range.clone()])?;
-            count += 1;
-            nodes += group.range.len();
+            let curve = &mut self.curves[index];
+            let positions = &markers.positions[group.range.clone()];
+            curve.load(&self.matrix, self.nodes, viscosity - self.viscosity, positions)?;
+            self.nodes += curve.len();
+            let even = matches!(group.kind, MarkerKind::Interface { .. });
+            self.droplets.push(Droplet { markers: group.range.clone(), even });
         }
-        if nodes != self.nodes || count != self.count {
+        self.curves.truncate(self.droplets.len());
+        let now = [self.curves.len(), self.nodes];
+        if now != self.solved {
             // The last solutions are no guesses for other nodes.
             self.left.clear();
             self.velocities.clear();
+            self.solved = now;
         }
-        (self.count, self.nodes) = (count, nodes);
         Ok(())
     }
 
@@ -179,8 +192,8 @@ impl Contrast {
                 (*x, *y) = (self.viscosity * velocity.x, self.viscosity * velocity.y);
             }
         }
-        self.layer.build(&self.droplets[..self.count]);
-        self.rigid.fill(&self.droplets[..self.count], self.nodes);
+        self.matrix.build(&self.curves)?;
+        self.rigid.fill(&self.curves, self.nodes);
         let outcome = match self.solve_nodes() {
             Ok(outcome) => outcome,
             Err(error) => {
@@ -193,14 +206,14 @@ impl Contrast {
         for ((velocity, x), y) in velocities.iter_mut().zip(x).zip(y) {
             *velocity = Vec2::new(*x, *y);
         }
-        let pressure_gradient = self.layer.pressure_gradient(&self.droplets[..self.count], &self.velocities);
+        let pressure_gradient = self.matrix.pressure_gradient(&self.curves, &self.velocities);
         Ok(Effort { iterations: outcome.iterations, residual: outcome.residual, pressure_gradient })
     }
 
     /// Left eigenvectors, then the velocities at the nodes.
     fn solve_nodes(&mut self) -> Result<Outcome, FlowError> {
-        let Self { layer, droplets, count, nodes, rigid, left, gmres, own, other, right, velocities, .. } = self;
-        let (droplets, nodes, viscosity) = (&droplets[..*count], *nodes, self.viscosity);
+        let Self { matrix, curves, nodes, rigid, left, gmres, own, other, right, velocities, .. } = self;
+        let (curves, nodes, viscosity) = (curves.as_slice(), *nodes, self.viscosity);
         let len = 2 * nodes;
         let mut iterations = 0;
 
@@ -210,12 +223,12 @@ impl Contrast {
         }
         for (index, column) in left.chunks_exact_mut(len).enumerate() {
             right.copy_from_slice(weighted().nth(index).unwrap_or_default());
-            let product = |q: &[f64], out: &mut [f64]| {
-                layer.transposed_product(droplets, q, out);
+            let product = |q: &[f64], out: &mut [f64], _: f64| {
+                matrix.transposed_product(curves, q, out);
                 // Half the contrast is about what the other eigenvalues lie above that of the rigid motions.
-                for droplet in droplets {
-                    let scale = 2.0 / droplet.contrast;
-                    for i in droplet.entries(nodes) {
+                for curve in curves {
+                    let scale = 2.0 / curve.contrast;
+                    for i in curve.entries(nodes) {
                         out[i] = scale * (out[i] - viscosity * q[i]);
                     }
                 }
@@ -230,7 +243,7 @@ impl Contrast {
             iterations += check("the rigid motions of droplets of another viscosity", outcome)?.iterations;
         }
 
-        // Splits off the rigid part, which the surroundings' viscosity alone resists.
+        // Splits off the rigid part, which the exterior viscosity alone resists.
         let project = |values: &mut [f64]| {
             for (motion, left) in rigid.motions(nodes).zip(left.chunks_exact(len)) {
                 let amount = dot(left, values);
@@ -245,9 +258,9 @@ impl Contrast {
         project(right);
         // Rows in units of the mean viscosity, so that thick and thin droplets count alike.
         let divide = |values: &mut [f64]| {
-            for droplet in droplets {
-                let scale = 1.0 / (viscosity + 0.5 * droplet.contrast);
-                droplet.entries(nodes).for_each(|i| values[i] *= scale);
+            for curve in curves {
+                let scale = 1.0 / (viscosity + 0.5 * curve.contrast);
+                curve.entries(nodes).for_each(|i| values[i] *= scale);
             }
         };
         divide(right);
@@ -255,8 +268,8 @@ impl Contrast {
             velocities.extend_from_slice(right);
         }
         project(velocities);
-        let product = |v: &[f64], out: &mut [f64]| {
-            layer.product(droplets, v, out);
+        let product = |v: &[f64], out: &mut [f64], _: f64| {
+            matrix.product(curves, v, out);
             project(out);
             divide(out);
         };

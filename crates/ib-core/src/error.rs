@@ -14,6 +14,9 @@ pub enum FlowError {
     /// A transform of another length than planned for.
     #[error(transparent)]
     Transform(#[from] fourier::FourierError),
+    /// The layer potentials refused.
+    #[error(transparent)]
+    Layers(stokes_layers::LayerError),
     /// A marker position or force is not a finite number.
     #[error("{what} of marker {marker} of body {body} is ({x}, {y}): the run has gone wrong, use a smaller time step")]
     NonFinite {

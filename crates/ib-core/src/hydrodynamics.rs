@@ -6,6 +6,8 @@ pub use markers::{MarkerGroup, MarkerKind, Markers, Vec2};
 
 use std::sync::Arc;
 
+pub use stokes_layers::FlowSample;
+
 use crate::{FlowError, MobilityDeficit, SavedState};
 
 /// The region that the fluid fills.
@@ -37,23 +39,6 @@ pub struct Medium {
     /// The mobility that an interface loses to the kernel and the grid, uncorrected; `None` where there is no grid. A
     /// body that corrects its own surface takes it from here, so that it cannot be that of another kernel.
     pub mobility_deficit: Option<Arc<MobilityDeficit>>,
-}
-
-/// The flow at a point.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FlowSample {
-    /// Velocity (length per time).
-    pub velocity: Vec2,
-    /// Pressure (force per length in 2D), periodic part.
-    pub pressure: f64,
-    /// Velocity gradient `[[du/dx, du/dy], [dv/dx, dv/dy]]` (1/time).
-    pub gradient: [[f64; 2]; 2],
-}
-
-impl Default for FlowSample {
-    fn default() -> Self {
-        Self { velocity: Vec2::zeros(), pressure: 0.0, gradient: [[0.0; 2]; 2] }
-    }
 }
 
 /// What one evaluation of the flow needed and found.

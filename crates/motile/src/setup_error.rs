@@ -1,7 +1,7 @@
 //! What keeps a scene from being set up.
 
 use active_interface::InterfaceError;
-use boundary_integral::BoundaryIntegralError;
+use boundary_integral::LayerError;
 use elastic_solids::SolidError;
 use ib_core::FlowError;
 use stokes_grid::StokesError;
@@ -21,7 +21,7 @@ pub enum SetupError {
     Flow(#[from] FlowError),
     /// The boundary integrals.
     #[error(transparent)]
-    BoundaryIntegral(#[from] BoundaryIntegralError),
+    BoundaryIntegral(#[from] LayerError),
     /// The elastic walls.
     #[error(transparent)]
     Solid(#[from] SolidError),

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use active_interface::{ActiveDroplet, Curve};
-use boundary_integral::{BoundaryIntegral, Channel, FluidDomain, FreeSpace, Settings};
+use boundary_integral::{BoundaryIntegral, Region, Settings, forcing};
 use ib_core::{AnyKernel, Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StokesSolver};
 
@@ -19,13 +19,13 @@ pub type PeriodicBox = ImmersedBoundary<PeriodicStokes, AnyKernel>;
 pub type RigidChannel = ImmersedBoundary<ChannelStokes, AnyKernel>;
 
 /// The hydrodynamics of a droplet in a periodic box, without a grid.
-pub type IntegralBox = BoundaryIntegral<boundary_integral::PeriodicBox>;
+pub type IntegralBox = BoundaryIntegral;
 
 /// The hydrodynamics of a droplet in a channel with rigid walls, without a grid.
-pub type IntegralChannel = BoundaryIntegral<Channel>;
+pub type IntegralChannel = BoundaryIntegral;
 
 /// The hydrodynamics of a droplet in unbounded fluid, without a grid.
-pub type IntegralPlane = BoundaryIntegral<FreeSpace>;
+pub type IntegralPlane = BoundaryIntegral;
 
 /// A scene and the droplet in it, or why there is none.
 pub type Built<H> = Result<(Scene<H>, Handle<ActiveDroplet>), SetupError>;
@@ -122,7 +122,7 @@ impl Swimmer {
     /// # Errors
     /// Parameters out of their range.
     pub fn build_unbounded(&self) -> Built<IntegralPlane> {
-        self.with_droplet(&self.circle_of_cells()?, self.integrals(FreeSpace)?)
+        self.with_droplet(&self.circle_of_cells()?, self.integrals(Region::Plane)?)
     }
 
     /// As [`Swimmer::build_without_grid`], in a channel with rigid walls. A droplet that would start closer to a wall
@@ -177,19 +177,19 @@ impl Swimmer {
 
     fn integral_box(&self) -> Result<IntegralBox, SetupError> {
         let [lx, ly] = self.box_fits()?;
-        self.integrals(boundary_integral::PeriodicBox::new(lx, ly)?)
+        self.integrals(Region::Box { lengths: [lx, ly] })
     }
 
     fn integral_channel(&self, drive: Drive) -> Result<IntegralChannel, SetupError> {
         let [lx, ly] = self.channel_fits()?;
-        self.integrals(Channel::new(lx, ly)?.with_drive(drive)?)
+        self.integrals(Region::Channel { length: lx, width: ly, forcing: forcing(drive) })
     }
 
-    fn integrals<D: FluidDomain>(&self, domain: D) -> Result<BoundaryIntegral<D>, SetupError> {
+    fn integrals(&self, region: Region) -> Result<BoundaryIntegral, SetupError> {
         // Refuses a radius that is none by its own name.
         self.circle()?;
-        let settings = Settings { nodes: self.nodes, reference_perimeter: TAU * self.radius, ..Settings::default() };
-        Ok(BoundaryIntegral::new(domain, self.viscosity, settings)?)
+        let settings = Settings { nodes: self.nodes, ..Settings::default() };
+        Ok(BoundaryIntegral::new(region, self.viscosity, settings)?.with_reference_perimeter(TAU * self.radius)?)
     }
 
     /// The markers of a circle, as many as there are cells of the concentration.

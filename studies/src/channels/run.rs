@@ -5,8 +5,9 @@ use motile::active_interface::{
     ActiveDroplet, Observables,
     trajectory::{RegimeCriteria, TrajectoryRecorder},
 };
-use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, StepSize};
-use motile::{Swimmer, stokes_grid::Drive};
+use motile::ib_core::{Every, Handle, Hydrodynamics, Scene};
+use motile::setup::{Built, DropletSetup, GridMethod, Method, Particles, Region, Setup};
+use motile::stokes_grid::Drive;
 use motile_examples::{Steadiness, Summary};
 
 /// Excluded volume of the runs for speeds, and of those for amplitudes: the thesis does not give its own, and which
@@ -84,38 +85,31 @@ impl Job {
     }
 
     pub(crate) fn run(&self) -> Result<Summary> {
-        let swimmer = Swimmer {
-            activity: self.activity,
-            excluded_volume: self.excluded_volume(),
+        let (length, width) = (self.length, self.width);
+        let centre = [0.0, if self.purpose == Purpose::Amplitude { OFFSET } else { 0.0 }];
+        let droplet = DropletSetup { centre, ..DropletSetup::contractile(self.activity, self.excluded_volume()) };
+        let setup = Setup {
+            region: match self.purpose {
+                Purpose::Unconfined => Region::Box { lengths: [length, width] },
+                _ => Region::Channel { length, width, drive: Drive::ZeroGradient },
+            },
+            method: Method::Grid(GridMethod::of_spacing(self.spacing)),
             viscosity: self.viscosity,
-            lengths: [self.length, self.width],
-            spacing: self.spacing,
-            offset: [0.0, if self.purpose == Purpose::Amplitude { OFFSET } else { 0.0 }],
-            step: StepSize::OfLimit(0.5),
-            ..Swimmer::default()
+            droplets: vec![droplet],
+            ..Setup::default()
         };
-        if self.purpose == Purpose::Unconfined {
-            let (mut scene, droplet) = swimmer.build_on_grid()?;
-            self.watch(&mut scene, droplet, &swimmer)
-        } else {
-            let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient)?;
-            self.watch(&mut scene, droplet, &swimmer)
-        }
+        let Built { mut scene, droplets, .. } = setup.build()?;
+        self.watch(&mut scene, droplets[0])
     }
 
-    fn watch<H: Hydrodynamics>(
-        &self,
-        scene: &mut Scene<H>,
-        droplet: Handle<ActiveDroplet>,
-        swimmer: &Swimmer,
-    ) -> Result<Summary> {
+    fn watch<H: Hydrodynamics>(&self, scene: &mut Scene<H>, droplet: Handle<ActiveDroplet>) -> Result<Summary> {
         let mut recorder = TrajectoryRecorder::new(droplet);
         let interval = Every::StepAfter(self.time / 600.0);
-        scene.run(self.time).step_size(swimmer.step).observe(interval, &mut recorder).go()?;
+        scene.run(self.time).observe(interval, &mut recorder).go()?;
         let Some(last) = recorder.records().last() else { bail!("nothing was measured") };
         let seen = &last.observables;
         let speeds: Vec<(f64, f64)> = recorder.records().iter().map(|r| (r.time, r.observables.speed())).collect();
-        let steadiness = Steadiness::of(&speeds, swimmer.diffusion / swimmer.radius.powi(2));
+        let steadiness = Steadiness::of(&speeds, Particles::default().diffusion);
         let report = recorder.regime(&RegimeCriteria::default())?;
         let [fit, expression] = self.thesis_speeds();
 

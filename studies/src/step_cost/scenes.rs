@@ -1,11 +1,10 @@
 //! The scenes whose steps are measured.
 
 use anyhow::Result;
-use motile::active_interface::{ActiveDroplet, Curve, InitialConcentration};
 use motile::elastic_solids::{Solid, mesh::fitted_strip};
 use motile::ib_core::{Body, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
-use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
-use motile::{Swimmer, boundary_integral};
+use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
+use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
 use motile_examples::Summary;
 
 use crate::step_cost::phases::Case;
@@ -20,36 +19,54 @@ const THICK: f64 = 1e4;
 /// Shear modulus of walls (force per area).
 const SHEAR: f64 = 100.0;
 
-fn droplet(swimmer: &Swimmer, watches: &Stopwatches) -> Result<Watched<impl Body>> {
-    Ok(Watched(swimmer.droplet()?, watches.clone()))
+/// A scene whose parts are measured: a droplet of this viscosity in a region, by a method.
+#[derive(Debug, Clone)]
+struct Plan {
+    setup: Setup,
+    /// The grid that is the measure of its cost.
+    spacing: f64,
 }
 
-fn swimmer(lengths: [f64; 2], spacing: f64, inside: Option<f64>) -> Swimmer {
-    Swimmer { lengths, spacing, viscosity: VISCOSITY, viscosity_inside: inside, ..Swimmer::default() }
+impl Plan {
+    fn new(region: Region, spacing: f64, viscosity: Option<f64>) -> Self {
+        let method = Method::Grid(GridMethod::of_spacing(spacing));
+        let droplets = vec![DropletSetup { viscosity, ..DropletSetup::default() }];
+        Self { setup: Setup { region, method, viscosity: VISCOSITY, droplets, ..Setup::default() }, spacing }
+    }
+
+    fn droplet(&self, watches: &Stopwatches) -> Result<Watched<impl Body>> {
+        Ok(Watched(self.setup.droplet(&self.setup.droplets[0])?, watches.clone()))
+    }
+
+    fn grid(&self) -> Result<Grid> {
+        let [nx, ny] = self.setup.region.lengths().map(|length| (length / self.spacing).round() as usize);
+        Ok(match self.setup.region {
+            Region::Channel { .. } => Grid::channel(nx, ny, self.spacing)?,
+            _ => Grid::periodic(nx, ny, self.spacing)?,
+        })
+    }
 }
 
-/// All bodies of `scene` and the droplet of `swimmer`.
+fn square(length: f64) -> Region {
+    Region::Box { lengths: [length; 2] }
+}
+
+fn between_walls(length: f64, width: f64) -> Region {
+    Region::Channel { length, width, drive: Drive::ZeroGradient }
+}
+
+/// The droplet of a plan in a flow.
 fn case<H: Hydrodynamics>(
     kind: &'static str,
-    swimmer: &Swimmer,
+    plan: &Plan,
     flow: H,
     watches: Stopwatches,
     grid: Grid,
 ) -> Result<Case<Watched<H>>> {
     let mut scene = Scene::new(Watched(flow, watches.clone()));
-    scene.add(droplet(swimmer, &watches)?);
+    scene.add(plan.droplet(&watches)?);
     let dt = scene.system().step_limit().map_or(1e-3, |(limit, _)| 0.2 * limit.dt).min(0.01);
-    Ok(Case { kind, scene, watches, grid, kernel: swimmer.kernel, dt, without_grid: false, nodes: 0 })
-}
-
-fn periodic(swimmer: &Swimmer) -> Result<Grid> {
-    let [nx, ny] = swimmer.lengths.map(|length| (length / swimmer.spacing).round() as usize);
-    Ok(Grid::periodic(nx, ny, swimmer.spacing)?)
-}
-
-fn between_walls(swimmer: &Swimmer) -> Result<Grid> {
-    let [nx, ny] = swimmer.lengths.map(|length| (length / swimmer.spacing).round() as usize);
-    Ok(Grid::channel(nx, ny, swimmer.spacing)?)
+    Ok(Case { kind, scene, watches, grid, kernel: GridMethod::default().kernel, dt, without_grid: false, nodes: 0 })
 }
 
 fn name(kind: &str, grid: &Grid) -> String {
@@ -57,25 +74,25 @@ fn name(kind: &str, grid: &Grid) -> String {
 }
 
 /// A droplet in a box; sharp contrast if it is thicker than its surroundings.
-fn in_box(kind: &'static str, swimmer: Swimmer) -> Result<Job> {
-    let grid = periodic(&swimmer)?;
+fn in_box(kind: &'static str, plan: Plan) -> Result<Job> {
+    let grid = plan.grid()?;
     let run = move |budget| {
         let watches = Stopwatches::default();
         let solver = Watched(PeriodicStokes::new(grid, VISCOSITY)?, watches.clone());
-        let flow = ImmersedBoundary::new(solver, swimmer.kernel);
-        case(kind, &swimmer, flow, watches, grid)?.measure(budget)
+        let flow = ImmersedBoundary::new(solver, GridMethod::default().kernel);
+        case(kind, &plan, flow, watches, grid)?.measure(budget)
     };
     Ok((name(kind, &grid), Box::new(run)))
 }
 
 /// A thick droplet in a box with a smooth viscosity.
-fn smeared(swimmer: Swimmer) -> Result<Job> {
-    let (kind, grid) = ("contrast, arithmetic", periodic(&swimmer)?);
+fn smeared(plan: Plan) -> Result<Job> {
+    let (kind, grid) = ("contrast, arithmetic", plan.grid()?);
     let run = move |budget| {
         let watches = Stopwatches::default();
         let solver = Watched(PeriodicStokes::new(grid, VISCOSITY)?, watches.clone());
-        let flow = SmearedContrast::new(solver, swimmer.kernel)?;
-        let mut case = case(kind, &swimmer, flow, watches, grid)?;
+        let flow = SmearedContrast::new(solver, GridMethod::default().kernel)?;
+        let mut case = case(kind, &plan, flow, watches, grid)?;
         case.dt = 0.01;
         case.measure(budget)
     };
@@ -83,17 +100,17 @@ fn smeared(swimmer: Swimmer) -> Result<Job> {
 }
 
 /// A droplet between rigid walls, or between elastic layers of the thickness `layers` on them.
-fn in_channel(kind: &'static str, swimmer: Swimmer, layers: Option<f64>) -> Result<Job> {
-    let grid = between_walls(&swimmer)?;
+fn in_channel(kind: &'static str, plan: Plan, layers: Option<f64>) -> Result<Job> {
+    let grid = plan.grid()?;
     let run = move |budget| {
         let watches = Stopwatches::default();
         let solver = Watched(ChannelStokes::new(grid, VISCOSITY)?, watches.clone());
-        let flow = ImmersedBoundary::new(solver, swimmer.kernel);
-        let mut case = case(kind, &swimmer, flow, watches.clone(), grid)?;
+        let flow = ImmersedBoundary::new(solver, GridMethod::default().kernel);
+        let mut case = case(kind, &plan, flow, watches.clone(), grid)?;
         if let Some(thickness) = layers {
-            let [length, width] = swimmer.lengths;
+            let [length, width] = plan.setup.region.lengths();
             for bottom in [-0.5 * width, 0.5 * width - thickness] {
-                let mesh = fitted_strip(Vec2::new(-0.5 * length, bottom), [length, thickness], swimmer.spacing)?;
+                let mesh = fitted_strip(Vec2::new(-0.5 * length, bottom), [length, thickness], plan.spacing)?;
                 let wall = Solid::springs(mesh, SHEAR)?.pinned(|s| s.y.abs() > 0.5 * width - 1e-9)?;
                 case.scene.add(Watched(wall, watches.clone()));
             }
@@ -105,76 +122,42 @@ fn in_channel(kind: &'static str, swimmer: Swimmer, layers: Option<f64>) -> Resu
 }
 
 /// A droplet without a grid; the grid of spacing 0.05 is the measure.
-fn without_grid(kind: &'static str, swimmer: &Swimmer, nodes: usize, walls: bool) -> Result<Job> {
-    let swimmer = Swimmer { nodes, concentration_cells: 4 * nodes, ..swimmer.clone() };
-    let grid = if walls { between_walls(&swimmer)? } else { periodic(&swimmer)? };
+fn without_grid(kind: &'static str, plan: Plan, nodes: usize) -> Result<Job> {
+    let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+    let plan = Plan { setup: Setup { method, ..plan.setup }, ..plan };
+    let grid = plan.grid()?;
     let run = move |budget| {
         let watches = Stopwatches::default();
-        let settings = boundary_integral::Settings {
-            nodes,
-            reference_perimeter: std::f64::consts::TAU * swimmer.radius,
-            ..boundary_integral::Settings::default()
-        };
-        let [lx, ly] = swimmer.lengths;
-        // The droplet of the library's own scene, whose markers are the cells of its concentration.
-        let markers = Curve::circle(swimmer.radius)?.markers(4 * nodes)?;
-        let numbers = InitialConcentration::polarised(swimmer.mean_concentration, 0.0)?.particle_numbers(&markers)?;
-        let mut droplet = ActiveDroplet::new(&markers, numbers, swimmer.tension()?, swimmer.diffusion)?;
-        if let Some(inside) = swimmer.viscosity_inside {
-            droplet = droplet.with_viscosity_inside(inside)?;
-        }
-        let droplet = Watched(droplet, watches.clone());
-        if walls {
-            let domain = boundary_integral::Channel::new(lx, ly)?;
-            let flow = boundary_integral::BoundaryIntegral::new(domain, VISCOSITY, settings)?;
-            integrals(kind, Scene::new(Watched(flow, watches.clone())), droplet, watches, (grid, &swimmer), budget)
-        } else {
-            let domain = boundary_integral::PeriodicBox::new(lx, ly)?;
-            let flow = boundary_integral::BoundaryIntegral::new(domain, VISCOSITY, settings)?;
-            integrals(kind, Scene::new(Watched(flow, watches.clone())), droplet, watches, (grid, &swimmer), budget)
-        }
+        let case = case(kind, &plan, plan.setup.flow()?, watches, grid)?;
+        Case { without_grid: true, nodes, ..case }.measure(budget)
     };
     Ok((format!("{kind}, {nodes} nodes"), Box::new(run)))
-}
-
-fn integrals<H: Hydrodynamics>(
-    kind: &'static str,
-    mut scene: Scene<H>,
-    droplet: Watched<impl Body>,
-    watches: Stopwatches,
-    (grid, swimmer): (Grid, &Swimmer),
-    budget: std::time::Duration,
-) -> Result<Summary> {
-    scene.add(droplet);
-    let dt = scene.system().step_limit().map_or(1e-3, |(limit, _)| 0.2 * limit.dt).min(0.01);
-    let nodes = swimmer.nodes;
-    Case { kind, scene, watches, grid, kernel: swimmer.kernel, dt, without_grid: true, nodes }.measure(budget)
 }
 
 /// Every kind of scene at several sizes.
 pub(crate) fn jobs() -> Result<Vec<Job>> {
     let mut jobs = Vec::new();
     for cells in [60.0, 120.0, 240.0, 480.0] {
-        jobs.push(in_box("box", swimmer([6.0; 2], 6.0 / cells, None))?);
+        jobs.push(in_box("box", Plan::new(square(6.0), 6.0 / cells, None))?);
     }
     // The same markers in a large box and in channels of the same length.
-    jobs.push(in_box("large box", swimmer([12.0; 2], 0.05, None))?);
+    jobs.push(in_box("large box", Plan::new(square(12.0), 0.05, None))?);
     for width in [2.0, 5.0, 12.0] {
-        jobs.push(in_channel("channel", swimmer([12.0, width], 0.05, None), None)?);
+        jobs.push(in_channel("channel", Plan::new(between_walls(12.0, width), 0.05, None), None)?);
     }
     for spacing in [0.1, 0.05] {
-        jobs.push(in_channel("elastic channel", swimmer([12.0, 4.0], spacing, None), Some(0.8))?);
+        jobs.push(in_channel("elastic channel", Plan::new(between_walls(12.0, 4.0), spacing, None), Some(0.8))?);
     }
     for cells in [60.0, 120.0, 240.0] {
-        jobs.push(in_box("contrast, sharp", swimmer([6.0; 2], 6.0 / cells, Some(THICK)))?);
-        jobs.push(smeared(swimmer([6.0; 2], 6.0 / cells, Some(THICK)))?);
+        jobs.push(in_box("contrast, sharp", Plan::new(square(6.0), 6.0 / cells, Some(THICK)))?);
+        jobs.push(smeared(Plan::new(square(6.0), 6.0 / cells, Some(THICK)))?);
     }
     for nodes in [64, 128, 256] {
-        jobs.push(without_grid("integrals, box", &swimmer([6.0; 2], 0.05, None), nodes, false)?);
-        jobs.push(without_grid("integrals, box, ratio 100", &swimmer([6.0; 2], 0.05, Some(THICK)), nodes, false)?);
-        jobs.push(without_grid("integrals, channel", &swimmer([12.0, 3.0], 0.05, None), nodes, true)?);
-        let thick = swimmer([12.0, 3.0], 0.05, Some(THICK));
-        jobs.push(without_grid("integrals, channel, ratio 100", &thick, nodes, true)?);
+        jobs.push(without_grid("integrals, box", Plan::new(square(6.0), 0.05, None), nodes)?);
+        jobs.push(without_grid("integrals, box, ratio 100", Plan::new(square(6.0), 0.05, Some(THICK)), nodes)?);
+        jobs.push(without_grid("integrals, channel", Plan::new(between_walls(12.0, 3.0), 0.05, None), nodes)?);
+        let thick = Plan::new(between_walls(12.0, 3.0), 0.05, Some(THICK));
+        jobs.push(without_grid("integrals, channel, ratio 100", thick, nodes)?);
     }
     Ok(jobs)
 }

@@ -1,7 +1,9 @@
 //! Which runs the study consists of.
 
 use clap::ValueEnum;
-use motile::{WallMaterial, WallMesh};
+use motile::setup::MeshKind;
+
+use crate::stiffness::run::WallMaterial;
 
 use crate::stiffness::run::{Job, Purpose};
 
@@ -88,7 +90,7 @@ fn comparisons(h: f64) -> Vec<Job> {
     let job =
         Job { viscosity: 1000.0, excluded_volume: 20.0, ..Job::new(Purpose::Comparison, 2.0, -10.0, 1e4, h, 80.0) };
     let kinds = |mesh| [WallMaterial::Springs, WallMaterial::NeoHookean].map(|material| Job { material, mesh, ..job });
-    [WallMesh::Equilateral, WallMesh::Unstructured].into_iter().flat_map(kinds).collect()
+    [MeshKind::Equilateral, MeshKind::Unstructured].into_iter().flat_map(kinds).collect()
 }
 
 fn contrasts(h: f64) -> Vec<Job> {
@@ -122,7 +124,7 @@ fn rests(h: f64) -> Vec<Job> {
 fn narrow(h: f64) -> Vec<Job> {
     let job = |(young, activity)| Job {
         material: WallMaterial::NeoHookean,
-        mesh: WallMesh::Unstructured,
+        mesh: MeshKind::Unstructured,
         ..Job::new(Purpose::Narrow, 1.0, activity, young, h, 60.0)
     };
     pairs(&[1e3, 1e4], &ACTIVITIES).map(job).collect()

@@ -2,16 +2,22 @@
 
 use anyhow::{Result, bail};
 use clap::ValueEnum;
+use motile::SolidGap;
 use motile::active_interface::{
-    ActiveDroplet, Motion,
+    ActiveDroplet,
     trajectory::{RegimeCriteria, TrajectoryRecorder},
 };
 use motile::elastic_solids::{
-    Channel, Moduli, Solid,
-    channel::{Constriction, StraightChannel, width_between},
+    Moduli, Solid,
+    channel::{Constriction, width_between},
+    solid::Observables,
 };
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
-use motile::{ElasticChannel, Method, SolidGap, Swimmer, WallMaterial, WallMesh, WallSurface, stokes_grid::Drive};
+use motile::setup::{
+    Built, ChannelShape, DropletSetup, Exclusion, GridMethod, MarkerMotion, Material, MeshKind, Method, Particles,
+    Region, Setup, SolidSetup, Surface,
+};
+use motile::stokes_grid::Drive;
 use motile_examples::{Decided, Passage, Steadiness, Summary};
 
 use crate::stiffness::history::History;
@@ -52,6 +58,13 @@ pub(crate) enum Purpose {
     Rest,
 }
 
+/// What walls are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum WallMaterial {
+    Springs,
+    NeoHookean,
+}
+
 /// A run by its parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Job {
@@ -65,9 +78,9 @@ pub(crate) struct Job {
     /// The thesis' spring constant k.
     pub(crate) stiffness: f64,
     pub(crate) material: WallMaterial,
-    pub(crate) mesh: WallMesh,
+    pub(crate) mesh: MeshKind,
     /// What is done about the walls' surfaces.
-    pub(crate) surface: WallSurface,
+    pub(crate) surface: Surface,
     pub(crate) thesis: bool,
     /// Whether markers are kept equally spaced, also by the method of the thesis.
     pub(crate) equidistant: bool,
@@ -89,8 +102,8 @@ impl Job {
             ratio: 1.0,
             stiffness,
             material: WallMaterial::Springs,
-            mesh: WallMesh::Equilateral,
-            surface: if purpose == Purpose::Passage { WallSurface::SetBack } else { WallSurface::Corrected },
+            mesh: MeshKind::Equilateral,
+            surface: if purpose == Purpose::Passage { Surface::SetBack } else { Surface::Corrected },
             thesis: false,
             equidistant: false,
             back: 0.0,
@@ -105,33 +118,97 @@ impl Job {
         let method = if self.thesis { "_thesis" } else { "" };
         let equidistant = if self.equidistant { "_equidistant" } else { "" };
         let back = if self.back == 0.0 { String::new() } else { format!("_back{}", self.back) };
-        let surface = if self.surface == WallSurface::SetBack { "_setback" } else { "" };
+        let surface = if self.surface == Surface::SetBack { "_setback" } else { "" };
         let ratio = if self.ratio == 1.0 { String::new() } else { format!("_ratio{}", self.ratio) };
         format!(
             "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}{surface}{equidistant}{back}"
         )
     }
 
-    fn swimmer(&self) -> Swimmer {
-        let offset = match self.purpose {
+    /// Thickness of each wall (R0).
+    const THICKNESS: f64 = 1.5;
+
+    /// The scene between elastic walls.
+    fn setup(&self) -> Result<Setup> {
+        let centre = match self.purpose {
             Purpose::Passage => [-0.5 * LENGTH, 0.0],
             Purpose::Lateral => [0.0, 0.3],
             _ => [0.0, 0.0],
         };
-        let base = if self.thesis { Swimmer::thesis() } else { Swimmer::default() };
-        Swimmer {
-            activity: self.activity,
-            excluded_volume: self.excluded_volume,
+        let base = if self.thesis { Setup::thesis() } else { Setup::default() };
+        let mut grid = if self.thesis { GridMethod::thesis() } else { GridMethod::default() };
+        grid.spacing = self.spacing;
+        // The filter goes with equally spaced markers.
+        grid.filter |= self.equidistant;
+        let droplet = DropletSetup {
+            centre,
+            viscosity: (self.ratio != 1.0).then_some(self.ratio * self.viscosity),
+            motion: if self.equidistant { MarkerMotion::default() } else { base.droplets[0].motion },
+            particles: base.droplets[0].particles.map(|particles| Particles {
+                activity: self.activity,
+                excluded_volume: Exclusion::Step(self.excluded_volume),
+                ..particles
+            }),
+            ..base.droplets[0].clone()
+        };
+        Ok(Setup {
+            region: self.channel(self.width + 2.0 * Self::THICKNESS),
+            method: Method::Grid(grid),
             viscosity: self.viscosity,
-            viscosity_inside: (self.ratio != 1.0).then_some(self.ratio * self.viscosity),
-            lengths: [LENGTH, self.width],
-            spacing: self.spacing,
-            offset,
+            droplets: vec![droplet],
+            solids: self.walls()?,
             // The thesis' step of 1e-3 would only cost time.
             step: StepSize::OfLimit(if self.purpose == Purpose::Narrow { OF_LIMIT_NARROW } else { OF_LIMIT }),
-            motion: if self.equidistant { Motion::default() } else { base.motion },
             ..base
+        })
+    }
+
+    fn channel(&self, width: f64) -> Region {
+        Region::Channel { length: LENGTH, width, drive: Drive::ZeroGradient }
+    }
+
+    fn walls(&self) -> Result<Vec<SolidSetup>> {
+        let moduli = if self.purpose == Purpose::Narrow {
+            Moduli::from_young(self.stiffness, 1.0 / 3.0)?
+        } else {
+            Moduli::from_thesis_spring_constant(self.stiffness)?
+        };
+        let material = match self.material {
+            WallMaterial::Springs => Material::Springs { shear: moduli.shear() },
+            WallMaterial::NeoHookean => Material::NeoHookean { shear: moduli.shear(), bulk: moduli.bulk() },
+        };
+        let walls = SolidSetup::walls(&self.shape(), &material).into_iter().map(|wall| {
+            let wall = SolidSetup { mesh: self.mesh, surface: self.surface, ..wall };
+            // Whether springs are inverted is reported.
+            SolidSetup { may_invert: true, ..if self.thesis { wall.thesis() } else { wall } }
+        });
+        Ok(walls.collect())
+    }
+
+    fn shape(&self) -> ChannelShape {
+        match self.purpose {
+            Purpose::Passage => {
+                let Constriction { throat, throat_length, ramp, centre, .. } = Constriction::thesis();
+                ChannelShape::Constriction { width: self.width, throat, throat_length, ramp, centre }
+            }
+            _ => ChannelShape::Straight { width: self.width },
         }
+    }
+
+    /// The scene, its walls as far back as they are to stand.
+    fn build(&self, setup: &Setup) -> Result<Built> {
+        if self.back == 0.0 {
+            return Ok(setup.build()?);
+        }
+        let Method::Grid(grid) = &setup.method else { bail!("elastic walls need a grid") };
+        let shape = self.shape().channel(LENGTH)?.widened(2.0 * (self.back + setup.set_back()))?;
+        let mut scene = Scene::new(setup.flow()?).with_step_size(setup.step);
+        let droplets = vec![scene.add(setup.droplet(&setup.droplets[0])?)];
+        let (walls, top) = (&setup.solids, 0.5 * self.width + Self::THICKNESS);
+        let lower = walls[0].on_mesh(shape.lower_wall(-top, &walls[0].mesher(grid)?)?, &setup.region)?;
+        let upper = walls[1].on_mesh(shape.upper_wall(top, &walls[1].mesher(grid)?)?, &setup.region)?;
+        let solids = vec![scene.add(lower), scene.add(upper)];
+        Ok(Built { scene, droplets, solids })
     }
 
     /// How much work it is, roughly.
@@ -144,16 +221,14 @@ impl Job {
     }
 
     pub(crate) fn run(&self) -> Result<Summary> {
-        let swimmer = Swimmer { method: Method::BoundaryIntegral, ..self.swimmer() };
+        let without = |region| -> Result<Summary> {
+            let setup = Setup { region, method: Method::default(), solids: Vec::new(), ..self.setup()? };
+            let Built { scene, droplets, .. } = setup.build()?;
+            self.without_solids(scene, droplets[0])
+        };
         let mut summary = match self.purpose {
-            Purpose::Rigid => {
-                let (scene, droplet) = swimmer.build_in_channel(Drive::ZeroGradient)?;
-                self.without_solids(scene, droplet)?
-            }
-            Purpose::Unconfined => {
-                let (scene, droplet) = Swimmer { lengths: [LENGTH; 2], ..swimmer }.build()?;
-                self.without_solids(scene, droplet)?
-            }
+            Purpose::Rigid => without(self.channel(self.width))?,
+            Purpose::Unconfined => without(Region::Box { lengths: [LENGTH; 2] })?,
             _ => self.with_solids()?,
         };
         let parameters = [
@@ -182,26 +257,12 @@ impl Job {
     }
 
     fn with_solids(&self) -> Result<Summary> {
-        let moduli = if self.purpose == Purpose::Narrow {
-            Moduli::from_young(self.stiffness, 1.0 / 3.0)?
-        } else {
-            Moduli::from_thesis_spring_constant(self.stiffness)?
-        };
-        let swimmer = self.swimmer();
-        let base =
-            if self.thesis { ElasticChannel::thesis(swimmer, moduli) } else { ElasticChannel::new(swimmer, moduli) };
-        let channel = ElasticChannel {
-            material: self.material,
-            mesh: if self.thesis { base.mesh } else { self.mesh },
-            surface: if self.thesis { base.surface } else { self.surface },
-            // Whether springs turn inside out is reported.
-            may_invert: true,
-            ..base
-        };
-        let (mut scene, droplet, walls) = channel.build_in(&self.shape()?)?;
+        let setup = self.setup()?;
+        let Built { mut scene, droplets, solids: walls } = self.build(&setup)?;
+        let (droplet, set_back) = (droplets[0], setup.set_back());
         let mut recorder = TrajectoryRecorder::new(droplet);
-        let mut gap = SolidGap::new(OVERLAP * self.spacing).with_set_back(channel.set_back());
-        let mut history = History::new(droplet, channel.set_back());
+        let mut gap = SolidGap::new(OVERLAP * self.spacing).with_set_back(set_back);
+        let mut history = History::new(droplet, set_back);
         let mut passage = Passage::new(if self.purpose == Purpose::Passage { 3.0 } else { f64::INFINITY });
         let mut run = scene
             .run(self.time)
@@ -218,7 +279,7 @@ impl Job {
         };
         let mut summary = measured(&recorder)?;
         history.put(&mut summary);
-        self.measure_walls(&scene, &walls, channel.set_back(), &mut summary)?;
+        self.measure_walls(&scene, &walls, set_back, &mut summary)?;
         summary.put("minimum_gap", gap.smallest().map(|(gap, _)| gap), "");
         if self.purpose == Purpose::Passage {
             passage.put(&mut summary);
@@ -227,15 +288,6 @@ impl Job {
         summary.put("steps", scene.steps(), "");
         summary.put("failure", failure, "");
         Ok(summary)
-    }
-
-    fn shape(&self) -> Result<Channel> {
-        let shape = if self.purpose == Purpose::Passage {
-            Constriction { width: self.width, ..Constriction::thesis() }.channel()?
-        } else {
-            StraightChannel { period: LENGTH, width: self.width }.channel()?
-        };
-        Ok(if self.back > 0.0 { shape.widened(2.0 * self.back)? } else { shape })
     }
 
     fn measure_walls<H: Hydrodynamics>(
@@ -249,11 +301,11 @@ impl Job {
         let width = width_between(lower, upper)?;
         summary.put("channel_width_min", width.minimum - 2.0 * set_back, "");
         summary.put("channel_width_max", width.maximum - 2.0 * set_back, "");
-        let largest = [lower, upper].map(Solid::largest_displacement);
-        summary.put("largest_displacement", largest[0].total.max(largest[1].total), "");
-        summary.put("largest_normal_displacement", largest[0].normal.max(largest[1].normal), "");
-        let jacobian = [lower, upper].map(|wall| wall.smallest_jacobian().0);
-        summary.put("smallest_jacobian", jacobian[0].min(jacobian[1]), "");
+        let seen = [lower, upper].map(Observables::of);
+        let largest = |of: fn(&Observables) -> f64| of(&seen[0]).max(of(&seen[1]));
+        summary.put("largest_displacement", largest(|wall| wall.largest_displacement), "");
+        summary.put("largest_normal_displacement", largest(|wall| wall.largest_normal_displacement), "");
+        summary.put("smallest_jacobian", seen[0].smallest_jacobian.min(seen[1].smallest_jacobian), "");
         Ok(())
     }
 }
@@ -263,7 +315,7 @@ fn measured(recorder: &TrajectoryRecorder) -> Result<Summary> {
     let Some(last) = recorder.records().last() else { bail!("nothing was measured") };
     let seen = &last.observables;
     let speeds: Vec<(f64, f64)> = recorder.records().iter().map(|r| (r.time, r.observables.speed())).collect();
-    let steadiness = Steadiness::of(&speeds, Swimmer::default().diffusion);
+    let steadiness = Steadiness::of(&speeds, Particles::default().diffusion);
     let report = recorder.regime(&RegimeCriteria::default())?;
     let mut summary = Summary::new();
     summary.put("speed", steadiness.final_speed, "");

@@ -1,12 +1,24 @@
 //! Studies of channels.
 
-use motile::Swimmer;
 use motile::ib_core::{AnyKernel, StepSize};
-use motile::stokes_grid::Drive;
-use motile_tests::validation::lateral::{self, Method};
-use motile_tests::validation::{Case, StudyError, Table, channel, order};
+use motile::setup::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
+use motile_tests::validation::scene::{on_grid, open_channel};
+use motile_tests::validation::swimmers::{speeds, steady};
+use motile_tests::validation::{Case, StudyError, Table, channel, lateral, order};
 
 use crate::validation::{Tables, per_cent, spacings};
+
+/// A droplet of an activity in a channel, by default and by the method of the thesis with steps of 0.1 h, each with its
+/// name.
+fn presets(region: Region, viscosity: f64, activity: f64, h: f64) -> [(&'static str, Setup); 2] {
+    let default = Setup { region, viscosity, droplets: vec![DropletSetup::active(activity)], ..on_grid(h) };
+    let mut droplet = DropletSetup::thesis();
+    droplet.particles = droplet.particles.map(|particles| Particles { activity, ..particles });
+    let method = Method::Grid(GridMethod { spacing: h, ..GridMethod::thesis() });
+    let step = StepSize::Fixed(0.1 * h);
+    let thesis = Setup { region, viscosity, method, step, droplets: vec![droplet], ..Setup::thesis() };
+    [("default", default), ("thesis", thesis)]
+}
 
 pub(crate) fn channel_shapes(quick: bool) -> Tables {
     let (kernel, spacings) = (AnyKernel::BSpline4, spacings(quick));
@@ -64,13 +76,12 @@ pub(crate) fn channel_swimmers(quick: bool) -> Tables {
         [(2.0, -2.0, 160.0), (2.0, -4.0, 160.0), (3.0, -2.0, 80.0), (5.0, -2.0, 80.0), (5.0, -4.0, 60.0)]
     {
         for &h in spacings(quick) {
-            for (name, base) in [("default", Swimmer::default()), ("thesis", Swimmer::thesis())] {
-                let step = if name == "thesis" { StepSize::Fixed(0.1 * h) } else { base.step };
-                let swimmer = Swimmer { activity, lengths: [12.0, width], spacing: h, step, ..base };
+            for (name, setup) in presets(open_channel(12.0, width), 100.0, activity, h) {
                 let start = [width.to_string(), activity.to_string(), name.to_owned(), h.to_string()];
-                match channel::steady(&swimmer, time) {
+                match steady(&setup, time) {
                     Ok(e) => {
-                        let list = [e.speed, e.aspect_ratio, e.stresslet, e.beta, e.flux, e.gap].map(per_cent);
+                        let [flux, gap] = [e.flux, e.gap].map(|error| error.unwrap_or(f64::NAN));
+                        let list = [e.speed, e.aspect_ratio, e.stresslet, e.beta, flux, gap].map(per_cent);
                         let rest =
                             [list.join(" / "), format!("{:.1e}", e.area_change), format!("{:.0e}", e.particle_change)];
                         table.push(start.into_iter().chain(rest));
@@ -102,12 +113,9 @@ pub(crate) fn channel_length(quick: bool) -> Tables {
     for (activity, viscosity, a, b) in fits {
         for length in [8.0_f64, 12.0, 24.0, 36.0] {
             let mut row = vec![activity.to_string(), viscosity.to_string(), length.to_string()];
-            for (thesis, base) in [(false, Swimmer::default()), (true, Swimmer::thesis())] {
-                let step = if thesis { StepSize::Fixed(0.1 * h) } else { base.step };
-                let lengths = [length, 2.0];
-                let swimmer = Swimmer { activity, viscosity, lengths, spacing: h, step, ..base };
-                row.push(match channel::speed(&swimmer, Drive::ZeroGradient, if quick { 60.0 } else { 120.0 }) {
-                    Ok(speed) => format!("{speed:.4}"),
+            for (_, setup) in presets(open_channel(length, 2.0), viscosity, activity, h) {
+                row.push(match speeds(&setup, &[if quick { 60.0 } else { 120.0 }]) {
+                    Ok(speeds) => format!("{:.4}", speeds[0]),
                     Err(StudyError::Scene(error)) => format!("ends: {error}"),
                     Err(error) => return Err(error),
                 });
@@ -119,13 +127,20 @@ pub(crate) fn channel_length(quick: bool) -> Tables {
     Ok(vec![table])
 }
 
-/// The methods and spacings of the lateral studies.
-fn methods(quick: bool) -> Vec<(Method, f64)> {
-    let mut all = vec![(Method::BoundaryIntegral, 0.05), (Method::ImmersedBoundary, 0.1)];
+/// The methods of the lateral studies: name and spacing.
+fn methods(quick: bool) -> Vec<(&'static str, String, Setup)> {
+    let grid = |h: f64| ("immersed boundary", h.to_string(), on_grid(h));
+    let mut all = vec![("boundary integral", String::new(), Setup::default()), grid(0.1)];
     if !quick {
-        all.push((Method::ImmersedBoundary, 0.05));
+        all.push(grid(0.05));
     }
     all
+}
+
+/// The same scene with a droplet in a channel of width 5 and period 12, off the centre line.
+fn off_centre(base: Setup, activity: f64, offset: f64) -> Setup {
+    let droplet = DropletSetup { centre: [0.0, offset], ..DropletSetup::active(activity) };
+    Setup { region: open_channel(12.0, 5.0), droplets: vec![droplet], ..base }
 }
 
 pub(crate) fn sideways(quick: bool) -> Tables {
@@ -135,16 +150,14 @@ pub(crate) fn sideways(quick: bool) -> Tables {
     );
     for (activity, time) in [(-2.0, 300.0), (-4.0, 140.0)] {
         let (growth, frequency) = lateral::reference(activity)?;
-        for (method, h) in methods(quick) {
+        for (method, h, base) in methods(quick) {
             // On a grid an offset below the spacing is held by the grid; one of some spacings is no longer linear.
-            let offset = if method == Method::BoundaryIntegral { 0.01 } else { 0.2 };
-            let swimmer =
-                Swimmer { activity, spacing: h, lengths: [12.0, 5.0], offset: [0.0, offset], ..Swimmer::default() };
-            let mode = lateral::mode(&swimmer, method, 60.0, time)?;
+            let offset = if h.is_empty() { 0.01 } else { 0.2 };
+            let mode = lateral::mode(&off_centre(base, activity, offset), 60.0, time)?;
             modes.push([
                 activity.to_string(),
-                method.name().to_owned(),
-                if method == Method::BoundaryIntegral { String::new() } else { h.to_string() },
+                method.to_owned(),
+                h,
                 offset.to_string(),
                 format!("{:.5}", mode.growth_rate.value),
                 format!("{growth:.5}"),
@@ -157,13 +170,11 @@ pub(crate) fn sideways(quick: bool) -> Tables {
         "Limit cycle: width 5, period 12, activity -5, A = 10 (reference: amplitude 1.257, period 49.9, about 1 %)",
         &["method", "h", "amplitude", "error in %", "period", "error in %"],
     );
-    for (method, h) in methods(quick) {
-        let swimmer =
-            Swimmer { activity: -5.0, spacing: h, lengths: [12.0, 5.0], offset: [0.0, 1.0], ..Swimmer::default() };
-        let (amplitude, period) = lateral::limit_cycle(&swimmer, method, 300.0)?;
+    for (method, h, base) in methods(quick) {
+        let (amplitude, period) = lateral::limit_cycle(&off_centre(base, -5.0, 1.0), 300.0)?;
         cycle.push([
-            method.name().to_owned(),
-            if method == Method::BoundaryIntegral { String::new() } else { h.to_string() },
+            method.to_owned(),
+            h,
             format!("{amplitude:.4}"),
             per_cent(amplitude / 1.257 - 1.0),
             format!("{period:.2}"),
@@ -186,14 +197,10 @@ pub(crate) fn regimes(_quick: bool) -> Tables {
         (3.0, 18.0, -4.0, "stays on the centre line"),
         (3.0, 24.0, -4.0, "oscillates"),
     ] {
-        let swimmer = Swimmer {
-            activity,
-            excluded_volume: 13.5,
-            lengths: [length, width],
-            offset: [0.0, 0.01],
-            ..Swimmer::default()
-        };
-        let mode = lateral::mode(&swimmer, Method::BoundaryIntegral, 60.0, 200.0)?;
+        let particles = Particles { activity, excluded_volume: Exclusion::Step(13.5), ..Particles::default() };
+        let droplet = DropletSetup { centre: [0.0, 0.01], particles: Some(particles), ..DropletSetup::default() };
+        let setup = Setup { region: open_channel(length, width), droplets: vec![droplet], ..Setup::default() };
+        let mode = lateral::mode(&setup, 60.0, 200.0)?;
         table.push([
             width.to_string(),
             length.to_string(),

@@ -1,15 +1,26 @@
-//! Droplets of another viscosity than their surroundings, on the grid.
+//! Droplets of another viscosity than the exterior fluid, on the grid.
 
-use motile::{ContrastMethod, Method, Swimmer};
+use motile::active_interface::Flux;
+use motile::setup::{Contrast, DropletSetup, GridMethod, Method, Particles, Region, Setup};
 use motile_tests::validation::contrast::{
-    CostScene, Droplet, Errors, Exact, Region, Way, cold_iterations, decaying_speeds, field_errors, growth,
-    iterations_in_a_run, layer_errors, ratio_ten,
+    CostScene, Droplet, Errors, Exact, cold_iterations, field_errors, iterations_in_a_run, layer_errors, ratio_ten,
 };
-use motile_tests::validation::growth::Mode;
-use motile_tests::validation::swimmers::{long_run, reference_swimmer, steady};
+use motile_tests::validation::growth::{Mode, polarisation_rate};
+use motile_tests::validation::scene::{on_grid, open_channel, reference, without_grid};
+use motile_tests::validation::swimmers::{long_run, speeds, steady};
 use motile_tests::validation::{Case, StudyError, Table, order, relaxation};
 
 use crate::validation::{Tables, per_cent, spacings};
+
+fn square(side: f64) -> Region {
+    Region::Box { lengths: [side; 2] }
+}
+
+/// The same scene with a droplet of an activity and a viscosity in fluid of viscosity 10.
+fn thick(base: Setup, activity: f64, viscosity: f64) -> Setup {
+    let droplet = DropletSetup { viscosity: Some(viscosity), ..DropletSetup::active(activity) };
+    Setup { viscosity: 10.0, droplets: vec![droplet], ..base }
+}
 
 const RATIOS: [f64; 5] = [0.01, 1.0, 10.0, 100.0, 1000.0];
 
@@ -34,7 +45,7 @@ pub(crate) fn shapes(quick: bool) -> Tables {
     ];
     for (name, shape) in shapes {
         for ratio in RATIOS {
-            let exact = Exact::new(Region::Box(6.0), &[shape(ratio)], 256)?;
+            let exact = Exact::new(square(6.0), &[shape(ratio)], 256)?;
             for smeared in [false, true] {
                 let errors = spacings
                     .iter()
@@ -74,7 +85,7 @@ pub(crate) fn tables(quick: bool) -> Tables {
         }
     }
     let mut relaxing = Table::new(
-        "Relaxation of an ellipse ten times as viscous as its surroundings to t = 2",
+        "Relaxation of an ellipse ten times as viscous as the exterior fluid to t = 2",
         &["h", "dt", "error of the aspect ratio", "relative change of the area"],
     );
     for &h in spacings(quick) {
@@ -89,8 +100,7 @@ pub(crate) fn tables(quick: bool) -> Tables {
         &["h", "errors", "area change", "steps"],
     );
     for &h in spacings(quick) {
-        let base = reference_swimmer(&Swimmer::default(), -1.0, h);
-        let errors = steady(&Swimmer { viscosity: 10.0, viscosity_inside: Some(100.0), ..base }, 60.0)?;
+        let errors = steady(&reference(thick(on_grid(h), -1.0, 100.0), -1.0), 60.0)?;
         let area = format!("{:.1e}", errors.area_change);
         swimming.push([h.to_string(), list(errors.list().into_iter()), area, errors.steps.to_string()]);
     }
@@ -128,7 +138,7 @@ pub(crate) fn field(quick: bool) -> Tables {
         "Flow away from the markers, largest errors in %: velocity (of the fastest marker), gradient (of that over R), pressure (of its range)",
         &["region", "ratio", "h", "inside, nearer than 3h", "outside, nearer than 3h", "inside", "outside"],
     );
-    for (name, region) in [("box 6", Region::Box(6.0)), ("channel 6 x 4", Region::Channel(6.0, 4.0))] {
+    for (name, region) in [("box 6", square(6.0)), ("channel 6 x 4", open_channel(6.0, 4.0))] {
         for ratio in [0.01, 10.0, 100.0, 1000.0] {
             let droplet = Droplet::ellipse(ratio).at(0.02, 0.03);
             for &h in spacings(quick) {
@@ -146,7 +156,7 @@ pub(crate) fn iterations(quick: bool) -> Tables {
         "Conjugate gradients for a smeared droplet (radius 1, tension 10 + 3 cos + 2 cos 2 + cos 3), cold: iterations to 1e-4 / 1e-6 / 1e-8, and the true residual at the last",
         &["region", "ratio", "64", "128", "256"],
     );
-    for (name, region) in [("box 4 x 4", Region::Box(4.0)), ("channel 4 x 4", Region::Channel(4.0, 4.0))] {
+    for (name, region) in [("box 4 x 4", square(4.0)), ("channel 4 x 4", open_channel(4.0, 4.0))] {
         for ratio in [10.0, 100.0, 1000.0] {
             let mut row = vec![name.to_owned(), ratio.to_string()];
             for cells in [64.0, 128.0, 256.0] {
@@ -209,21 +219,26 @@ pub(crate) fn decay(quick: bool) -> Tables {
         "Activity -1, viscosities 1000 inside and 10 outside: growth rate of a small polarisation",
         &["box", "way", "h", "rate", "error in %"],
     );
-    let base = Swimmer { activity: -1.0, viscosity: 10.0, viscosity_inside: Some(1000.0), ..Swimmer::default() };
+    let grid = |h: f64| thick(on_grid(h), -1.0, 1000.0);
+    // The thesis' motion of markers and area constraint, with the default flux.
+    let mut thesis = DropletSetup { viscosity: Some(1000.0), ..DropletSetup::thesis() };
+    thesis.particles = Some(Particles { activity: -1.0, flux: Flux::default(), ..Particles::default() });
+    let arithmetic = |h: f64| {
+        let method = Method::Grid(GridMethod { spacing: h, ..GridMethod::thesis() });
+        Setup { viscosity: 10.0, method, droplets: vec![thesis.clone()], ..Setup::default() }
+    };
     for side in [6.0, 3.0] {
-        let at = |base: &Swimmer, spacing| Swimmer { spacing, lengths: [side; 2], ..base.clone() };
-        let exact = growth(&at(&base, 0.05), Way::WithoutGrid)?;
+        let rate = |setup: Setup| polarisation_rate(&Setup { region: square(side), ..setup });
+        let exact = rate(thick(without_grid(64, 252), -1.0, 1000.0))?;
         let mut push = |way: &str, h: String, rate: f64| {
             let error = if way == "without a grid" { "-".to_owned() } else { per_cent((rate - exact) / exact.abs()) };
             table.push([side.to_string(), way.to_owned(), h, format!("{rate:.5}"), error]);
         };
-        push("linear theory, no box", "-".to_owned(), Mode::Concentration(1).theory(&base));
+        push("linear theory, no box", "-".to_owned(), Mode::Concentration(1).theory(&grid(0.05))?);
         push("without a grid", "-".to_owned(), exact);
         for &h in spacings(quick) {
-            push("sharp", h.to_string(), growth(&at(&base, h), Way::Sharp)?);
+            push("sharp", h.to_string(), rate(grid(h))?);
         }
-        let thesis = Swimmer { flux: base.flux, ..Swimmer::thesis() };
-        let thesis = Swimmer { activity: -1.0, viscosity: 10.0, viscosity_inside: Some(1000.0), ..thesis };
         let fine = if quick {
             &[0.05][..]
         } else if side == 6.0 {
@@ -232,7 +247,7 @@ pub(crate) fn decay(quick: bool) -> Tables {
             &[0.05, 0.025, 0.0125]
         };
         for &h in fine {
-            push("arithmetic", h.to_string(), growth(&at(&thesis, h), Way::Smeared)?);
+            push("arithmetic", h.to_string(), rate(arithmetic(h))?);
         }
     }
     let mut polarised = Table::new(
@@ -240,15 +255,18 @@ pub(crate) fn decay(quick: bool) -> Tables {
         &["way", "h", "t = 20", "t = 40", "t = 60"],
     );
     let fine = if quick { 0.1 } else { 0.05 };
-    for (way, method, contrast, spacing) in [
-        ("without a grid", Method::BoundaryIntegral, ContrastMethod::Sharp, 0.05),
-        ("sharp", Method::ImmersedBoundary, ContrastMethod::Sharp, 0.1),
-        ("sharp", Method::ImmersedBoundary, ContrastMethod::Sharp, fine),
-        ("arithmetic", Method::ImmersedBoundary, ContrastMethod::Arithmetic, 0.1),
-        ("arithmetic", Method::ImmersedBoundary, ContrastMethod::Arithmetic, fine),
+    let smooth = |h: f64| {
+        let smooth = GridMethod { corrected: false, contrast: Contrast::Arithmetic, ..GridMethod::of_spacing(h) };
+        Setup { method: Method::Grid(smooth), ..grid(h) }
+    };
+    for (way, spacing, setup) in [
+        ("without a grid", "-".to_owned(), thick(Setup::default(), -1.0, 1000.0)),
+        ("sharp", "0.1".to_owned(), grid(0.1)),
+        ("sharp", fine.to_string(), grid(fine)),
+        ("arithmetic", "0.1".to_owned(), smooth(0.1)),
+        ("arithmetic", fine.to_string(), smooth(fine)),
     ] {
-        let speeds = decaying_speeds(&Swimmer { method, contrast, spacing, ..base.clone() }, &[20.0, 40.0, 60.0])?;
-        let spacing = if method == Method::BoundaryIntegral { "-".to_owned() } else { spacing.to_string() };
+        let speeds = speeds(&setup, &[20.0, 40.0, 60.0])?;
         polarised.push([way.to_owned(), spacing].into_iter().chain(speeds.iter().map(|v| format!("{v:.2e}"))));
     }
     Ok(vec![table, polarised])
@@ -261,14 +279,7 @@ pub(crate) fn runs(quick: bool) -> Tables {
     );
     let time = if quick { 10.0 } else { 50.0 };
     for h in [0.1, 0.05] {
-        let swimmer = Swimmer {
-            activity: -7.0,
-            viscosity: 10.0,
-            viscosity_inside: Some(1000.0),
-            spacing: h,
-            ..Swimmer::default()
-        };
-        let run = long_run(&swimmer, time)?;
+        let run = long_run(&thick(on_grid(h), -7.0, 1000.0), time)?;
         table.push([
             time.to_string(),
             h.to_string(),

@@ -1,9 +1,10 @@
 //! Swimmers off the grid's axes.
 
-use motile::Swimmer;
-use motile::ib_core::{AnyKernel, Kernel};
+use motile::ib_core::{AnyKernel, Kernel, StepSize};
+use motile::setup::{GridMethod, Method, Setup};
 use motile_tests::validation::Table;
-use motile_tests::validation::headings::{course, on_the_grid, without_grid};
+use motile_tests::validation::headings::{course, off_axis};
+use motile_tests::validation::scene::without_grid;
 
 use crate::validation::{Tables, per_cent};
 
@@ -19,12 +20,12 @@ pub(crate) fn headings(quick: bool) -> Tables {
     let resolutions = [(0.1, 0.05), (0.1, 0.025), (0.05, 0.025)];
     for activity in [-2.0, -3.0, -4.0] {
         for angle in [0.2, 0.4, 0.6] {
-            let base = on_the_grid(&Swimmer::default(), activity, 0.1, 0.05, angle);
-            let exact = course(&without_grid(&base, 64, 384), 10.0, end)?;
+            let exact = off_axis(without_grid(64, 384).method, activity, angle);
+            let exact = course(&Setup { step: StepSize::OfLimit(0.5), ..exact }, 10.0, end)?;
             for kernel in KERNELS {
                 for &(h, ds) in if quick { &resolutions[..1] } else { &resolutions[..] } {
-                    let base = Swimmer { kernel, ..Swimmer::default() };
-                    let found = course(&on_the_grid(&base, activity, h, ds, angle), 10.0, end)?.beyond(&exact);
+                    let grid = GridMethod { kernel, marker_spacing: Some(ds), ..GridMethod::of_spacing(h) };
+                    let found = course(&off_axis(Method::Grid(grid), activity, angle), 10.0, end)?.beyond(&exact);
                     table.push([
                         kernel.name().to_owned(),
                         activity.to_string(),

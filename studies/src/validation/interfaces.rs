@@ -2,15 +2,13 @@
 
 use std::time::Instant;
 
-use motile::Swimmer;
 use motile::ib_core::StepSize;
-use motile_tests::validation::growth::Mode;
-use motile_tests::validation::interfaces::{
-    Several, growth_rate, growth_rate_limit, passing, relax, steady_in_channel, ten_in_a_box, turning,
-};
-use motile_tests::validation::lateral::{self, Method};
-use motile_tests::validation::swimmers::{reference_swimmer, steady, steady_without_grid, transient_without_grid};
-use motile_tests::validation::{StudyError, Table};
+use motile::setup::{DropletSetup, GridMethod, Method, Region, Setup};
+use motile_tests::validation::growth::{Mode, rate_in_plane, rate_in_plane_limit};
+use motile_tests::validation::interfaces::{Several, passing, relax, ten_in_a_box};
+use motile_tests::validation::scene::{on_grid, open_channel, reference, without_grid};
+use motile_tests::validation::swimmers::{long_run, steady, transient};
+use motile_tests::validation::{StudyError, Table, lateral};
 
 use crate::validation::{Tables, per_cent};
 
@@ -62,14 +60,14 @@ pub(crate) fn growth(quick: bool) -> Tables {
         // The second activity is the threshold (2.20), where the first mode neither grows nor decays.
         let threshold = -2.0 * 0.1 * (inside + viscosity) / 100.0;
         for activity in [-1.0, threshold] {
-            let swimmer =
-                Swimmer { activity, viscosity, viscosity_inside: Some(inside), nodes: 64, ..Swimmer::default() };
+            let droplets = vec![DropletSetup { viscosity: Some(inside), ..DropletSetup::active(activity) }];
+            let setup = Setup { viscosity, droplets, ..Setup::default() };
             for &mode in modes {
-                let theory = mode.theory(&swimmer);
+                let theory = mode.theory(&setup)?;
                 // Where the rate is zero, errors are relative to that of diffusion.
-                let scale = if theory.abs() < 1e-9 { swimmer.diffusion } else { theory.abs() };
-                let coarse = growth_rate(&swimmer, mode, 384)?;
-                let limit = growth_rate_limit(&swimmer, mode, 768)?;
+                let scale = if theory.abs() < 1e-9 { 0.1 } else { theory.abs() };
+                let coarse = rate_in_plane(&setup, mode, 64, 384)?;
+                let limit = rate_in_plane_limit(&setup, mode, 64, 768)?;
                 table.push([
                     format!("{inside}/{viscosity}"),
                     format!("{activity:.2}"),
@@ -89,14 +87,9 @@ pub(crate) fn transients(quick: bool) -> Tables {
         "Transient at activity -1 without a grid, 6 x 6 box: largest relative error of the speed",
         &["nodes", "cells", "error in %", "at time"],
     );
-    for &(nodes, concentration_cells) in resolutions(quick) {
-        let (error, time) = transient_without_grid(&Swimmer { nodes, concentration_cells, ..Swimmer::default() })?;
-        table.push([
-            nodes.to_string(),
-            concentration_cells.to_string(),
-            format!("{:.4}", 100.0 * error),
-            time.to_string(),
-        ]);
+    for &(nodes, cells) in resolutions(quick) {
+        let (error, time) = transient(&reference(without_grid(nodes, cells), -1.0))?;
+        table.push([nodes.to_string(), cells.to_string(), format!("{:.4}", 100.0 * error), time.to_string()]);
     }
     Ok(vec![table])
 }
@@ -109,14 +102,15 @@ pub(crate) fn channel(quick: bool) -> Tables {
     for (width, activity, time) in
         [(2.0, -2.0, 400.0), (2.0, -4.0, 400.0), (3.0, -2.0, 60.0), (5.0, -2.0, 60.0), (5.0, -4.0, 60.0)]
     {
-        for &(nodes, concentration_cells) in if quick { &RESOLUTIONS[1..3] } else { &RESOLUTIONS[..4] } {
-            let lengths = [12.0, width];
-            let swimmer = Swimmer { activity, lengths, nodes, concentration_cells, ..Swimmer::default() };
+        for &(nodes, cells) in if quick { &RESOLUTIONS[1..3] } else { &RESOLUTIONS[..4] } {
+            let (region, droplets) = (open_channel(12.0, width), vec![DropletSetup::active(activity)]);
+            let setup = Setup { region, droplets, ..without_grid(nodes, cells) };
             let clock = Instant::now();
-            let start = [width.to_string(), activity.to_string(), nodes.to_string(), concentration_cells.to_string()];
-            match steady_in_channel(&swimmer, time) {
+            let start = [width.to_string(), activity.to_string(), nodes.to_string(), cells.to_string()];
+            match steady(&setup, time) {
                 Ok(e) => {
-                    let list = [e.speed, e.aspect_ratio, e.stresslet, e.beta, e.gap].map(per_cent).join(" / ");
+                    let list = [e.speed, e.aspect_ratio, e.stresslet, e.beta, e.gap.unwrap_or(f64::NAN)];
+                    let list = list.map(per_cent).join(" / ");
                     let seconds = format!("{:.1}", clock.elapsed().as_secs_f64());
                     table.push(start.into_iter().chain([list, format!("{:.1e}", e.area_change), seconds]));
                 }
@@ -137,18 +131,15 @@ pub(crate) fn lateral_modes(quick: bool) -> Tables {
     );
     for activity in [-2.0, -4.0] {
         let (growth, frequency) = lateral::reference(activity)?;
-        for &(nodes, concentration_cells) in
-            &[(64, 256), (96, 384), (96, 768), (128, 512), (192, 768)][..if quick { 2 } else { 5 }]
-        {
-            let offset = [0.0, 1e-3];
-            let swimmer =
-                Swimmer { activity, nodes, concentration_cells, lengths: [12.0, 5.0], offset, ..Swimmer::default() };
-            let mode = lateral::mode(&swimmer, Method::BoundaryIntegral, 40.0, 100.0)?;
+        for &(nodes, cells) in &[(64, 256), (96, 384), (96, 768), (128, 512), (192, 768)][..if quick { 2 } else { 5 }] {
+            let droplets = vec![DropletSetup { centre: [0.0, 1e-3], ..DropletSetup::active(activity) }];
+            let setup = Setup { region: open_channel(12.0, 5.0), droplets, ..without_grid(nodes, cells) };
+            let mode = lateral::mode(&setup, 40.0, 100.0)?;
             let found = mode.frequency.map_or(f64::NAN, |w| w.value);
             modes.push([
                 activity.to_string(),
                 nodes.to_string(),
-                concentration_cells.to_string(),
+                cells.to_string(),
                 format!("{:.6}", mode.growth_rate.value),
                 per_cent(mode.growth_rate.value / growth - 1.0),
                 format!("{found:.6}"),
@@ -175,14 +166,14 @@ pub(crate) fn several(quick: bool) -> Tables {
             "seconds",
         ],
     );
-    type Run<'a> = &'a dyn Fn(&Swimmer) -> Result<Several, StudyError>;
-    let mut push = |name: &str, base: &Swimmer, all: &[(usize, usize)], run: Run<'_>| -> Result<(), StudyError> {
-        let ratio = base.viscosity_inside.map_or(1.0, |inside| inside / base.viscosity);
+    type Run<'a> = &'a dyn Fn(&Setup) -> Result<Several, StudyError>;
+    let mut push = |name: &str, base: &Setup, all: &[(usize, usize)], run: Run<'_>| -> Result<(), StudyError> {
+        let ratio = base.droplets[0].viscosity.map_or(1.0, |inside| inside / base.viscosity);
         let mut rows = Vec::new();
-        for &(nodes, concentration_cells) in all {
+        for &(nodes, cells) in all {
             let clock = Instant::now();
-            let found = run(&Swimmer { nodes, concentration_cells, ..base.clone() })?;
-            rows.push((nodes, concentration_cells, found, clock.elapsed().as_secs_f64()));
+            let found = run(&Setup { method: without_grid(nodes, cells).method, ..base.clone() })?;
+            rows.push((nodes, cells, found, clock.elapsed().as_secs_f64()));
         }
         let finest = rows.last().map(|row| row.2.centroids.clone()).unwrap_or_default();
         for (nodes, cells, found, seconds) in rows {
@@ -202,17 +193,18 @@ pub(crate) fn several(quick: bool) -> Tables {
         }
         Ok(())
     };
-    let equal = Swimmer { activity: -2.0, ..Swimmer::default() };
-    let thick = Swimmer { activity: -7.0, viscosity: 10.0, viscosity_inside: Some(1000.0), ..Swimmer::default() };
+    let equal = Setup::default();
+    let thick = DropletSetup { viscosity: Some(1000.0), ..DropletSetup::active(-7.0) };
+    let thick = Setup { viscosity: 10.0, droplets: vec![thick], ..Setup::default() };
     let all = if quick { &RESOLUTIONS[1..3] } else { &RESOLUTIONS[1..4] };
     for (base, offset) in [(&equal, EQUAL_OFFSET), (&thick, THICK_OFFSET)] {
-        push("two that pass, to t = 40", base, all, &|swimmer| passing(swimmer, offset, 40.0))?;
+        push("two that pass, to t = 40", base, all, &|setup| passing(setup, offset, 40.0))?;
     }
-    let ten = |base: &Swimmer| Swimmer { lengths: [10.4, 10.4], ..base.clone() };
+    let ten = |base: &Setup| Setup { region: Region::Box { lengths: [10.4; 2] }, ..base.clone() };
     let time = if quick { 5.0 } else { 20.0 };
     let all = if quick { &RESOLUTIONS[1..2] } else { &RESOLUTIONS[1..3] };
     for base in [&equal, &thick] {
-        push(&format!("ten in a box of 10.4, to t = {time}"), &ten(base), all, &|swimmer| ten_in_a_box(swimmer, time))?;
+        push(&format!("ten in a box of 10.4, to t = {time}"), &ten(base), all, &|setup| ten_in_a_box(setup, time))?;
     }
     Ok(vec![table])
 }
@@ -240,14 +232,14 @@ pub(crate) fn long_runs(quick: bool) -> Tables {
     );
     for (activity, time) in [(-1.0, 250.0), (-2.0, 250.0), (-3.0, 250.0), (-5.0, 100.0)] {
         let time = if quick { 60.0 } else { time };
-        let swimmer = Swimmer { activity, excluded_volume: 2.0 * activity.abs(), angle: 0.02, ..Swimmer::default() };
-        let run = turning(&swimmer, time)?;
+        let droplets = vec![DropletSetup { angle: 0.02, ..DropletSetup::default() }];
+        let run = long_run(&reference(Setup { droplets, ..Setup::default() }, activity), time)?;
         table.push([
             activity.to_string(),
             time.to_string(),
             run.crossings.to_string(),
-            format!("{:.4}", run.rate),
-            format!("{:.4}", run.angle),
+            format!("{:.4}", run.divergence()),
+            format!("{:.4}", run.headings[1]),
             format!("{:.6}", run.speed),
             format!("{:.0e}", run.speed_spread),
             format!("{:.1e}", run.area_change),
@@ -268,25 +260,23 @@ pub(crate) fn cost(quick: bool) -> Tables {
             rows.push((name, error, clock.elapsed().as_secs_f64(), steps));
             Ok(())
         };
-        for (nodes, concentration_cells) in
-            [(24, 96), (32, 128), (48, 192), (64, 256), (96, 384), (128, 512), (192, 768)]
-        {
-            let base = Swimmer { nodes, concentration_cells, ..Swimmer::default() };
-            push(format!("without a grid, {nodes} nodes, {concentration_cells} cells"), &|| {
-                let errors = steady_without_grid(&reference_swimmer(&base, activity, 0.05), 60.0)?;
+        for (nodes, cells) in [(24, 96), (32, 128), (48, 192), (64, 256), (96, 384), (128, 512), (192, 768)] {
+            push(format!("without a grid, {nodes} nodes, {cells} cells"), &|| {
+                let errors = steady(&reference(without_grid(nodes, cells), activity), 60.0)?;
                 Ok((errors.speed, errors.steps))
             })?;
         }
         for h in if quick { &[0.2, 0.1, 0.05][..] } else { &[0.2, 0.1, 0.05, 0.025][..] } {
             push(format!("immersed boundary, h = {h}"), &|| {
-                let errors = steady(&reference_swimmer(&Swimmer::default(), activity, *h), 60.0)?;
+                let errors = steady(&reference(on_grid(*h), activity), 60.0)?;
                 Ok((errors.speed, errors.steps))
             })?;
         }
         for h in if quick { &[0.1][..] } else { &[0.1, 0.05, 0.025][..] } {
             push(format!("thesis, h = {h}, steps of 0.1 h"), &|| {
-                let base = Swimmer { step: StepSize::Fixed(0.1 * h), ..Swimmer::thesis() };
-                let errors = steady(&reference_swimmer(&base, activity, *h), 60.0)?;
+                let method = Method::Grid(GridMethod { spacing: *h, ..GridMethod::thesis() });
+                let setup = Setup { method, step: StepSize::Fixed(0.1 * h), ..Setup::thesis() };
+                let errors = steady(&reference(setup, activity), 60.0)?;
                 Ok((errors.speed, errors.steps))
             })?;
         }

@@ -1,9 +1,9 @@
 //! A run by its parameters, and what is measured in it.
 
 use anyhow::Result;
-use motile::Swimmer;
 use motile::active_interface::{ActiveDroplet, Convention, observables::InterfaceState, observe};
 use motile::ib_core::{Handle, Hydrodynamics, Scene, SceneError};
+use motile::setup::{Built, DropletSetup, IntegralMethod, Method, Region, Setup};
 use motile_examples::Summary;
 
 /// Side of the box (R0).
@@ -53,26 +53,20 @@ impl Job {
     }
 
     pub(crate) fn run(&self) -> Result<Summary> {
-        let swimmer = Swimmer {
-            activity: self.activity,
-            excluded_volume: self.excluded_volume,
+        let viscosity = (self.inside != self.outside).then_some(self.inside);
+        let droplet = DropletSetup { viscosity, ..DropletSetup::contractile(self.activity, self.excluded_volume) };
+        let setup = Setup {
+            region: match self.surroundings {
+                Surroundings::Unbounded => Region::Plane,
+                Surroundings::Box => Region::Box { lengths: [BOX, BOX] },
+            },
+            method: Method::Integral(IntegralMethod { nodes: self.nodes, cells: self.cells }),
             viscosity: self.outside,
-            viscosity_inside: (self.inside != self.outside).then_some(self.inside),
-            lengths: [BOX, BOX],
-            nodes: self.nodes,
-            concentration_cells: self.cells,
-            ..Swimmer::default()
+            droplets: vec![droplet],
+            ..Setup::default()
         };
-        match self.surroundings {
-            Surroundings::Unbounded => {
-                let (scene, droplet) = swimmer.build_unbounded()?;
-                self.watch(scene, droplet)
-            }
-            Surroundings::Box => {
-                let (scene, droplet) = swimmer.build_without_grid()?;
-                self.watch(scene, droplet)
-            }
-        }
+        let Built { scene, droplets, .. } = setup.build()?;
+        self.watch(scene, droplets[0])
     }
 
     fn watch<H: Hydrodynamics>(&self, mut scene: Scene<H>, droplet: Handle<ActiveDroplet>) -> Result<Summary> {

@@ -1,7 +1,7 @@
 //! Which settings are tried in which scene.
 
-use motile::ContrastMethod;
 use motile::ib_core::{AnyKernel, StepSize};
+use motile::setup::Contrast;
 
 use crate::work_precision::settings::{Flow, Settings, Stepper};
 use crate::work_precision::studies::Study;
@@ -182,7 +182,7 @@ fn elastic() -> Vec<Settings> {
 pub(crate) fn series(settings: &Settings) -> String {
     let flow = match settings.flow {
         Flow::Integrals { nodes, cells } => format!("cells {}", cells / nodes),
-        Flow::Grid { ratio, contrast, .. } => format!("ratio {ratio} {}", contrast == ContrastMethod::Sharp),
+        Flow::Grid { ratio, contrast, .. } => format!("ratio {ratio} {}", contrast == Contrast::Sharp),
     };
     format!("{} {flow} {:?} {:?} {:?}", settings.family(), settings.kernel, settings.step, settings.stepper)
 }

@@ -1,7 +1,7 @@
 //! One way of computing a scene.
 
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
-use motile::{ContrastMethod, Method, Swimmer};
+use motile::setup::{Contrast, GridMethod, IntegralMethod, Method, Setup};
 use motile_examples::Summary;
 use serde_json::Value;
 
@@ -22,7 +22,7 @@ pub(crate) enum Flow {
         /// Marker spacing over h.
         ratio: f64,
         /// How a contrast is treated.
-        contrast: ContrastMethod,
+        contrast: Contrast,
     },
 }
 
@@ -55,8 +55,8 @@ pub(crate) struct Settings {
 impl Settings {
     /// The default.
     pub(crate) fn preset() -> Self {
-        let default = Swimmer::default();
-        Self::integrals(default.nodes, default.concentration_cells).with_step(default.step)
+        let IntegralMethod { nodes, cells } = IntegralMethod::default();
+        Self::integrals(nodes, cells)
     }
 
     /// Boundary integrals with steps of half the limit.
@@ -68,7 +68,7 @@ impl Settings {
     pub(crate) fn grid(h: f64, ratio: f64) -> Self {
         Self {
             preset: Preset::Default,
-            flow: Flow::Grid { h, ratio, contrast: ContrastMethod::Sharp },
+            flow: Flow::Grid { h, ratio, contrast: Contrast::Sharp },
             kernel: AnyKernel::BSpline4,
             corrected: true,
             step: StepSize::OfLimit(0.5),
@@ -80,7 +80,7 @@ impl Settings {
     pub(crate) fn thesis(h: f64, step: StepSize) -> Self {
         Self {
             preset: Preset::Thesis,
-            flow: Flow::Grid { h, ratio: 0.5, contrast: ContrastMethod::Arithmetic },
+            flow: Flow::Grid { h, ratio: 0.5, contrast: Contrast::Arithmetic },
             kernel: AnyKernel::Peskin4,
             corrected: false,
             step,
@@ -106,31 +106,30 @@ impl Settings {
 
     pub(crate) fn smeared(self) -> Self {
         let flow = match self.flow {
-            Flow::Grid { h, ratio, .. } => Flow::Grid { h, ratio, contrast: ContrastMethod::Arithmetic },
+            Flow::Grid { h, ratio, .. } => Flow::Grid { h, ratio, contrast: Contrast::Arithmetic },
             integrals @ Flow::Integrals { .. } => integrals,
         };
         Self { flow, corrected: false, ..self }
     }
 
-    /// The preset with these settings.
-    pub(crate) fn swimmer(&self) -> Swimmer {
-        let base = match self.preset {
-            Preset::Default => Swimmer::default(),
-            Preset::Thesis => Swimmer::thesis(),
+    /// The preset's scene with these settings.
+    pub(crate) fn setup(&self) -> Setup {
+        let (base, filter) = match self.preset {
+            Preset::Default => (Setup::default(), true),
+            Preset::Thesis => (Setup::thesis(), false),
         };
-        let base = Swimmer { kernel: self.kernel, corrected: self.corrected, step: self.step, ..base };
-        match self.flow {
-            Flow::Integrals { nodes, cells } => {
-                Swimmer { method: Method::BoundaryIntegral, nodes, concentration_cells: cells, ..base }
-            }
-            Flow::Grid { h, ratio, contrast } => Swimmer {
-                method: Method::ImmersedBoundary,
-                contrast,
+        let method = match self.flow {
+            Flow::Integrals { nodes, cells } => Method::Integral(IntegralMethod { nodes, cells }),
+            Flow::Grid { h, ratio, contrast } => Method::Grid(GridMethod {
                 spacing: h,
                 marker_spacing: Some(ratio * h),
-                ..base
-            },
-        }
+                kernel: self.kernel,
+                corrected: self.corrected,
+                filter,
+                contrast,
+            }),
+        };
+        Setup { method, step: self.step, ..base }
     }
 
     /// The family of methods, one colour of a figure.
@@ -138,7 +137,7 @@ impl Settings {
         match self.flow {
             _ if self.preset == Preset::Thesis => "thesis",
             Flow::Integrals { .. } => "boundary integrals",
-            Flow::Grid { contrast: ContrastMethod::Arithmetic, .. } => "grid, arithmetic",
+            Flow::Grid { contrast: Contrast::Arithmetic, .. } => "grid, arithmetic",
             Flow::Grid { .. } if self.corrected => "grid, corrected",
             Flow::Grid { .. } => "grid, uncorrected",
         }
@@ -187,14 +186,14 @@ impl Settings {
     /// Whether this is the preset as it is.
     pub(crate) fn is_preset(&self) -> Option<&'static str> {
         let mut plain = match self.preset {
-            Preset::Default => Swimmer::default(),
-            Preset::Thesis => Swimmer::thesis(),
+            Preset::Default => Setup::default(),
+            Preset::Thesis => Setup::thesis(),
         };
-        if plain.method == Method::ImmersedBoundary {
-            plain.marker_spacing = Some(0.5 * plain.spacing);
+        if let Method::Grid(grid) = &mut plain.method {
+            grid.marker_spacing = Some(0.5 * grid.spacing);
         }
         let midpoint = self.stepper == Stepper::Midpoint;
-        (midpoint && self.swimmer() == plain).then_some(match self.preset {
+        (midpoint && self.setup() == plain).then_some(match self.preset {
             Preset::Default => "default",
             Preset::Thesis => "thesis()",
         })

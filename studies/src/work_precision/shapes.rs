@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow, bail};
-use motile::active_interface::{ActiveDroplet, Curve, curve::polygon_moments};
-use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, TensionPlacement};
+use motile::active_interface::{ActiveDroplet, Curve, Motion, curve::polygon_moments};
+use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, Region, TensionPlacement};
 use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
 use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Scene, Vec2};
+use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
-use motile::{AnyFlow, Swimmer};
 use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes};
 
 use crate::work_precision::cost::{Cost, march, repeat};
@@ -24,11 +24,10 @@ fn grid_flow(settings: &Settings, h: f64) -> Result<ImmersedBoundary<PeriodicSto
     })
 }
 
-fn integral_flow(nodes: usize) -> Result<BoundaryIntegral<boundary_integral::PeriodicBox>> {
-    let domain = boundary_integral::PeriodicBox::new(6.0, 6.0)?;
-    let settings =
-        boundary_integral::Settings { nodes, reference_perimeter: TAU, ..boundary_integral::Settings::default() };
-    Ok(BoundaryIntegral::new(domain, 1.0, settings)?)
+fn integral_flow(nodes: usize) -> Result<BoundaryIntegral> {
+    let region = Region::Box { lengths: [6.0, 6.0] };
+    let settings = boundary_integral::Settings { nodes, ..boundary_integral::Settings::default() };
+    Ok(BoundaryIntegral::new(region, 1.0, settings)?)
 }
 
 /// Velocities on the ellipse of the reference table.
@@ -62,7 +61,7 @@ fn exact_ellipse(count: usize) -> Result<Markers> {
     }
     let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
     let (positions, forces) = (&markers.positions, &mut markers.forces);
-    PeriodicCalculus::new(count)?.tension_forces(positions, &tension, TensionPlacement::Markers, forces)?;
+    PeriodicCalculus::new(count)?.tension_forces(positions, &tension, TensionPlacement::Points, forces)?;
     Ok(markers)
 }
 
@@ -84,10 +83,7 @@ pub(crate) fn relaxation(settings: &Settings) -> Result<(f64, Cost)> {
         let droplet = ActiveDroplet::passive(&curve.markers(count)?, 1.0)?;
         scene.add(match settings.preset {
             Preset::Default => droplet,
-            Preset::Thesis => {
-                let thesis = Swimmer::thesis();
-                droplet.with_motion(thesis.motion).with_area_constraint(thesis.area_constraint)
-            }
+            Preset::Thesis => droplet.with_motion(Motion::WithFluid).with_area_constraint(true),
         });
         Ok(scene)
     };

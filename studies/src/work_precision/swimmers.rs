@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use anyhow::{Result, anyhow};
 use motile::active_interface::ActiveDroplet;
 use motile::ib_core::{StepSize, System};
+use motile::setup::{AnyFlow, DropletSetup, Exclusion, Particles, Region, Setup};
 use motile::stokes_grid::Drive;
-use motile::{AnyFlow, Swimmer};
 use motile_tests::validation::{Reference, ReferenceFile};
 
 use crate::work_precision::cost::{Cost, march};
@@ -20,15 +20,14 @@ const RATIO_100: f64 = 0.149_390_892_4;
 const STEADY: f64 = 80.0;
 
 /// The swimmer of the reference tables for a box; the surroundings may have another viscosity.
-fn boxed(settings: &Settings, activity: f64, outside: Option<f64>) -> Swimmer {
-    Swimmer {
-        activity,
-        excluded_volume: 2.0 * activity.abs(),
-        viscosity: outside.unwrap_or(100.0),
-        viscosity_inside: outside.map(|_| 100.0),
-        lengths: [6.0; 2],
-        ..settings.swimmer()
-    }
+fn boxed(settings: &Settings, activity: f64, outside: Option<f64>) -> Setup {
+    let mut setup = settings.setup();
+    setup.viscosity = outside.unwrap_or(100.0);
+    let excluded_volume = Exclusion::Step(2.0 * activity.abs());
+    let droplet = &mut setup.droplets[0];
+    droplet.viscosity = outside.map(|_| 100.0);
+    droplet.particles = droplet.particles.map(|particles| Particles { activity, excluded_volume, ..particles });
+    setup
 }
 
 /// Speed at present of the only droplet.
@@ -37,8 +36,8 @@ fn speed(system: &mut System<AnyFlow>) -> Result<f64> {
     Ok(system.observe(droplet)?.speed())
 }
 
-fn against(swimmer: &Swimmer, settings: &Settings, reference: f64) -> Result<(f64, Cost)> {
-    let (cost, found) = march(|| Ok(swimmer.build()?.0), settings.stepper, STEADY, speed)?;
+fn against(setup: &Setup, settings: &Settings, reference: f64) -> Result<(f64, Cost)> {
+    let (cost, found) = march(|| Ok(setup.build()?.scene), settings.stepper, STEADY, speed)?;
     Ok((found / reference - 1.0, cost))
 }
 
@@ -51,13 +50,17 @@ pub(crate) fn steady(settings: &Settings, activity: f64) -> Result<(f64, Cost)> 
 /// Speed of a swimmer that is not along the grid, against far finer boundary integrals.
 pub(crate) fn oblique(settings: &Settings) -> Result<(f64, Cost)> {
     static REFERENCE: OnceLock<f64> = OnceLock::new();
-    let scene = |settings: &Settings| Swimmer { angle: 0.4, offset: [0.013, 0.027], ..boxed(settings, -3.0, None) };
+    let scene = |settings: &Settings| {
+        let mut setup = boxed(settings, -3.0, None);
+        setup.droplets[0] = DropletSetup { angle: 0.4, centre: [0.013, 0.027], ..setup.droplets[0].clone() };
+        setup
+    };
     let reference = match REFERENCE.get() {
         Some(&speed) => speed,
         None => {
             let fine = Settings::integrals(96, 512);
-            let swimmer = scene(&fine);
-            let found = march(|| Ok(swimmer.build()?.0), fine.stepper, STEADY, speed)?.1;
+            let setup = scene(&fine);
+            let found = march(|| Ok(setup.build()?.scene), fine.stepper, STEADY, speed)?.1;
             *REFERENCE.get_or_init(|| found)
         }
     };
@@ -78,8 +81,8 @@ pub(crate) fn ratio_100(settings: &Settings) -> Result<(f64, Cost)> {
 /// The speed that [`ratio_100`] compares with.
 pub(crate) fn reference_of_ratio_100() -> Result<f64> {
     let settings = Settings::integrals(160, 1280).with_step(StepSize::OfLimit(0.25));
-    let swimmer = boxed(&settings, -1.0, Some(1.0));
-    Ok(march(|| Ok(swimmer.build()?.0), settings.stepper, STEADY, speed)?.1)
+    let setup = boxed(&settings, -1.0, Some(1.0));
+    Ok(march(|| Ok(setup.build()?.scene), settings.stepper, STEADY, speed)?.1)
 }
 
 /// Speed in a narrow channel.
@@ -89,9 +92,9 @@ pub(crate) fn channel(settings: &Settings) -> Result<(f64, Cost)> {
         .select("w", "2")
         .select("zeta_dmu", "-2.0")
         .value("speed")?;
-    let swimmer = Swimmer { activity: -2.0, excluded_volume: 10.0, lengths: [12.0, 2.0], ..settings.swimmer() };
-    let make = || Ok(swimmer.build_in_channel(Drive::ZeroGradient)?.0);
-    let (cost, found) = march(make, settings.stepper, STEADY, speed)?;
+    let region = Region::Channel { length: 12.0, width: 2.0, drive: Drive::ZeroGradient };
+    let setup = Setup { region, ..settings.setup() };
+    let (cost, found) = march(|| Ok(setup.build()?.scene), settings.stepper, STEADY, speed)?;
     Ok((found / reference - 1.0, cost))
 }
 
@@ -99,8 +102,8 @@ pub(crate) fn channel(settings: &Settings) -> Result<(f64, Cost)> {
 pub(crate) fn transient(settings: &Settings) -> Result<(f64, Cost)> {
     let reference = Reference::read(ReferenceFile::Transient)?;
     let (times, speeds) = (reference.column("t")?, reference.column("speed")?);
-    let swimmer = boxed(settings, -1.0, None);
-    let mut scene = swimmer.build()?.0;
+    let setup = boxed(settings, -1.0, None);
+    let mut scene = setup.build()?.scene;
     let mut worst = 0.0_f64;
     for (&time, expected) in times.iter().zip(speeds) {
         if time > 0.0 {
@@ -112,6 +115,6 @@ pub(crate) fn transient(settings: &Settings) -> Result<(f64, Cost)> {
         }
     }
     // The cost from a run nobody interrupts.
-    let (cost, ()) = march(|| Ok(swimmer.build()?.0), settings.stepper, 10.0, |_| Ok(()))?;
+    let (cost, ()) = march(|| Ok(setup.build()?.scene), settings.stepper, 10.0, |_| Ok(()))?;
     Ok((worst, cost))
 }

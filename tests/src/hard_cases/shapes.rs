@@ -1,9 +1,9 @@
 //! Droplets without particles of difficult shapes, and some that are carried far.
 
-use motile::AnyFlow;
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::boundary_integral::{BoundaryIntegral, PeriodicBox, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Region, Settings};
 use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, Scene, Vec2};
+use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
 
 use crate::hard_cases::drive::{ADAPTIVE, run, run_way};
@@ -15,8 +15,9 @@ const SPACING: f64 = 0.1;
 fn relax(way: Way, curve: &Curve, side: f64, until: f64, look: Look<'_>) -> Result<Outcome, CaseError> {
     let flow: AnyFlow = match way {
         Way::Integral => {
-            let settings = Settings { nodes: 192, reference_perimeter: curve.perimeter(), ..Settings::default() };
-            let flow = PeriodicBox::new(side, side).and_then(|region| BoundaryIntegral::new(region, 10.0, settings));
+            let settings = Settings { nodes: 192, ..Settings::default() };
+            let flow = BoundaryIntegral::new(Region::Box { lengths: [side, side] }, 10.0, settings)
+                .and_then(|flow| flow.with_reference_perimeter(curve.perimeter()));
             Box::new(flow.map_err(motile::SetupError::from)?)
         }
         _ => {

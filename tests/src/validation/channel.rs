@@ -1,11 +1,9 @@
 //! Channels with no-slip walls, against boundary-integral values.
 
-use motile::Swimmer;
 use motile::ib_core::{FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, Wall, WallMotion, flux, wall_shear_stress};
 
 use crate::validation::fixed_shapes::{Errors, Shape, couple};
-use crate::validation::swimmers::look;
 use crate::validation::{Case, Reference, ReferenceFile, StudyError};
 
 /// Name of a drive in the reference tables.
@@ -13,9 +11,10 @@ fn convention(drive: Drive) -> &'static str {
     if drive == Drive::ZeroFlux { "q0" } else { "p0" }
 }
 
-fn solver(l: f64, w: f64, h: f64, drive: Drive) -> Result<ChannelStokes, StudyError> {
-    let grid = Grid::channel((l / h).round() as usize, (w / h).round() as usize, h)?;
-    let mut solver = ChannelStokes::new(grid, 1.0)?;
+/// A solver in a channel of a length and a width.
+pub(crate) fn solver(lengths: [f64; 2], h: f64, drive: Drive, viscosity: f64) -> Result<ChannelStokes, StudyError> {
+    let [nx, ny] = lengths.map(|length| (length / h).round() as usize);
+    let mut solver = ChannelStokes::new(Grid::channel(nx, ny, h)?, viscosity)?;
     solver.set_drive(drive)?;
     Ok(solver)
 }
@@ -30,7 +29,7 @@ pub fn point_forces<K: Kernel>(kernel: &K, h: f64, drive: Drive) -> Result<f64, 
     let column = |name: &str| table.column(name);
     let (x, y, x0, y0) = (column("x")?, column("y")?, column("x0")?, column("y0")?);
     let expected = [[column("Gxx")?, column("Gyx")?], [column("Gxy")?, column("Gyy")?]];
-    let mut flow = couple(solver(4.0, 2.0, h, drive)?, kernel, false);
+    let mut flow = couple(solver([4.0, 2.0], h, drive, 1.0)?, kernel, false);
     let mut worst: f64 = 0.0;
     for i in 0..x.len() {
         let (from, to) = (Vec2::new(x0[i], y0[i]), Vec2::new(x[i], y[i]));
@@ -81,7 +80,7 @@ pub fn fixed_shape<K: Kernel>(
         let height = if height == 0.0 { "0.0" } else { "0.3" };
         Ok(case.select(Reference::read(file)?).select("conv", convention(drive)).select("y0", height))
     };
-    let mut flow = couple(solver(6.0, 3.0, h, drive)?, kernel, corrected);
+    let mut flow = couple(solver([6.0, 3.0], h, drive, 1.0)?, kernel, corrected);
     let mut shape = Shape::new(case, height, h, None)?;
     let report = flow.velocities(&mut shape.markers)?;
     let velocities = rows(ReferenceFile::ChannelFixedShapes)?;
@@ -118,70 +117,6 @@ pub fn fixed_shape<K: Kernel>(
         }
     }
     Ok(ShapeErrors { markers, field: worst / largest, drive: drive_error, wall_shear })
-}
-
-/// Relative errors of a steady swimmer on the centre line.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SwimmerErrors {
-    /// Speed.
-    pub speed: f64,
-    /// Aspect ratio from the area moments.
-    pub aspect_ratio: f64,
-    /// Stresslet along the motion.
-    pub stresslet: f64,
-    /// Squirmer parameter in the frame of the droplet.
-    pub beta: f64,
-    /// Flux.
-    pub flux: f64,
-    /// Gap to the walls.
-    pub gap: f64,
-    /// Relative change of the area.
-    pub area_change: f64,
-    /// Relative change of the particle number.
-    pub particle_change: f64,
-}
-
-/// Runs a swimmer (period 12, A = 10, viscosity 100, zero mean pressure gradient) from the polarised start to `time`
-/// and compares it with the steady state of `channel_steady_swimmer.csv`.
-///
-/// # Errors
-/// An activity or width that is not in the table, and what a run can fail with.
-pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SwimmerErrors, StudyError> {
-    let [_, width] = swimmer.lengths;
-    let reference = Reference::read(ReferenceFile::ChannelSwimmers)?
-        .select("conv", "p0")
-        .select("w", &format!("{width}"))
-        .select("zeta_dmu", &format!("{:.1}", swimmer.activity));
-    let (mut scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient)?;
-    let particles: f64 = scene.body(droplet)?.particle_numbers().iter().sum();
-    scene.run(time).go()?;
-    let seen = look(&mut scene, droplet)?;
-    let relative = |value: f64, name: &str| -> Result<f64, StudyError> {
-        let exact = reference.value(name)?;
-        Ok((value - exact) / exact.abs())
-    };
-    let body = scene.body(droplet)?;
-    let extent = body.markers().iter().fold(0.0_f64, |a, marker| a.max(marker.y.abs()));
-    Ok(SwimmerErrors {
-        speed: relative(seen.speed(), "speed")?,
-        aspect_ratio: relative(seen.aspect_ratio_moments, "AR_mom")?,
-        stresslet: relative(seen.moments.stresslet()[0][0], "Sxx")?,
-        beta: relative(seen.squirmer.beta().unwrap_or(f64::NAN), "beta_co")?,
-        flux: relative(flux(scene.system().hydrodynamics().velocity_field()), "flux")?,
-        gap: relative(0.5 * width - extent, "min_gap")?,
-        area_change: seen.area / body.initial_area() - 1.0,
-        particle_change: seen.particle_number / particles - 1.0,
-    })
-}
-
-/// Speed of a swimmer in a channel after `time`.
-///
-/// # Errors
-/// What a run can fail with.
-pub fn speed(swimmer: &Swimmer, drive: Drive, time: f64) -> Result<f64, StudyError> {
-    let (mut scene, droplet) = swimmer.build_on_grid_in_channel(drive)?;
-    scene.run(time).go()?;
-    Ok(look(&mut scene, droplet)?.speed())
 }
 
 /// The drives of the reference tables, with their names.

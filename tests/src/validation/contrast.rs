@@ -3,29 +3,25 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
-use motile::boundary_integral::{BoundaryIntegral, Channel, FluidDomain, PeriodicBox, Settings};
-use motile::ib_core::{
-    CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Peskin4, SmearedContrast, Vec2,
-};
-use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
+use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
+use motile::setup::{AnyFlow, GridMethod, IntegralMethod, Method, Region};
 
 use crate::validation::StudyError;
+use crate::validation::scene::{flow, open_channel};
 
 mod cost;
 mod field;
 mod iterations;
 mod layer;
-mod runs;
 mod tables;
 
 pub use cost::{Cost, CostScene};
 pub use field::{FieldErrors, exact_flow, field_errors};
 pub use iterations::{Iterations, cold_iterations, iterations_in_a_run};
 pub use layer::{LayerErrors, layer_errors};
-pub use runs::{Way, decaying_speeds, growth};
 pub use tables::{RatioTen, ratio_ten};
 
-/// An ellipse with a tension along it and a viscosity inside, in surroundings of viscosity one.
+/// An ellipse with a tension along it and a viscosity inside, in a fluid of viscosity one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Droplet {
     /// Centre (length).
@@ -36,7 +32,7 @@ pub struct Droplet {
     pub mode: u32,
     /// The phase (radians).
     pub phase: f64,
-    /// Viscosity inside, that of the surroundings being one.
+    /// Viscosity inside, that of the exterior fluid being one.
     pub ratio: f64,
 }
 
@@ -77,22 +73,16 @@ impl Droplet {
                 Self::circle(1, right).at(x, -0.01).turned(quarter),
             ]
         };
+        let (channel, square) = (open_channel(6.0, 3.0), Region::Box { lengths: [6.0; 2] });
+        let beside = |ratio| Self::ellipse(ratio).at(0.1, height);
         vec![
-            ("beside a wall, tension along it", Region::Channel(6.0, 3.0), vec![Self::ellipse(100.0).at(0.1, height)]),
-            (
-                "beside a wall, tension across",
-                Region::Channel(6.0, 3.0),
-                vec![Self::ellipse(100.0).at(0.1, height).turned(quarter)],
-            ),
-            ("off the centre, gap 0.3", Region::Channel(6.0, 3.0), vec![Self::circle(1, 100.0).at(0.1, 0.2)]),
-            (
-                "beside a wall, equal viscosities",
-                Region::Channel(6.0, 3.0),
-                vec![Self::ellipse(1.0).at(0.1, height).turned(quarter)],
-            ),
-            ("two droplets, equal viscosities", Region::Box(6.0), pair(1.0, 1.0)),
-            ("two droplets", Region::Box(6.0), pair(10.0, 100.0)),
-            ("beside a passive interface", Region::Box(6.0), pair(100.0, 1.0)),
+            ("beside a wall, tension along it", channel, vec![beside(100.0)]),
+            ("beside a wall, tension across", channel, vec![beside(100.0).turned(quarter)]),
+            ("off the centre, gap 0.3", channel, vec![Self::circle(1, 100.0).at(0.1, 0.2)]),
+            ("beside a wall, equal viscosities", channel, vec![beside(1.0).turned(quarter)]),
+            ("two droplets, equal viscosities", square, pair(1.0, 1.0)),
+            ("two droplets", square, pair(10.0, 100.0)),
+            ("beside a passive interface", square, pair(100.0, 1.0)),
         ]
     }
 
@@ -158,15 +148,6 @@ impl Droplet {
     }
 }
 
-/// Where the droplets are.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Region {
-    /// A square box (length).
-    Box(f64),
-    /// A channel of a length and a width, the centre line at y = 0.
-    Channel(f64, f64),
-}
-
 /// Errors of one droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Errors {
@@ -197,11 +178,7 @@ impl Exact {
     pub fn new(region: Region, droplets: &[Droplet], nodes: usize) -> Result<Self, StudyError> {
         let mut markers = Markers::new();
         droplets.iter().for_each(|droplet| droplet.push_exact(nodes, &mut markers));
-        let settings = Settings { nodes, tolerance: 1e-10, ..Settings::default() };
-        match region {
-            Region::Box(side) => solve(PeriodicBox::new(side, side)?, settings, &mut markers)?,
-            Region::Channel(length, width) => solve(Channel::new(length, width)?, settings, &mut markers)?,
-        }
+        exact(region, nodes)?.velocities(&mut markers)?;
         let velocities: Vec<Vec<Vec2>> = markers.velocities.chunks(nodes).map(<[Vec2]>::to_vec).collect();
         let centroids = droplets
             .iter()
@@ -244,7 +221,7 @@ impl Exact {
     /// # Errors
     /// A spacing that does not divide the region; what the solver can fail with.
     pub fn errors(&self, h: f64) -> Result<Vec<Errors>, StudyError> {
-        self.compare(coupled(self.region, h)?, h)
+        self.compare(sharp(self.region, h)?, h)
     }
 
     /// The errors of the thesis' way, a viscosity smeared over Peskin's kernel, without a mobility correction.
@@ -255,7 +232,7 @@ impl Exact {
         self.compare(smeared(self.region, h, 1e-6)?, h)
     }
 
-    fn compare(&self, mut flow: Box<dyn Hydrodynamics>, h: f64) -> Result<Vec<Errors>, StudyError> {
+    fn compare(&self, mut flow: AnyFlow, h: f64) -> Result<Vec<Errors>, StudyError> {
         let mut markers = Markers::new();
         for droplet in &self.droplets {
             droplet.push_even(0.5 * h, &mut markers)?;
@@ -281,41 +258,19 @@ impl Exact {
     }
 }
 
+/// Boundary integrals in a region, viscosity one.
+fn exact(region: Region, nodes: usize) -> Result<AnyFlow, StudyError> {
+    flow(region, Method::Integral(IntegralMethod { nodes, cells: nodes }), 1.0, 1e-10)
+}
+
 /// The immersed boundary method in a region, viscosity one.
-fn coupled(region: Region, h: f64) -> Result<Box<dyn Hydrodynamics>, StudyError> {
-    let cells = |length: f64| (length / h).round() as usize;
-    let kernel = CubicQuadratic::default();
-    Ok(match region {
-        Region::Box(side) => {
-            let grid = Grid::periodic(cells(side), cells(side), h)?.with_origin([-0.5 * side; 2])?;
-            Box::new(ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0)?, kernel))
-        }
-        Region::Channel(length, width) => {
-            let grid = Grid::channel(cells(length), cells(width), h)?;
-            let grid = grid.with_origin([-0.5 * length, -0.5 * width])?;
-            Box::new(ImmersedBoundary::new(ChannelStokes::new(grid, 1.0)?, kernel))
-        }
-    })
+fn sharp(region: Region, h: f64) -> Result<AnyFlow, StudyError> {
+    flow(region, Method::Grid(GridMethod::of_spacing(h)), 1.0, 1e-6)
 }
 
 /// The thesis' way in a region, viscosity one.
-fn smeared(region: Region, h: f64, tolerance: f64) -> Result<Box<dyn Hydrodynamics>, StudyError> {
-    let cells = |length: f64| (length / h).round() as usize;
-    Ok(match region {
-        Region::Box(side) => {
-            let solver = PeriodicStokes::new(Grid::periodic(cells(side), cells(side), h)?, 1.0)?;
-            Box::new(SmearedContrast::with_tolerance(solver, Peskin4, tolerance)?)
-        }
-        Region::Channel(length, width) => {
-            let solver = ChannelStokes::new(Grid::channel(cells(length), cells(width), h)?, 1.0)?;
-            Box::new(SmearedContrast::with_tolerance(solver, Peskin4, tolerance)?)
-        }
-    })
-}
-
-fn solve<D: FluidDomain>(domain: D, settings: Settings, markers: &mut Markers) -> Result<(), StudyError> {
-    BoundaryIntegral::new(domain, 1.0, settings)?.velocities(markers)?;
-    Ok(())
+fn smeared(region: Region, h: f64, tolerance: f64) -> Result<AnyFlow, StudyError> {
+    flow(region, Method::Grid(GridMethod { spacing: h, ..GridMethod::thesis() }), 1.0, tolerance)
 }
 
 /// Velocity of the centroid of a closed polygon from the flux through its sides.

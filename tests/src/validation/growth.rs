@@ -2,25 +2,25 @@
 
 use std::f64::consts::TAU;
 
-use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, curve::polygon_moments};
-use motile::ib_core::{Handle, StepSize, Vec2};
+use motile::active_interface::{
+    ActiveDroplet, ContractileTension, Curve, ExcludedVolume, Motion,
+    curve::polygon_moments,
+    theory::{LinearTheory, RoundDroplet},
+};
+use motile::ib_core::{Scene, StepSize, Vec2};
+use motile::setup::{AnyFlow, IntegralMethod, MarkerMotion, Method, Particles, Region, Setup};
 
 use crate::validation::StudyError;
+use crate::validation::scene::flow;
 
-/// What is perturbed.
+/// What is perturbed on a droplet of radius one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
     /// The concentration, `c0 (1 + epsilon cos k theta)`.
     Concentration(u32),
-    /// The shape, `R0 (1 + epsilon cos k theta)`.
+    /// The shape, `1 + epsilon cos k theta`.
     Shape(u32),
 }
-
-/// Amplitude: the second-order effects are relative errors of this size.
-const EPSILON: f64 = 1e-5;
-/// How long the perturbation is watched (time).
-const DURATION: f64 = 0.2;
 
 impl Mode {
     /// The modes of the study.
@@ -34,53 +34,128 @@ impl Mode {
         Self::Shape(3),
     ];
 
-    /// Its growth rate (1/time) in free space: thesis (2.18), (2.19).
-    #[must_use]
-    pub fn theory(self, swimmer: &Swimmer) -> f64 {
-        let sum = swimmer.viscosity + swimmer.viscosity_inside.unwrap_or(swimmer.viscosity);
-        let (r, c0) = (swimmer.radius, swimmer.mean_concentration);
-        match self {
-            Self::Concentration(k) => {
-                let k = f64::from(k);
-                -k * (swimmer.activity * c0 / (2.0 * r * sum) + swimmer.diffusion * k / (r * r))
-            }
-            Self::Shape(k) => -f64::from(k) * (swimmer.bare_tension - swimmer.activity * c0) / (2.0 * r * sum),
-        }
+    /// Its growth rate (1/time) on the first droplet of a scene in free space: thesis (2.18), (2.19).
+    ///
+    /// # Errors
+    /// Parameters that make no droplet.
+    pub fn theory(self, setup: &Setup) -> Result<f64, StudyError> {
+        let (droplet, particles) = (&setup.droplets[0], particles(setup)?);
+        let theory = LinearTheory::new(RoundDroplet {
+            radius: 1.0,
+            viscosity_inside: droplet.viscosity.unwrap_or(setup.viscosity),
+            viscosity_outside: setup.viscosity,
+            tension: droplet.tension - particles.activity * particles.concentration,
+            activity: particles.activity,
+            concentration: particles.concentration,
+            diffusivity: particles.diffusion,
+        })?;
+        Ok(match self {
+            Self::Concentration(k) => theory.concentration_growth_rate(k),
+            Self::Shape(k) => theory.shape_growth_rate(k),
+        })
     }
 }
 
-/// The growth rate in a box of the length of `swimmer` (square): of the difference of two runs with opposite
-/// perturbations, so that what the grid and the box do to a round droplet does not count.
+/// How a perturbation is watched.
+struct Watch {
+    /// Amplitude: what is of second order cancels between both signs, and third orders are the square of this.
+    epsilon: f64,
+    /// How long (time).
+    duration: f64,
+    /// In how many steps.
+    steps: f64,
+}
+
+/// The growth rate of a mode on the first droplet of a scene in its region and by its method: of the difference of two
+/// runs with opposite perturbations, so that what a grid and a box do to a round droplet does not count.
 ///
 /// # Errors
 /// What a run can fail with.
-pub fn rate_in_box(swimmer: &Swimmer, mode: Mode) -> Result<f64, StudyError> {
-    let (plus, minus) = (amplitudes(swimmer, mode, EPSILON)?, amplitudes(swimmer, mode, -EPSILON)?);
-    Ok(((plus.1 - minus.1) / (plus.0 - minus.0)).ln() / DURATION)
+pub fn rate_in_region(setup: &Setup, mode: Mode) -> Result<f64, StudyError> {
+    measure(setup, mode, &Watch { epsilon: 1e-5, duration: 0.2, steps: 20.0 }, || Ok(setup.flow()?))
 }
 
-/// Amplitudes of a mode at the start and at the end of a run.
-fn amplitudes(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<(f64, f64), StudyError> {
-    let mut scene = swimmer.scene()?;
-    let droplet: Handle<ActiveDroplet> = scene.add(perturbed(swimmer, mode, epsilon)?);
-    let start = amplitude(scene.body(droplet)?, mode)?;
-    scene.run(DURATION).step_size(StepSize::Fixed(DURATION / 20.0)).go()?;
-    Ok((start, amplitude(scene.body(droplet)?, mode)?))
+/// The growth rate without a box: from boxes of 6, 12 and 24 radii, whose effect is a series in 1/L^2.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn rate(setup: &Setup, mode: Mode) -> Result<f64, StudyError> {
+    let mut rates = [0.0; 3];
+    for (rate, l) in rates.iter_mut().zip([6.0, 12.0, 24.0]) {
+        *rate = rate_in_region(&Setup { region: Region::Box { lengths: [l; 2] }, ..setup.clone() }, mode)?;
+    }
+    let [a, b, c] = rates;
+    // Richardson for the terms in 1/L^2 and 1/L^4.
+    let (first, second) = ((4.0 * b - a) / 3.0, (4.0 * c - b) / 3.0);
+    Ok((16.0 * second - first) / 15.0)
 }
 
-/// A round droplet with a small perturbation.
-pub(crate) fn perturbed(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<ActiveDroplet, StudyError> {
-    let r = swimmer.radius;
+/// The rate (1/time) at which the first mode of the concentration of a droplet of another viscosity grows in its
+/// region: it is slow, so it is watched for longer.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn polarisation_rate(setup: &Setup) -> Result<f64, StudyError> {
+    let watch = Watch { epsilon: 1e-3, duration: 1.0, steps: 20.0 };
+    measure(setup, Mode::Concentration(1), &watch, || flow(setup.region, setup.method, setup.viscosity, 1e-8))
+}
+
+/// The growth rate in unbounded fluid, by boundary integrals with `nodes` nodes and `cells` cells.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn rate_in_plane(setup: &Setup, mode: Mode, nodes: usize, cells: usize) -> Result<f64, StudyError> {
+    let method = Method::Integral(IntegralMethod { nodes, cells });
+    let watch = Watch { epsilon: 1e-5, duration: 0.1, steps: 100.0 };
+    let setup = Setup { method, ..setup.clone() };
+    measure(&setup, mode, &watch, || flow(Region::Plane, method, setup.viscosity, 1e-11))
+}
+
+/// The same for infinitely many cells, from `cells` and twice as many: the error of the cells is of second order.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn rate_in_plane_limit(setup: &Setup, mode: Mode, nodes: usize, cells: usize) -> Result<f64, StudyError> {
+    let coarse = rate_in_plane(setup, mode, nodes, cells)?;
+    Ok((4.0 * rate_in_plane(setup, mode, nodes, 2 * cells)? - coarse) / 3.0)
+}
+
+fn measure(
+    setup: &Setup,
+    mode: Mode,
+    watch: &Watch,
+    flow: impl Fn() -> Result<AnyFlow, StudyError>,
+) -> Result<f64, StudyError> {
+    let (mut start, mut end) = (0.0, 0.0);
+    for sign in [1.0, -1.0] {
+        let mut scene = Scene::new(flow()?);
+        let droplet = scene.add(perturbed(setup, mode, sign * watch.epsilon)?);
+        start += sign * amplitude(scene.body(droplet)?, mode)?;
+        scene.run(watch.duration).step_size(StepSize::Fixed(watch.duration / watch.steps)).go()?;
+        end += sign * amplitude(scene.body(droplet)?, mode)?;
+    }
+    Ok((end / start).ln() / watch.duration)
+}
+
+fn particles(setup: &Setup) -> Result<Particles, StudyError> {
+    setup.droplets[0].particles.ok_or_else(|| StudyError::Reference("a droplet without particles".to_owned()))
+}
+
+/// The first droplet of a scene, round and uniform but for a small perturbation, without excluded volume.
+fn perturbed(setup: &Setup, mode: Mode, epsilon: f64) -> Result<ActiveDroplet, StudyError> {
+    let (droplet, particles) = (&setup.droplets[0], particles(setup)?);
     let curve = match mode {
-        Mode::Concentration(_) => Curve::circle(r)?,
+        Mode::Concentration(_) => Curve::circle(1.0)?,
         Mode::Shape(k) => {
             let mut cosines = vec![0.0; k as usize];
             cosines[k as usize - 1] = epsilon;
-            Curve::fourier(r, &cosines, &[])?
+            Curve::fourier(1.0, &cosines, &[])?
         }
     };
-    let count = 4 * (curve.perimeter() / (2.0 * swimmer.spacing)).round() as usize;
-    let markers = curve.markers(count)?;
+    let count = match setup.method {
+        Method::Grid(grid) => 4 * (curve.perimeter() / (2.0 * grid.spacing)).round() as usize,
+        Method::Integral(integral) => integral.cells,
+    };
     let step = TAU / count as f64;
     let numbers = (0..count)
         .map(|j| {
@@ -91,38 +166,25 @@ pub(crate) fn perturbed(swimmer: &Swimmer, mode: Mode, epsilon: f64) -> Result<A
                 }
                 Mode::Shape(_) => 0.0,
             };
-            swimmer.mean_concentration * curve.perimeter() / TAU * (b - a + wave)
+            particles.concentration * curve.perimeter() / TAU * (b - a + wave)
         })
         .collect();
-    let law = ContractileTension::new(swimmer.bare_tension, swimmer.activity, ExcludedVolume::None)?;
-    let droplet = ActiveDroplet::new(&markers, numbers, law, swimmer.diffusion)?
-        .with_motion(swimmer.motion)
-        .with_flux(swimmer.flux)
-        .with_area_constraint(swimmer.area_constraint);
-    Ok(match swimmer.viscosity_inside {
-        Some(inside) => droplet.with_viscosity_inside(inside)?,
-        None => droplet,
+    let law = ContractileTension::new(droplet.tension, particles.activity, ExcludedVolume::None)?;
+    let made = ActiveDroplet::new(&curve.markers(count)?, numbers, law, particles.diffusion)?
+        .with_motion(match droplet.motion {
+            MarkerMotion::WithFluid => Motion::WithFluid,
+            MarkerMotion::Equidistributed { relaxation } => Motion::Equidistributed { relaxation, filter: true },
+        })
+        .with_flux(particles.flux)
+        .with_area_constraint(droplet.area_constraint);
+    Ok(match droplet.viscosity {
+        Some(inside) => made.with_viscosity_inside(inside)?,
+        None => made,
     })
 }
 
-/// The growth rate without a box: from boxes of 6, 12 and 24 radii, whose effect is a series in 1/L^2.
-///
-/// # Errors
-/// What a run can fail with.
-pub fn rate(swimmer: &Swimmer, mode: Mode) -> Result<f64, StudyError> {
-    let mut rates = [0.0; 3];
-    for (rate, l) in rates.iter_mut().zip([6.0, 12.0, 24.0]) {
-        let lengths = [l * swimmer.radius; 2];
-        *rate = rate_in_box(&Swimmer { lengths, ..swimmer.clone() }, mode)?;
-    }
-    let [a, b, c] = rates;
-    // Richardson for the terms in 1/L^2 and 1/L^4.
-    let (first, second) = ((4.0 * b - a) / 3.0, (4.0 * c - b) / 3.0);
-    Ok((16.0 * second - first) / 15.0)
-}
-
 /// The cosine coefficient of the perturbed quantity, over the polar angle about the centroid.
-pub(crate) fn amplitude(droplet: &ActiveDroplet, mode: Mode) -> Result<f64, StudyError> {
+fn amplitude(droplet: &ActiveDroplet, mode: Mode) -> Result<f64, StudyError> {
     let markers = droplet.markers();
     let centre = polygon_moments(markers)?.centroid;
     let count = markers.len();

@@ -3,12 +3,10 @@
 //! A droplet in a square box turns: its images form a lattice, which has directions, and with the direction its speed
 //! changes by some per cent. A grid has directions too, and must add as little as possible to the turning.
 
-use motile::active_interface::{ActiveDroplet, Observables};
-use motile::ib_core::{Handle, Scene, StepSize};
-use motile::{AnyFlow, Method, Swimmer};
+use motile::setup::{Built, Method, Setup};
 
 use crate::validation::StudyError;
-use crate::validation::swimmers::{look, reference_swimmer};
+use crate::validation::scene::reference;
 
 /// Where a swimmer goes and how fast, at the times of a study.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,41 +46,26 @@ impl Course {
     }
 }
 
-/// The swimmer of the reference tables (box 6, viscosity 100, A = 2 |activity|) on a grid of spacing h with markers
-/// `ds` apart, starting at `angle` (radians) from the x axis at a place between the grid points.
+/// The swimmer of the reference tables (box 6, viscosity 100, A = 2 |activity|) by a method, starting at `angle`
+/// (radians) from the x axis at a place between the points of a grid.
 #[must_use]
-pub fn on_the_grid(base: &Swimmer, activity: f64, h: f64, ds: f64, angle: f64) -> Swimmer {
-    Swimmer {
-        method: Method::ImmersedBoundary,
-        marker_spacing: Some(ds),
-        angle,
-        offset: [0.013, 0.027],
-        ..reference_swimmer(base, activity, h)
-    }
+pub fn off_axis(method: Method, activity: f64, angle: f64) -> Setup {
+    let mut setup = reference(Setup { method, ..Setup::default() }, activity);
+    (setup.droplets[0].angle, setup.droplets[0].centre) = (angle, [0.013, 0.027]);
+    setup
 }
 
-/// The same scene by boundary integrals.
-#[must_use]
-pub fn without_grid(swimmer: &Swimmer, nodes: usize, cells: usize) -> Swimmer {
-    Swimmer {
-        method: Method::BoundaryIntegral,
-        nodes,
-        concentration_cells: cells,
-        step: StepSize::OfLimit(0.5),
-        ..swimmer.clone()
-    }
-}
-
-/// The course of a swimmer, looked at `every` so much time until `end`, the polarised start excluded.
+/// The course of the first swimmer of a scene, looked at `every` so much time until `end`, the polarised start
+/// excluded.
 ///
 /// # Errors
 /// What a run can fail with.
-pub fn course(swimmer: &Swimmer, every: f64, end: f64) -> Result<Course, StudyError> {
-    let (mut scene, droplet): (Scene<AnyFlow>, Handle<ActiveDroplet>) = swimmer.build()?;
+pub fn course(setup: &Setup, every: f64, end: f64) -> Result<Course, StudyError> {
+    let Built { mut scene, droplets, .. } = setup.build()?;
     let mut course = Course { headings: Vec::new(), speeds: Vec::new() };
     for time in (1..).map(|i| every * f64::from(i)).take_while(|&time| time < end + 0.5 * every) {
         scene.run(time).go()?;
-        let seen: Observables = look(&mut scene, droplet)?;
+        let seen = scene.observe(droplets[0])?;
         course.headings.push(seen.heading());
         course.speeds.push(seen.speed());
     }

@@ -1,35 +1,9 @@
 //! What becomes of a lateral offset of a swimmer in a channel.
 
-use motile::Swimmer;
-use motile::active_interface::{
-    ActiveDroplet,
-    trajectory::{LinearMode, extrema, fit_linear_mode},
-};
-use motile::ib_core::{Handle, Hydrodynamics, Scene};
-use motile::stokes_grid::Drive;
+use motile::active_interface::trajectory::{LinearMode, extrema, fit_linear_mode};
+use motile::setup::{Built, Setup};
 
-use crate::validation::swimmers::look;
 use crate::validation::{Reference, ReferenceFile, StudyError};
-
-/// How the flow is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// On a grid, with the swimmer's spacing.
-    ImmersedBoundary,
-    /// Without a grid.
-    BoundaryIntegral,
-}
-
-impl Method {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::ImmersedBoundary => "immersed boundary",
-            Self::BoundaryIntegral => "boundary integral",
-        }
-    }
-}
 
 /// Height and lateral velocity of the centroid at the given times.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -42,33 +16,16 @@ pub struct Track {
     pub velocities: Vec<f64>,
 }
 
-/// Follows a swimmer, started at the height `swimmer.offset[1]`, to `time`.
+/// Follows the first swimmer of a scene to `time`.
 ///
 /// # Errors
 /// What a run can fail with.
-pub fn track(swimmer: &Swimmer, method: Method, time: f64, every: f64) -> Result<Track, StudyError> {
-    match method {
-        Method::ImmersedBoundary => {
-            let (scene, droplet) = swimmer.build_on_grid_in_channel(Drive::ZeroGradient)?;
-            follow(scene, droplet, time, every)
-        }
-        Method::BoundaryIntegral => {
-            let (scene, droplet) = swimmer.build_without_grid_in_channel(Drive::ZeroGradient)?;
-            follow(scene, droplet, time, every)
-        }
-    }
-}
-
-fn follow<H: Hydrodynamics>(
-    mut scene: Scene<H>,
-    droplet: Handle<ActiveDroplet>,
-    time: f64,
-    every: f64,
-) -> Result<Track, StudyError> {
+pub fn track(setup: &Setup, time: f64, every: f64) -> Result<Track, StudyError> {
+    let Built { mut scene, droplets, .. } = setup.build()?;
     let mut track = Track::default();
     for i in 1..=(time / every).round() as usize {
         scene.run(every * i as f64).go()?;
-        let seen = look(&mut scene, droplet)?;
+        let seen = scene.observe(droplets[0])?;
         track.times.push(scene.time());
         track.heights.push(seen.centroid.y);
         track.velocities.push(seen.velocity.y);
@@ -80,8 +37,8 @@ fn follow<H: Hydrodynamics>(
 ///
 /// # Errors
 /// What a run or the fit can fail with.
-pub fn mode(swimmer: &Swimmer, method: Method, start: f64, time: f64) -> Result<LinearMode, StudyError> {
-    let track = track(swimmer, method, time, 1.0)?;
+pub fn mode(setup: &Setup, start: f64, time: f64) -> Result<LinearMode, StudyError> {
+    let track = track(setup, time, 1.0)?;
     let first = track.times.partition_point(|&t| t < start);
     Ok(fit_linear_mode(&track.times[first..], &track.heights[first..], Some(&track.velocities[first..]))?)
 }
@@ -102,8 +59,8 @@ pub fn reference(activity: f64) -> Result<(f64, f64), StudyError> {
 ///
 /// # Errors
 /// A record without a whole oscillation, and what a run can fail with.
-pub fn limit_cycle(swimmer: &Swimmer, method: Method, time: f64) -> Result<(f64, f64), StudyError> {
-    let track = track(swimmer, method, time, 0.1)?;
+pub fn limit_cycle(setup: &Setup, time: f64) -> Result<(f64, f64), StudyError> {
+    let track = track(setup, time, 0.1)?;
     let turns = extrema(&track.times, &track.heights, 0.01)?;
     let [.., a, b, c] = turns.as_slice() else {
         return Err(StudyError::Reference("a record without a whole oscillation".to_owned()));

@@ -1,7 +1,7 @@
 //! Comparisons of motile with exact and independently computed values.
 //!
 //! Each module is one study: a function from resolutions to rows with errors. Tests run the cheap resolutions and
-//! assert orders and bounds; the example `validation` runs all of them and prints the tables of the documentation.
+//! assert orders and bounds; the study `validation` runs all of them and prints the tables of the documentation.
 //!
 //! ```
 //! use motile_tests::validation::{fixed_shapes, Case};
@@ -22,6 +22,7 @@ mod order;
 mod reference;
 pub mod relaxation;
 pub mod resolution;
+pub mod scene;
 pub mod solids;
 pub mod swimmers;
 mod table;
@@ -55,7 +56,7 @@ pub enum StudyError {
     Solid(#[from] motile::elastic_solids::SolidError),
     /// The boundary integrals.
     #[error(transparent)]
-    BoundaryIntegral(#[from] motile::boundary_integral::BoundaryIntegralError),
+    BoundaryIntegral(#[from] motile::boundary_integral::LayerError),
     /// The reference values.
     #[error("the reference values are not readable: {0}")]
     Reference(String),

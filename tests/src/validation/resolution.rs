@@ -2,10 +2,11 @@
 
 use motile::active_interface::DropletWarning;
 use motile::ib_core::StepSize;
-use motile::{InitialState, Swimmer};
+use motile::setup::{Built, DropletSetup, GridMethod, Method, Particles, Setup, Start};
 
 use crate::validation::StudyError;
-use crate::validation::swimmers::look;
+use crate::validation::scene::on_grid;
+use crate::validation::swimmers::speeds;
 
 /// What became of a uniform droplet with a small perturbation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,18 +27,13 @@ pub struct Perturbed {
 /// # Errors
 /// What a run can fail with.
 pub fn perturbed(activity: f64, h: f64, time: f64) -> Result<Perturbed, StudyError> {
-    let initial = InitialState::Perturbed { amplitude: 0.05, seed: 1 };
-    let swimmer = Swimmer { activity, spacing: h, initial, ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build_on_grid()?;
-    let mut largest_early_speed = 0.0_f64;
-    for part in 0..=20 {
-        if part > 0 {
-            scene.run(time * f64::from(part) / 40.0).go()?;
-        }
-        largest_early_speed = largest_early_speed.max(look(&mut scene, droplet)?.speed());
-    }
-    scene.run(time).go()?;
-    let speed = look(&mut scene, droplet)?.speed();
+    let start = Start::Perturbed { amplitude: 0.05, seed: 1 };
+    let particles = Some(Particles { activity, start, ..Particles::default() });
+    let setup = Setup { droplets: vec![DropletSetup { particles, ..DropletSetup::default() }], ..on_grid(h) };
+    let looks: Vec<f64> = (0..=20).map(|part| time * f64::from(part) / 40.0).chain([time]).collect();
+    let speeds = speeds(&setup, &looks)?;
+    let largest_early_speed = speeds[..=20].iter().fold(0.0_f64, |most, speed| most.max(*speed));
+    let speed = speeds[21];
     Ok(Perturbed { time, largest_early_speed, speed, swims: speed > largest_early_speed && speed > 1e-3 })
 }
 
@@ -57,11 +53,12 @@ pub struct MarkerSpacing {
 /// # Errors
 /// What a run can fail with.
 pub fn marker_spacing(ds: f64) -> Result<MarkerSpacing, StudyError> {
-    let swimmer = Swimmer { viscosity: 10.0, spacing: 0.1, marker_spacing: Some(ds), ..Swimmer::default() };
-    let (mut scene, droplet) = swimmer.build_on_grid()?;
+    let grid = GridMethod { marker_spacing: Some(ds), ..GridMethod::of_spacing(0.1) };
+    let setup = Setup { viscosity: 10.0, method: Method::Grid(grid), ..Setup::default() };
+    let Built { mut scene, droplets, .. } = setup.build()?;
     scene.run(3.0).step_size(StepSize::OfLimit(0.25)).go()?;
-    let speed = look(&mut scene, droplet)?.speed();
-    let body = scene.body(droplet)?;
-    let warned = body.warnings().iter().any(|warning| matches!(warning, DropletWarning::CellPeclet { .. }));
-    Ok(MarkerSpacing { speed, peclet: body.cell_peclet(), warned })
+    let speed = scene.observe(droplets[0])?.speed();
+    let droplet = scene.body(droplets[0])?;
+    let warned = droplet.warnings().iter().any(|warning| matches!(warning, DropletWarning::CellPeclet { .. }));
+    Ok(MarkerSpacing { speed, peclet: droplet.cell_peclet(), warned })
 }

@@ -1,21 +1,15 @@
 //! Swimmers against boundary-integral values.
 
-use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, Observables};
-use motile::ib_core::{Every, Handle, Hydrodynamics, Integrator, Scene, StepSize};
+use std::f64::consts::{PI, TAU};
 
+use motile::active_interface::{Observables, observables::net_flux};
+use motile::ib_core::{Every, Hydrodynamics, Scene, StepSize, System, wall_gap};
+use motile::setup::{AnyFlow, Built, Method, Region, Setup};
+use motile::stokes_grid::flux;
+
+use crate::validation::channel::solver;
+use crate::validation::fixed_shapes::couple;
 use crate::validation::{Reference, ReferenceFile, StudyError};
-
-/// All observables of a droplet at the present state of its scene.
-///
-/// # Errors
-/// What an evaluation can fail with.
-pub fn look<H: Hydrodynamics, I: Integrator>(
-    scene: &mut Scene<H, I>,
-    droplet: Handle<ActiveDroplet>,
-) -> Result<Observables, StudyError> {
-    Ok(scene.observe(droplet)?)
-}
 
 /// Relative errors of a steady swimmer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,8 +26,14 @@ pub struct SteadyErrors {
     pub active_fraction: f64,
     /// Largest concentration.
     pub concentration_max: f64,
+    /// Flux, in a channel.
+    pub flux: Option<f64>,
+    /// Gap to the walls, in a channel.
+    pub gap: Option<f64>,
     /// Relative change of the area.
     pub area_change: f64,
+    /// Relative change of the particle number.
+    pub particle_change: f64,
     /// Steps taken.
     pub steps: usize,
     /// Time step at the end.
@@ -41,118 +41,111 @@ pub struct SteadyErrors {
 }
 
 impl SteadyErrors {
-    /// The six errors that the reference table has, in its order.
+    /// The six errors that the table of boxes has, in its order.
     #[must_use]
     pub fn list(&self) -> [f64; 6] {
         [self.speed, self.aspect_ratio, self.stresslet, self.beta, self.active_fraction, self.concentration_max]
     }
 }
 
-/// The swimmer of the reference table: box 6, viscosity 100, A = 2 |activity|.
-#[must_use]
-pub fn reference_swimmer(base: &Swimmer, activity: f64, h: f64) -> Swimmer {
-    Swimmer {
-        activity,
-        excluded_volume: 2.0 * activity.abs(),
-        viscosity: 100.0,
-        lengths: [6.0, 6.0],
-        spacing: h,
-        ..base.clone()
-    }
-}
-
-/// Runs a swimmer on a grid from the polarised start to `time` and compares with the steady state of
-/// `steady_swimmer_box6.csv`.
+/// Runs a scene of one swimmer from the polarised start to `time` and compares with its steady state: in a box of 6 x 6
+/// of `steady_swimmer_box6.csv` or, for a droplet of viscosity 100 in a fluid of viscosity 10,
+/// `steady_swimmer_contrast_box6.csv`; in a channel (period 12, A = 10, zero mean pressure gradient) of
+/// `channel_steady_swimmer.csv`.
 ///
 /// # Errors
-/// An activity that is not in the table, and what a run can fail with.
-pub fn steady(swimmer: &Swimmer, time: f64) -> Result<SteadyErrors, StudyError> {
-    let (scene, droplet) = swimmer.build_on_grid()?;
-    compare(scene, droplet, swimmer, time)
-}
-
-/// As [`steady`] without a grid; a droplet of viscosity 100 in surroundings of viscosity 10 is compared with
-/// `steady_swimmer_contrast_box6.csv`.
-///
-/// # Errors
-/// An activity that is not in the tables, and what a run can fail with.
-pub fn steady_without_grid(swimmer: &Swimmer, time: f64) -> Result<SteadyErrors, StudyError> {
-    let (scene, droplet) = swimmer.build_without_grid()?;
-    compare(scene, droplet, swimmer, time)
-}
-
-fn compare<H: Hydrodynamics>(
-    mut scene: Scene<H>,
-    droplet: Handle<ActiveDroplet>,
-    swimmer: &Swimmer,
-    time: f64,
-) -> Result<SteadyErrors, StudyError> {
-    let file = match swimmer.viscosity_inside {
-        None => ReferenceFile::SteadySwimmers,
-        Some(_) => ReferenceFile::SteadySwimmerContrast,
+/// An activity or a width that is not in the tables, and what a run can fail with.
+pub fn steady(setup: &Setup, time: f64) -> Result<SteadyErrors, StudyError> {
+    let droplet = &setup.droplets[0];
+    let (table, stresslet) = match setup.region {
+        Region::Channel { width, .. } => {
+            let table = Reference::read(ReferenceFile::ChannelSwimmers)?.select("conv", "p0");
+            (table.select("w", &width.to_string()), "Sxx")
+        }
+        _ if droplet.viscosity.is_some() => (Reference::read(ReferenceFile::SteadySwimmerContrast)?, "Sxx_f"),
+        _ => (Reference::read(ReferenceFile::SteadySwimmers)?, "Sxx_f"),
     };
-    let reference = Reference::read(file)?.select("zeta_dmu", &format!("{:.1}", swimmer.activity));
-    scene.run(time).go()?;
-    let seen = look(&mut scene, droplet)?;
+    let table = table.select("zeta_dmu", &format!("{:.1}", droplet.activity()));
+    let c0 = droplet.particles.map_or(f64::NAN, |particles| particles.concentration);
     let relative = |value: f64, name: &str| -> Result<f64, StudyError> {
-        let exact = reference.value(name)?;
+        let exact = table.value(name)?;
         Ok((value - exact) / exact.abs())
     };
+
+    let Built { mut scene, droplets, .. } = setup.build()?;
+    let particles: f64 = scene.body(droplets[0])?.particle_numbers().iter().sum();
+    scene.run(time).go()?;
+    let seen = scene.observe(droplets[0])?;
+    let (mut flux, mut gap) = (None, None);
+    if let Region::Channel { width, .. } = setup.region {
+        flux = Some(relative(flux_through(setup, &mut scene, seen.centroid.x)?, "flux")?);
+        let markers = scene.body(droplets[0])?.markers();
+        gap = Some(relative(wall_gap(markers, [-0.5 * width, 0.5 * width]), "min_gap")?);
+    }
     let dt = match scene.step_size() {
         StepSize::Fixed(dt) => dt,
         StepSize::OfLimit(fraction) => scene.system().step_limit().map_or(f64::NAN, |(limit, _)| fraction * limit.dt),
         StepSize::Adaptive { .. } => f64::NAN,
     };
-    let c0 = swimmer.mean_concentration;
     Ok(SteadyErrors {
         speed: relative(seen.speed(), "speed")?,
         aspect_ratio: relative(seen.aspect_ratio_moments, "AR_mom")?,
-        stresslet: relative(seen.moments.stresslet()[0][0], "Sxx_f")?,
+        stresslet: relative(seen.moments.stresslet()[0][0], stresslet)?,
         beta: relative(seen.squirmer.beta().unwrap_or(f64::NAN), "beta_co")?,
         active_fraction: relative(seen.active_region.map_or(f64::NAN, |region| region.fraction), "active_frac")?,
         concentration_max: relative(seen.concentration_range.map_or(f64::NAN, |[max, _]| max / c0), "cmax")?,
-        area_change: seen.area / scene.body(droplet)?.initial_area() - 1.0,
+        flux,
+        gap,
+        area_change: seen.area / scene.body(droplets[0])?.initial_area() - 1.0,
+        particle_change: seen.particle_number / particles - 1.0,
         steps: scene.steps(),
         dt,
     })
 }
 
-/// Largest relative error of the speed over the times of `swimmer_transient_box6_activity_1.csv`, with the time at
-/// which it occurs.
-///
-/// # Errors
-/// What a run can fail with.
-pub fn transient(base: &Swimmer, h: f64) -> Result<(f64, f64), StudyError> {
-    let (scene, droplet) = reference_swimmer(base, -1.0, h).build_on_grid()?;
-    compare_transient(scene, droplet)
-}
-
-/// As [`transient`], without a grid.
-///
-/// # Errors
-/// What a run can fail with.
-pub fn transient_without_grid(base: &Swimmer) -> Result<(f64, f64), StudyError> {
-    let (scene, droplet) = reference_swimmer(base, -1.0, base.spacing).build_without_grid()?;
-    compare_transient(scene, droplet)
-}
-
-fn compare_transient<H: Hydrodynamics>(
-    mut scene: Scene<H>,
-    droplet: Handle<ActiveDroplet>,
-) -> Result<(f64, f64), StudyError> {
-    let reference = Reference::read(ReferenceFile::Transient)?;
-    let (times, speeds) = (reference.column("t")?, reference.column("speed")?);
-    let mut worst = (0.0_f64, 0.0);
-    for (&time, speed) in times.iter().zip(speeds) {
-        if time > 0.0 {
-            scene.run(time).go()?;
+/// The flux through a channel in the present state (area per time): on a grid the sum over its faces, else that half a
+/// period away from a droplet at `x`.
+fn flux_through(setup: &Setup, scene: &mut Scene<AnyFlow>, x: f64) -> Result<f64, StudyError> {
+    match (setup.method, setup.region) {
+        (Method::Grid(grid), Region::Channel { length, width, drive }) => {
+            let solver = solver([length, width], grid.spacing, drive, setup.viscosity)?;
+            let mut flow = couple(solver, &grid.kernel, grid.corrected);
+            flow.velocities(&mut scene.system().markers().clone())?;
+            Ok(flux(flow.velocity_field()))
         }
-        let error = look(&mut scene, droplet)?.speed() / speed - 1.0;
+        _ => Ok(net_flux(scene.system_mut(), x + 0.5 * setup.region.lengths()[0])?),
+    }
+}
+
+/// Largest relative error of the speed of a swimmer of activity -1 over the times of
+/// `swimmer_transient_box6_activity_1.csv`, with the time at which it occurs.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn transient(setup: &Setup) -> Result<(f64, f64), StudyError> {
+    let reference = Reference::read(ReferenceFile::Transient)?;
+    let (times, expected) = (reference.column("t")?, reference.column("speed")?);
+    let mut worst = (0.0_f64, 0.0);
+    for ((found, expected), time) in speeds(setup, &times)?.iter().zip(expected).zip(times) {
+        let error = found / expected - 1.0;
         if error.abs() > worst.0.abs() {
             worst = (error, time);
         }
     }
     Ok(worst)
+}
+
+/// Speeds of the first droplet of a scene at increasing times.
+///
+/// # Errors
+/// What a run can fail with.
+pub fn speeds(setup: &Setup, times: &[f64]) -> Result<Vec<f64>, StudyError> {
+    let Built { mut scene, droplets, .. } = setup.build()?;
+    let speed = |&time: &f64| {
+        scene.run(time).go()?;
+        Ok(scene.observe(droplets[0])?.speed())
+    };
+    times.iter().map(speed).collect()
 }
 
 /// What became of a swimmer in a long run.
@@ -168,26 +161,45 @@ pub struct LongRun {
     pub particle_change: f64,
     /// Relative change of the perimeter from the middle to the end.
     pub perimeter_creep: f64,
-    /// Mean turning rate over the second half (radians per time).
-    pub turning_rate: f64,
-    /// Heading at the end (radians).
-    pub heading: f64,
+    /// Headings at the middle and at the end (radians).
+    pub headings: [f64; 2],
+    /// The time between those.
+    pub half: f64,
+    /// How often the centroid crossed an edge of the box.
+    pub crossings: u32,
 }
 
-/// Runs a swimmer to `time` and watches it.
+impl LongRun {
+    /// Mean turning rate over the second half (radians per time).
+    #[must_use]
+    pub fn turning_rate(&self) -> f64 {
+        let [first, last] = self.headings;
+        // Headings are compared within half a turn.
+        ((last - first + PI).rem_euclid(TAU) - PI) / self.half
+    }
+
+    /// Rate (1/time) at which the angle to the x axis grows over the second half.
+    #[must_use]
+    pub fn divergence(&self) -> f64 {
+        let [first, last] = self.headings;
+        (last / first).ln() / self.half
+    }
+}
+
+/// Runs a scene of one swimmer to `time` and watches it.
 ///
 /// # Errors
 /// What a run can fail with.
-pub fn long_run(swimmer: &Swimmer, time: f64) -> Result<LongRun, StudyError> {
-    let (mut scene, droplet) = swimmer.build_on_grid()?;
+pub fn long_run(setup: &Setup, time: f64) -> Result<LongRun, StudyError> {
+    let Built { mut scene, droplets, .. } = setup.build()?;
     let mut records: Vec<(f64, Observables)> = Vec::new();
-    let mut watch = |system: &mut motile::ib_core::System<motile::PeriodicBox>| -> Result<(), StudyError> {
-        records.push((system.time(), system.observe(droplet)?));
+    let mut watch = |system: &mut System<AnyFlow>| -> Result<(), StudyError> {
+        records.push((system.time(), system.observe(droplets[0])?));
         Ok(())
     };
     scene.run(time).observe(Every::StepAfter(0.5), &mut watch).go()?;
-    let late: Vec<_> = records.iter().filter(|(t, _)| *t >= 0.5 * time).collect();
-    let (Some((t0, first)), Some((t1, last)), Some((_, start))) = (late.first(), late.last(), records.first()) else {
+    let late = &records[records.partition_point(|(t, _)| *t < 0.5 * time)..];
+    let ([(t0, first), ..], [.., (t1, last)], Some((_, start))) = (late, late, records.first()) else {
         return Err(StudyError::Reference("a run without records".to_owned()));
     };
     let speeds = late.iter().map(|(_, seen)| seen.speed());
@@ -195,16 +207,20 @@ pub fn long_run(swimmer: &Swimmer, time: f64) -> Result<LongRun, StudyError> {
     let largest = |value: fn(&Observables) -> f64| {
         records.iter().map(|(_, seen)| (value(seen) / value(start) - 1.0).abs()).fold(0.0, f64::max)
     };
-    // Headings are compared within half a turn.
-    let turned = (last.heading() - first.heading() + 0.5 * std::f64::consts::TAU).rem_euclid(std::f64::consts::TAU)
-        - 0.5 * std::f64::consts::TAU;
+    let lengths = setup.region.lengths();
+    let cell = |seen: &Observables| [0, 1].map(|i| (seen.centroid[i] / lengths[i] + 0.5).floor());
+    let moves = records.windows(2).map(|pair| {
+        let (a, b) = (cell(&pair[0].1), cell(&pair[1].1));
+        u32::from(a[0] != b[0]) + u32::from(a[1] != b[1])
+    });
     Ok(LongRun {
         speed: last.speed(),
         speed_spread: max / min - 1.0,
         area_change: largest(|seen| seen.area),
         particle_change: largest(|seen| seen.particle_number),
         perimeter_creep: last.perimeter / first.perimeter - 1.0,
-        turning_rate: turned / (t1 - t0),
-        heading: last.heading(),
+        headings: [first.heading(), last.heading()],
+        half: t1 - t0,
+        crossings: moves.sum(),
     })
 }

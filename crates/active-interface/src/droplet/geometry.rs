@@ -3,7 +3,7 @@
 use ib_core::Vec2;
 
 /// Geometry of a closed polygon, marker k followed by segment k.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Geometry {
     /// Lengths of the segments (length).
     pub(crate) lengths: Vec<f64>,
@@ -16,18 +16,26 @@ pub(crate) struct Geometry {
     pub(crate) weights: Vec<f64>,
     /// Unit tangents at the markers, along the chords; the outward normal is (tau_y, -tau_x).
     pub(crate) tangents: Vec<Vec2>,
+    /// |X_alpha| at the markers (length); only of smooth curves, see [`super::spectral::SpectralCurve`].
+    pub(crate) stretch: Vec<f64>,
     /// Sum of the lengths of the segments (length).
     pub(crate) perimeter: f64,
 }
 
 impl Geometry {
-    pub(crate) fn update(&mut self, markers: &[Vec2]) {
-        let count = markers.len();
+    /// Makes all lists fit `count` markers.
+    pub(crate) fn resize(&mut self, count: usize) {
         for list in [&mut self.directions, &mut self.chords, &mut self.tangents] {
             list.resize(count, Vec2::zeros());
         }
         self.lengths.resize(count, 0.0);
         self.weights.resize(count, 0.0);
+    }
+
+    /// The geometry of the polygon through the markers.
+    pub(crate) fn update(&mut self, markers: &[Vec2]) {
+        let count = markers.len();
+        self.resize(count);
         self.perimeter = 0.0;
         for k in 0..count {
             let (before, here) = (markers[if k == 0 { count - 1 } else { k - 1 }], markers[k]);

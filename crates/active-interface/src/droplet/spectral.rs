@@ -17,8 +17,6 @@ pub(crate) struct SpectralCurve {
     plan: ComplexTransform,
     spectrum: Vec<Complex<f64>>,
     work: Vec<Complex<f64>>,
-    /// |X_alpha| at the markers (length).
-    stretch: Vec<f64>,
 }
 
 fn complex(v: Vec2) -> Complex<f64> {
@@ -32,11 +30,11 @@ fn vector(z: Complex<f64>) -> Vec2 {
 impl SpectralCurve {
     pub(crate) fn new(count: usize) -> Self {
         let zeros = vec![Complex::default(); count];
-        Self { plan: ComplexTransform::new(count), spectrum: zeros.clone(), work: zeros, stretch: vec![0.0; count] }
+        Self { plan: ComplexTransform::new(count), spectrum: zeros.clone(), work: zeros }
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.stretch.len()
+        self.work.len()
     }
 
     /// Signed wave number of entry m; 0 for the one in the middle, whose sign is undefined.
@@ -65,9 +63,10 @@ impl SpectralCurve {
         let _ = self.plan.inverse(&mut self.work);
     }
 
-    /// Replaces lengths, directions (at the middle of the segments), tangents and weights of `geometry` by those of the
-    /// smooth curve.
-    pub(crate) fn refine(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
+    /// The geometry of the smooth curve through the markers; directions are those at the middle of the segments.
+    pub(crate) fn update(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
+        geometry.resize(self.len());
+        geometry.stretch.resize(self.len(), 0.0);
         let (count, half) = (self.len(), PI / self.len() as f64);
         // Relative to one marker, so that droplets that have travelled far lose no digits.
         for (entry, marker) in self.spectrum.iter_mut().zip(markers) {
@@ -82,13 +81,13 @@ impl SpectralCurve {
         let spacing = TAU / count as f64;
         for k in 0..count {
             let (tangent, stretch) = (self.work[k], self.work[k].norm());
-            self.stretch[k] = stretch;
+            geometry.stretch[k] = stretch;
             geometry.tangents[k] = vector(tangent / stretch);
             geometry.weights[k] = stretch * spacing;
             geometry.chords[k] = vector(tangent) * spacing;
         }
         // Arc length of a segment: the integral of |X_alpha| over it, mode by mode.
-        for (entry, stretch) in self.spectrum.iter_mut().zip(&self.stretch) {
+        for (entry, stretch) in self.spectrum.iter_mut().zip(&geometry.stretch) {
             *entry = Complex::new(*stretch, 0.0);
         }
         self.transform();
@@ -151,7 +150,7 @@ impl SpectralCurve {
         self.evaluate(|wave| Complex::new(0.0, wave));
         // dW/dalpha up to its mean, which the integration leaves out.
         for (((entry, derivative), tau), stretch) in
-            self.spectrum.iter_mut().zip(&self.work).zip(&geometry.tangents).zip(&self.stretch)
+            self.spectrum.iter_mut().zip(&self.work).zip(&geometry.tangents).zip(&geometry.stretch)
         {
             *entry = Complex::new(-vector(*derivative).dot(tau) - relaxation * stretch, 0.0);
         }

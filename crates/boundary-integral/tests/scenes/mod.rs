@@ -40,7 +40,7 @@ pub(crate) fn markers(ellipses: &[Ellipse], count: usize) -> Markers {
         }
         let tension: Vec<f64> = (0..count).map(|k| (ellipse.tension)(angle(k))).collect();
         let (positions, forces) = (&markers.positions[range.clone()], &mut markers.forces[range]);
-        calculus.tension_forces(positions, &tension, TensionPlacement::Markers, forces).expect("a valid scene");
+        calculus.tension_forces(positions, &tension, TensionPlacement::Points, forces).expect("a valid scene");
     }
     markers
 }

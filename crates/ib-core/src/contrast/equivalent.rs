@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use fourier::ComplexTransform;
 use num_complex::Complex;
+use stokes_layers::dense::NodeCurve;
+use stokes_layers::gmres::{Gmres, Outcome};
 
-use super::droplet::Droplet;
-use super::gmres::{Gmres, Outcome};
 use crate::mobility::normal_taper;
 use crate::{FlowError, Vec2};
 
@@ -65,24 +65,24 @@ impl Filter {
 }
 
 /// Droplets with their filters.
-struct Curves<'a> {
-    droplets: &'a [Droplet],
+struct FilteredCurves<'a> {
+    curves: &'a [NodeCurve],
     filters: &'a mut [Filter],
     nodes: usize,
     /// Grid spacing (length).
     spacing: f64,
 }
 
-impl Curves<'_> {
+impl FilteredCurves<'_> {
     /// Forces of densities `4 k y`, without what the grid does not resolve.
     fn forces(&mut self, y: &[f64], forces: &mut [Vec2]) {
-        for (droplet, filter) in self.droplets.iter().zip(&mut *self.filters) {
-            let (first, wave, h) = (droplet.first, filter.wave, self.spacing);
+        for (curve, filter) in self.curves.iter().zip(&mut *self.filters) {
+            let (first, wave, h) = (curve.first, filter.wave, self.spacing);
             for (i, value) in filter.values.iter_mut().enumerate() {
                 *value = Complex::new(y[first + i], y[self.nodes + first + i]);
             }
             filter.apply(|m| 4.0 * wave * (m as f64).max(0.5) * normal_taper(wave * m as f64 * h));
-            for ((force, value), weight) in forces[first..].iter_mut().zip(&filter.values).zip(&droplet.weights) {
+            for ((force, value), weight) in forces[first..].iter_mut().zip(&filter.values).zip(&curve.weights) {
                 *force = *weight * Vec2::new(value.re, value.im);
             }
         }
@@ -90,8 +90,8 @@ impl Curves<'_> {
 
     /// What the grid resolves of velocities, as a vector of unknowns.
     fn smooth(&mut self, velocities: &[Vec2], out: &mut [f64]) {
-        for (droplet, filter) in self.droplets.iter().zip(&mut *self.filters) {
-            let (first, wave, h) = (droplet.first, filter.wave, self.spacing);
+        for (curve, filter) in self.curves.iter().zip(&mut *self.filters) {
+            let (first, wave, h) = (curve.first, filter.wave, self.spacing);
             for (value, v) in filter.values.iter_mut().zip(&velocities[first..]) {
                 *value = Complex::new(v.x, v.y);
             }
@@ -102,21 +102,21 @@ impl Curves<'_> {
         }
     }
 
-    /// Mean of the normal component over a droplet.
-    fn growth(&self, droplet: &Droplet, y: &[f64]) -> f64 {
-        let flux = droplet.normals.iter().enumerate().map(|(i, normal)| {
-            let i = droplet.first + i;
+    /// Mean of the normal component over a curve.
+    fn growth(&self, curve: &NodeCurve, y: &[f64]) -> f64 {
+        let flux = curve.normals.iter().enumerate().map(|(i, normal)| {
+            let i = curve.first + i;
             y[i] * normal.x + y[self.nodes + i] * normal.y
         });
-        flux.sum::<f64>() / droplet.weights.iter().sum::<f64>()
+        flux.sum::<f64>() / curve.perimeter()
     }
 
-    /// Adds a uniform normal component to a droplet.
-    fn grow(&self, droplet: &Droplet, amount: f64, y: &mut [f64]) {
-        for (i, (normal, weight)) in droplet.normals.iter().zip(&droplet.weights).enumerate() {
+    /// Adds a uniform normal component to a curve.
+    fn grow(&self, curve: &NodeCurve, amount: f64, y: &mut [f64]) {
+        for (i, (normal, weight)) in curve.normals.iter().zip(&curve.weights).enumerate() {
             let normal = amount / weight * normal;
-            y[droplet.first + i] += normal.x;
-            y[self.nodes + droplet.first + i] += normal.y;
+            y[curve.first + i] += normal.x;
+            y[self.nodes + curve.first + i] += normal.y;
         }
     }
 }
@@ -137,7 +137,7 @@ impl EquivalentForces {
     /// forces.
     pub(crate) fn solve(
         &mut self,
-        droplets: &[Droplet],
+        curves: &[NodeCurve],
         spacing: f64,
         target: &[Vec2],
         mut respond: impl FnMut(&[Vec2], &mut [Vec2]) -> Result<(), FlowError>,
@@ -147,8 +147,8 @@ impl EquivalentForces {
             // The last solution is no guess for other nodes.
             self.unknown.clear();
         }
-        for (index, droplet) in droplets.iter().enumerate() {
-            let count = droplet.nodes();
+        for (index, curve) in curves.iter().enumerate() {
+            let count = curve.len();
             let known = self.filters.get(index).map(|filter| filter.values.len());
             if known != Some(count) {
                 self.filters.truncate(index);
@@ -157,7 +157,7 @@ impl EquivalentForces {
                     self.unknown.clear();
                 }
             }
-            self.filters[index].wave = TAU / droplet.weights.iter().sum::<f64>();
+            self.filters[index].wave = TAU / curve.perimeter();
         }
         self.unknown.resize(2 * nodes, 0.0);
         self.right.resize(2 * nodes, 0.0);
@@ -165,24 +165,24 @@ impl EquivalentForces {
         self.velocities.resize(nodes, Vec2::zeros());
 
         let Self { filters, gmres, right, unknown, forces, velocities } = self;
-        let mut curves = Curves { droplets, filters, nodes, spacing };
-        curves.smooth(target, right);
-        for droplet in droplets {
-            let growth = curves.growth(droplet, right);
-            curves.grow(droplet, -growth, right);
+        let mut filtered = FilteredCurves { curves, filters, nodes, spacing };
+        filtered.smooth(target, right);
+        for curve in curves {
+            let growth = filtered.growth(curve, right);
+            filtered.grow(curve, -growth, right);
         }
         let mut failure = None;
-        let product = |y: &[f64], out: &mut [f64]| {
-            curves.forces(y, forces);
+        let product = |y: &[f64], out: &mut [f64], _: f64| {
+            filtered.forces(y, forces);
             if failure.is_none()
                 && let Err(error) = respond(forces, velocities)
             {
                 failure = Some(error);
             }
-            curves.smooth(velocities, out);
+            filtered.smooth(velocities, out);
             // Unresolved modes are kept as they are, and the growth that no force gives.
-            for (droplet, filter) in curves.droplets.iter().zip(&mut *curves.filters) {
-                let (first, wave) = (droplet.first, filter.wave);
+            for (curve, filter) in filtered.curves.iter().zip(&mut *filtered.filters) {
+                let (first, wave) = (curve.first, filter.wave);
                 for (i, value) in filter.values.iter_mut().enumerate() {
                     *value = Complex::new(y[first + i], y[nodes + first + i]);
                 }
@@ -192,9 +192,9 @@ impl EquivalentForces {
                     out[nodes + first + i] += value.im;
                 }
             }
-            for droplet in curves.droplets {
-                let growth = curves.growth(droplet, y) - curves.growth(droplet, out);
-                curves.grow(droplet, growth, out);
+            for curve in filtered.curves {
+                let growth = filtered.growth(curve, y) - filtered.growth(curve, out);
+                filtered.grow(curve, growth, out);
             }
         };
         let outcome = gmres.solve(product, right, unknown, TOLERANCE, MOST_ITERATIONS);
@@ -208,7 +208,7 @@ impl EquivalentForces {
             let what = "the flow around droplets of another viscosity";
             return Err(FlowError::NoConvergence { what, iterations, residual, tolerance: TOLERANCE });
         }
-        curves.forces(unknown, forces);
+        filtered.forces(unknown, forces);
         Ok(outcome)
     }
 

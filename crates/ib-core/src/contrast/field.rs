@@ -1,8 +1,9 @@
 //! Points close to droplets of another viscosity.
 
-use crate::Vec2;
+use stokes_layers::dense::NodeCurve;
 
 use super::Contrast;
+use crate::Vec2;
 
 /// A point within the reach of the kernel from a droplet's interface.
 #[derive(Debug, Clone, Copy)]
@@ -84,25 +85,25 @@ impl Contrast {
     pub(crate) fn nearby(&self, point: Vec2, reach: f64) -> Option<Nearby> {
         let mut least = reach;
         let mut nearest = None;
-        for droplet in self.droplets() {
-            let relative = self.layer.images().wrap(point - droplet.centre);
-            if relative.norm() < droplet.radius + least
-                && let Some(foot) = droplet.foot(relative, least)
+        for curve in &self.curves {
+            let relative = self.matrix.wrap(point - curve.centre);
+            if relative.norm() < curve.radius + least
+                && let Some(foot) = curve.foot(relative, least)
             {
                 least = foot.distance;
-                nearest = Some((droplet, relative, foot));
+                nearest = Some((curve, relative, foot));
             }
         }
-        let (droplet, relative, foot) = nearest?;
-        let next = (foot.node + 1) % droplet.nodes();
-        let normal = droplet.normals[foot.node].lerp(&droplet.normals[next], foot.fraction).normalize();
-        let side = if droplet.contains(relative) { -1.0 } else { 1.0 };
-        let place = droplet.positions[foot.node].lerp(&droplet.positions[next], foot.fraction);
+        let (curve, relative, foot) = nearest?;
+        let next = (foot.node + 1) % curve.len();
+        let normal = curve.normals[foot.node].lerp(&curve.normals[next], foot.fraction).normalize();
+        let side = if curve.contains(relative) { -1.0 } else { 1.0 };
+        let place = curve.positions[foot.node].lerp(&curve.positions[next], foot.fraction);
         Some(Nearby {
             foot: point - relative + place,
-            nodes: [droplet.first + foot.node, droplet.first + next],
+            nodes: [curve.first + foot.node, curve.first + next],
             fraction: foot.fraction,
-            along: droplet.positions[next] - droplet.positions[foot.node],
+            along: curve.positions[next] - curve.positions[foot.node],
             away: side * normal,
             distance: foot.distance,
         })
@@ -110,9 +111,9 @@ impl Contrast {
 
     /// The droplet that a point lies in.
     pub(crate) fn droplet_at(&self, point: Vec2) -> Option<usize> {
-        self.droplets().iter().position(|droplet| {
-            let relative = self.layer.images().wrap(point - droplet.centre);
-            relative.norm() <= droplet.radius && droplet.contains(relative)
+        self.curves.iter().position(|curve| {
+            let relative = self.matrix.wrap(point - curve.centre);
+            relative.norm() <= curve.radius && curve.contains(relative)
         })
     }
 
@@ -131,22 +132,22 @@ impl Contrast {
         forces: &[Vec2],
         velocities: &[Vec2],
     ) -> Vec<f64> {
-        let offset = |droplet: &super::Droplet| {
-            let count = droplet.nodes();
+        let offset = |curve: &NodeCurve| {
+            let count = curve.len();
             let mut sum = 0.0;
-            for (k, (normal, weight)) in droplet.normals.iter().zip(&droplet.weights).enumerate() {
-                let at = |shift: usize| droplet.first + (k + shift) % count;
-                let i = droplet.first + k;
+            for (k, (normal, weight)) in curve.normals.iter().zip(&curve.weights).enumerate() {
+                let at = |shift: usize| curve.first + (k + shift) % count;
+                let i = curve.first + k;
                 let unit = normal / *weight;
                 let tangent = Vec2::new(-unit.y, unit.x);
                 // Times the arc length.
                 let (q, f) = (equivalent[i].dot(&unit), forces[i].dot(&unit));
                 let stretching = 0.5 * (velocities[at(1)] - velocities[at(count - 1)]).dot(&tangent);
-                let (mean, ratio) = (weight * at_nodes[i], droplet.viscosity / self.viscosity);
-                sum += mean + 0.5 * q - f - 2.0 * droplet.contrast * stretching - ratio * (mean - 0.5 * q);
+                let (mean, ratio) = (weight * at_nodes[i], 1.0 + curve.contrast / self.viscosity);
+                sum += mean + 0.5 * q - f - 2.0 * curve.contrast * stretching - ratio * (mean - 0.5 * q);
             }
-            sum / droplet.weights.iter().sum::<f64>()
+            sum / curve.perimeter()
         };
-        self.droplets().iter().map(offset).collect()
+        self.curves.iter().map(offset).collect()
     }
 }

@@ -1,8 +1,8 @@
-//! Rigid motions of droplets: the modes in which a stiff droplet answers with the viscosity of its surroundings.
+//! Rigid motions of droplets: the modes in which a stiff droplet answers with the viscosity of the exterior fluid.
+
+use stokes_layers::dense::NodeCurve;
 
 use crate::Vec2;
-
-use super::droplet::Droplet;
 
 /// Rigid motions of one droplet: along x, along y, and a rotation.
 pub(crate) const RIGID: usize = 3;
@@ -18,21 +18,21 @@ pub(crate) struct RigidModes {
 }
 
 impl RigidModes {
-    pub(crate) fn fill(&mut self, droplets: &[Droplet], nodes: usize) {
-        let len = 2 * nodes * RIGID * droplets.len();
+    pub(crate) fn fill(&mut self, curves: &[NodeCurve], nodes: usize) {
+        let len = 2 * nodes * RIGID * curves.len();
         for array in [&mut self.motions, &mut self.weighted] {
             array.clear();
             array.resize(len, 0.0);
         }
-        for (index, droplet) in droplets.iter().enumerate() {
-            let perimeter: f64 = droplet.weights.iter().sum();
-            let centre = droplet.positions.iter().zip(&droplet.weights).map(|(x, w)| x * *w).sum::<Vec2>() / perimeter;
+        for (index, curve) in curves.iter().enumerate() {
+            let perimeter: f64 = curve.perimeter();
+            let centre = curve.positions.iter().zip(&curve.weights).map(|(x, w)| x * *w).sum::<Vec2>() / perimeter;
             let moment: f64 =
-                droplet.positions.iter().zip(&droplet.weights).map(|(x, w)| w * (x - centre).norm_squared()).sum();
+                curve.positions.iter().zip(&curve.weights).map(|(x, w)| w * (x - centre).norm_squared()).sum();
             let scales = [1.0 / perimeter.sqrt(), 1.0 / perimeter.sqrt(), 1.0 / moment.sqrt()];
             for (motion, scale) in scales.into_iter().enumerate() {
-                let start = 2 * nodes * (RIGID * index + motion) + droplet.first;
-                for (i, (x, w)) in droplet.positions.iter().zip(&droplet.weights).enumerate() {
+                let start = 2 * nodes * (RIGID * index + motion) + curve.first;
+                for (i, (x, w)) in curve.positions.iter().zip(&curve.weights).enumerate() {
                     let r = x - centre;
                     let [u, v] = [[1.0, 0.0], [0.0, 1.0], [-r.y, r.x]][motion];
                     for (component, value) in [(0, u), (nodes, v)] {

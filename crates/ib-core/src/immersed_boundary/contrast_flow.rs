@@ -1,9 +1,10 @@
 //! Interfaces to other viscosities on the grid.
 
 use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
+use stokes_layers::{Forcing, Region};
 
 use super::{ImmersedBoundary, add, sampling};
-use crate::contrast::{Contrast, Droplet, EquivalentForces, Images, Nearby, Outcome, RigidWalls};
+use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
 use crate::mobility::{Clearance, Setting};
 use crate::{FlowError, FlowReport, FlowSample, Kernel, Markers, SavedState, Transfer, Vec2};
 
@@ -91,19 +92,20 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             return Ok(flow);
         }
         let grid = *self.solver.grid();
-        let ([lx, ly], walls) = (grid.lengths(), self.walls());
+        let [lx, ly] = grid.lengths();
         let density = StaggeredField::zeros(grid);
         let mut velocity = StaggeredField::zeros(grid);
         let at_rest = self.solver.solve(&density, &mut velocity)?;
         let moves = velocity.x().iter().chain(velocity.y()).any(|value| *value != 0.0);
         let imposed = moves.then(|| (velocity.clone(), at_rest.mean_pressure_gradient));
-        let rigid = walls.map(|heights| {
-            let zero_flux = matches!(self.solver.drive(), stokes_grid::Drive::ZeroFlux | stokes_grid::Drive::Flux(_));
-            RigidWalls::new(lx, heights, zero_flux, 0.1 * grid.spacing())
-        });
-        let images = Images { along: lx, across: walls.is_none().then_some(ly) };
+        let zero_flux = matches!(self.solver.drive(), stokes_grid::Drive::ZeroFlux | stokes_grid::Drive::Flux(_));
+        let forcing = if zero_flux { Forcing::Flux(0.0) } else { Forcing::Gradient(0.0) };
+        let (region, middle) = match self.walls() {
+            None => (Region::Box { lengths: [lx, ly] }, 0.0),
+            Some([bottom, top]) => (Region::Channel { length: lx, width: top - bottom, forcing }, 0.5 * (top + bottom)),
+        };
         Ok(ContrastFlow {
-            contrast: Contrast::new(images, rigid, self.solver.viscosity()),
+            contrast: Contrast::new(region, middle, self.solver.viscosity(), 0.1 * grid.spacing())?,
             equivalent: EquivalentForces::default(),
             transfer: Transfer::new(grid, self.transfer.kernel().clone()),
             imposed,
@@ -137,14 +139,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             add(&mut self.velocity, imposed, -1.0);
         }
         flow.transfer.interpolate(&self.velocity, &mut flow.nodes.own);
-        let droplets = flow.contrast.droplets();
-        self.correct_droplets(
-            droplets,
-            &flow.nodes.gaps,
-            &flow.nodes.positions,
-            &flow.nodes.forces,
-            &mut flow.nodes.own,
-        )?;
+        let Nodes { positions, gaps, forces, own, .. } = &mut flow.nodes;
+        self.correct_droplets(&flow.contrast, gaps, positions, forces, own)?;
         let effort = flow.contrast.solve(&flow.nodes.own, &flow.nodes.other, &mut flow.nodes.velocities)?;
         gradient[0] += effort.pressure_gradient;
         let (mut iterations, mut residual) = (effort.iterations, effort.residual);
@@ -157,9 +153,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             }
             self.add_to_others(flow, markers);
         }
-        for droplet in flow.contrast.droplets() {
-            let nodes = droplet.first..droplet.first + droplet.nodes();
-            markers.velocities[droplet.markers.clone()].copy_from_slice(&flow.nodes.velocities[nodes]);
+        for (droplet, curve) in flow.contrast.droplets().iter().zip(flow.contrast.curves()) {
+            let velocities = &flow.nodes.velocities[curve.first..][..curve.len()];
+            markers.velocities[droplet.markers.clone()].copy_from_slice(velocities);
         }
         self.work.iterations += iterations;
         self.work.most_iterations = self.work.most_iterations.max(iterations);
@@ -215,7 +211,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// Adds the mobility correction of droplets to velocities at their nodes.
     fn correct_droplets(
         &mut self,
-        droplets: &[Droplet],
+        contrast: &Contrast,
         gaps: &[f64],
         positions: &[Vec2],
         forces: &[Vec2],
@@ -223,8 +219,11 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     ) -> Result<(), FlowError> {
         let setting = self.setting();
         let Some(correction) = self.correction.as_mut() else { return Ok(()) };
-        for droplet in droplets.iter().filter(|droplet| droplet.even) {
-            let nodes = droplet.first..droplet.first + droplet.nodes();
+        for (droplet, curve) in contrast.droplets().iter().zip(contrast.curves()) {
+            if !droplet.even {
+                continue;
+            }
+            let nodes = curve.first..curve.first + curve.len();
             let (positions, forces) = (&positions[nodes.clone()], &forces[nodes.clone()]);
             correction.apply(
                 &setting,
@@ -245,15 +244,15 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         for ((target, velocity), other) in target.iter_mut().zip(velocities).zip(other) {
             *target = viscosity * (*velocity - *other);
         }
-        let (droplets, transfer, imposed) = (flow.contrast.droplets(), &flow.transfer, &flow.imposed);
+        let (contrast, transfer, imposed) = (&flow.contrast, &flow.transfer, &flow.imposed);
         let spacing = self.grid().spacing();
-        flow.equivalent.solve(droplets, spacing, target, |forces, out| {
+        flow.equivalent.solve(contrast.curves(), spacing, target, |forces, out| {
             self.solve_on(transfer, forces)?;
             if let Some((imposed, _)) = imposed {
                 add(&mut self.velocity, imposed, -1.0);
             }
             transfer.interpolate(&self.velocity, out);
-            self.correct_droplets(droplets, gaps, positions, forces, out)?;
+            self.correct_droplets(contrast, gaps, positions, forces, out)?;
             out.iter_mut().for_each(|velocity| *velocity *= viscosity);
             Ok(())
         })
@@ -321,7 +320,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
                 _ => sampling::pressure(&pressure, *point),
             };
             if let Some(index) = inside {
-                out.pressure = out.pressure * contrast.droplets()[index].viscosity / viscosity + offsets[index];
+                out.pressure = out.pressure * (1.0 + contrast.curves()[index].contrast / viscosity) + offsets[index];
             }
         }
         Ok(())

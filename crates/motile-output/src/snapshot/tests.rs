@@ -5,12 +5,11 @@ use motile::Swimmer;
 fn a_snapshot_of_a_box_and_of_a_channel() {
     let swimmer = Swimmer { spacing: 0.25, lengths: [6.0, 4.0], offset: [1.0, 0.5], ..Swimmer::default() };
     let (mut scene, _) = swimmer.build_on_grid().unwrap();
-    let domain = scene.system().hydrodynamics().medium().domain;
-    let raster = domain_raster(&domain, 0.25, 100).unwrap();
+    let raster = Raster::of(scene.system(), 0.25).unwrap();
     assert_eq!((raster.cells(), raster.periodic()), ([24, 16], [true, true]));
-    assert_eq!(domain_raster(&domain, 0.25, 12).unwrap().cells(), [12, 8]);
+    assert_eq!(raster.coarsened(12).cells(), [12, 8]);
     let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
-    assert!((seen.centroid - Vec2::new(1.0, 0.5)).norm() < 1e-9);
+    assert!((seen.droplets[0].centroid - Vec2::new(1.0, 0.5)).norm() < 1e-9);
     // The pressure inside is above that outside, the droplet moves to the right.
     let at = |x: f64, y: f64| {
         let near = |p: &&(Vec2, FlowSample)| (p.0 - Vec2::new(x, y)).norm() < 0.2;
@@ -21,7 +20,7 @@ fn a_snapshot_of_a_box_and_of_a_channel() {
     assert!(at(1.0, 0.5).velocity.x > 0.0);
 
     let (scene, _) = swimmer.build_on_grid_in_channel(motile::stokes_grid::Drive::ZeroGradient).unwrap();
-    let raster = domain_raster(&scene.system().hydrodynamics().medium().domain, 0.25, 100).unwrap();
+    let raster = Raster::of(scene.system(), 0.25).unwrap();
     assert_eq!((raster.origin(), raster.size()), ([-3.0, -2.0], [6.0, 4.0]));
     assert_eq!(raster.periodic(), [true, false]);
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion};
-use boundary_integral::{BoundaryIntegral, Channel, FluidDomain, FreeSpace, PeriodicBox, Settings};
+use boundary_integral::{BoundaryIntegral, Settings, forcing};
 use elastic_solids::{Solid, solid::SurfaceGap};
 use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
@@ -123,11 +123,7 @@ impl Setup {
     pub fn flow(&self) -> Result<AnyFlow, SetupError> {
         let viscosity = self.viscosity;
         match (&self.method, self.region) {
-            (Method::Integral(_), Region::Plane) => self.integrals(FreeSpace),
-            (Method::Integral(_), Region::Box { lengths: [lx, ly] }) => self.integrals(PeriodicBox::new(lx, ly)?),
-            (Method::Integral(_), Region::Channel { length, width, drive }) => {
-                self.integrals(Channel::new(length, width)?.with_drive(drive)?)
-            }
+            (Method::Integral(method), region) => self.integrals(method, region),
             (Method::Grid(_), Region::Plane) => Err(SetupError::Value {
                 key: "region".to_owned(),
                 value: "plane".to_owned(),
@@ -146,18 +142,24 @@ impl Setup {
         }
     }
 
-    fn integrals<D: FluidDomain + 'static>(&self, domain: D) -> Result<AnyFlow, SetupError> {
-        let Method::Integral(IntegralMethod { nodes, .. }) = self.method else {
-            return Err(SetupError::needs_a_grid("this region"));
+    fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod, region: Region) -> Result<AnyFlow, SetupError> {
+        let region = match region {
+            Region::Plane => boundary_integral::Region::Plane,
+            Region::Box { lengths } => boundary_integral::Region::Box { lengths },
+            Region::Channel { length, width, drive } => {
+                boundary_integral::Region::Channel { length, width, forcing: forcing(drive) }
+            }
         };
-        let mut settings = Settings { nodes, ..Settings::default() };
+        let flow = BoundaryIntegral::new(region, self.viscosity, Settings { nodes, ..Settings::default() })?;
         let perimeters = self.droplets.iter().map(|droplet| match &droplet.shape {
             &DropletShape::Round { radius } | &DropletShape::Squeezed { radius, .. } => Ok(TAU * radius),
             shape => Ok(shape.curve()?.0.perimeter()),
         });
         let shortest = perimeters.collect::<Result<Vec<f64>, SetupError>>()?.into_iter().reduce(f64::min);
-        settings.reference_perimeter = shortest.unwrap_or(settings.reference_perimeter);
-        Ok(Box::new(BoundaryIntegral::new(domain, self.viscosity, settings)?))
+        Ok(Box::new(match shortest {
+            Some(perimeter) => flow.with_reference_perimeter(perimeter)?,
+            None => flow,
+        }))
     }
 
     fn coupled<S: StokesSolver + 'static>(&self, grid: &GridMethod, solver: S) -> Result<AnyFlow, SetupError> {

@@ -63,6 +63,14 @@ impl DropletSetup {
         Self { particles: Some(Particles { activity, ..Particles::default() }), ..Self::default() }
     }
 
+    /// The default droplet with this activity and this strength A of the step-like excluded volume (both force times
+    /// length).
+    #[must_use]
+    pub fn contractile(activity: f64, excluded_volume: f64) -> Self {
+        let excluded_volume = Exclusion::Step(excluded_volume);
+        Self { particles: Some(Particles { activity, excluded_volume, ..Particles::default() }), ..Self::default() }
+    }
+
     /// A droplet without particles, of constant tension (force).
     #[must_use]
     pub fn passive(tension: f64) -> Self {

@@ -3,13 +3,13 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use motile::ib_core::{
-    CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Peskin4, SmearedContrast, Vec2,
-};
-use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, RealFft2, StokesSolver, Symbol};
+use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
+use motile::setup::Region;
+use motile::stokes_grid::{RealFft2, Symbol};
 
-use super::Droplet;
+use super::{Droplet, sharp, smeared};
 use crate::validation::StudyError;
+use crate::validation::scene::open_channel;
 
 /// The cost of an evaluation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +29,7 @@ pub struct Cost {
 pub struct CostScene {
     /// Grid spacing (length).
     pub h: f64,
-    /// Viscosity of the droplet, that of the surroundings being one.
+    /// Viscosity of the droplet, that of the exterior fluid being one.
     pub ratio: f64,
     /// A viscosity that is smeared instead of a double layer.
     pub smeared: bool,
@@ -43,27 +43,8 @@ impl CostScene {
     /// # Errors
     /// What an evaluation can fail with.
     pub fn cost(&self) -> Result<Cost, StudyError> {
-        let cells = |length: f64| (length / self.h).round() as usize;
-        if self.solid_points == 0 {
-            let grid = Grid::periodic(cells(6.0), cells(6.0), self.h)?.with_origin([-3.0; 2])?;
-            self.time(PeriodicStokes::new(grid, 1.0)?)
-        } else {
-            let grid = Grid::channel(cells(12.0), cells(6.0), self.h)?.with_origin([-6.0, -3.0])?;
-            self.time(ChannelStokes::new(grid, 1.0)?)
-        }
-    }
-
-    fn time<S: StokesSolver>(&self, solver: S) -> Result<Cost, StudyError> {
-        let grid = *solver.grid();
-        if self.smeared {
-            let flow = SmearedContrast::with_tolerance(solver, Peskin4, 1e-4)?;
-            self.evaluate(flow, &grid)
-        } else {
-            self.evaluate(ImmersedBoundary::new(solver, CubicQuadratic::default()), &grid)
-        }
-    }
-
-    fn evaluate<H: Hydrodynamics>(&self, mut flow: H, grid: &Grid) -> Result<Cost, StudyError> {
+        let region = if self.solid_points == 0 { Region::Box { lengths: [6.0; 2] } } else { open_channel(12.0, 6.0) };
+        let mut flow = if self.smeared { smeared(region, self.h, 1e-4)? } else { sharp(region, self.h)? };
         let mut markers = Markers::new();
         Droplet::circle(1, self.ratio).at(0.01, 0.013).push_even(0.5 * self.h, &mut markers)?;
         let droplet = markers.len();
@@ -95,7 +76,7 @@ impl CostScene {
         let each = |after: usize, before: usize| (after - before) as f64 / EVALUATIONS as f64;
         Ok(Cost {
             seconds: best,
-            pairs: best / transform_pair(grid)?,
+            pairs: best / transform_pair(region.lengths().map(|length| (length / self.h).round() as usize))?,
             solves: each(after.stokes_solves, before.stokes_solves),
             iterations: each(after.iterations, before.iterations),
         })
@@ -103,8 +84,7 @@ impl CostScene {
 }
 
 /// Time of a forward and an inverse real transform of a grid (seconds).
-fn transform_pair(grid: &Grid) -> Result<f64, StudyError> {
-    let (nx, ny) = (grid.nx(), grid.ny());
+fn transform_pair([nx, ny]: [usize; 2]) -> Result<f64, StudyError> {
     let mut transform = RealFft2::new(nx, ny)?;
     let symbol = Symbol::new(nx, ny, |_, _| 1.0);
     let values: Vec<f64> = (0..nx * ny).map(|k| (k as f64).sin()).collect();

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use motile::boundary_integral::{BoundaryIntegral, Channel, PeriodicBox, Settings};
 use motile::ib_core::{FlowSample, Hydrodynamics, Markers, Vec2};
+use motile::setup::{AnyFlow, Region};
 
-use super::{Droplet, Region, coupled};
+use super::{Droplet, exact, sharp};
 use crate::validation::StudyError;
 
 /// Errors of the flow away from the markers of a single droplet.
@@ -19,7 +19,7 @@ pub struct FieldErrors {
     pub pressure: f64,
 }
 
-/// Largest errors of sampled flows at points of a droplet's surroundings that are nearer to the interface than 3h, on
+/// Largest errors of sampled flows at points around a droplet that are nearer to the interface than 3h, on
 /// the inside and on the outside, and farther away, inside and outside.
 ///
 /// # Errors
@@ -40,7 +40,7 @@ pub fn field_errors(region: Region, droplet: &Droplet, h: f64) -> Result<[FieldE
     let (exact, largest) = exact_samples(region, droplet, &places)?;
     let mut markers = Markers::new();
     droplet.push_even(0.5 * h, &mut markers)?;
-    sample(coupled(region, h)?.as_mut(), &mut markers, &places, &mut found)?;
+    sample(sharp(region, h)?, &mut markers, &places, &mut found)?;
     // Pressures are known up to a constant.
     let count = points.len() as f64;
     let shift = found.iter().zip(&exact).map(|(a, b)| a.pressure - b.pressure).sum::<f64>() / count;
@@ -61,21 +61,11 @@ pub fn field_errors(region: Region, droplet: &Droplet, h: f64) -> Result<[FieldE
 
 /// The flow of a single droplet at points by boundary integrals, and its largest marker velocity.
 fn exact_samples(region: Region, droplet: &Droplet, points: &[Vec2]) -> Result<(Vec<FlowSample>, f64), StudyError> {
-    let mut exact = vec![FlowSample::default(); points.len()];
+    let mut samples = vec![FlowSample::default(); points.len()];
     let mut markers = Markers::new();
     droplet.push_exact(256, &mut markers);
-    let settings = Settings { nodes: 256, tolerance: 1e-10, ..Settings::default() };
-    match region {
-        Region::Box(side) => {
-            let mut flow = BoundaryIntegral::new(PeriodicBox::new(side, side)?, 1.0, settings)?;
-            sample(&mut flow, &mut markers, points, &mut exact)?;
-        }
-        Region::Channel(length, width) => {
-            let mut flow = BoundaryIntegral::new(Channel::new(length, width)?, 1.0, settings)?;
-            sample(&mut flow, &mut markers, points, &mut exact)?;
-        }
-    }
-    Ok((exact, markers.velocities.iter().map(Vec2::norm).fold(0.0, f64::max)))
+    sample(exact(region, 256)?, &mut markers, points, &mut samples)?;
+    Ok((samples, markers.velocities.iter().map(Vec2::norm).fold(0.0, f64::max)))
 }
 
 /// The velocities of the flow of a single droplet at points, by boundary integrals.
@@ -86,12 +76,7 @@ pub fn exact_flow(region: Region, droplet: &Droplet, points: &[Vec2]) -> Result<
     Ok(exact_samples(region, droplet, points)?.0.into_iter().map(|sample| sample.velocity).collect())
 }
 
-fn sample<H: Hydrodynamics + ?Sized>(
-    flow: &mut H,
-    markers: &mut Markers,
-    points: &[Vec2],
-    out: &mut [FlowSample],
-) -> Result<(), StudyError> {
+fn sample(mut flow: AnyFlow, markers: &mut Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), StudyError> {
     flow.velocities(markers)?;
     flow.sample(markers, points, out)?;
     Ok(())

@@ -2,13 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use motile::Swimmer;
 use motile::active_interface::Curve;
-use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Peskin4, Scene, SmearedContrast, StepSize, Vec2};
-use motile::stokes_grid::{Grid, PeriodicStokes};
+use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Scene, StepSize, Vec2};
+use motile::setup::Region;
+use motile::setup::{DropletSetup, GridMethod, Method, Particles, Setup};
 
-use super::{Region, smeared};
+use super::smeared;
 use crate::validation::StudyError;
+use crate::validation::scene::flow;
 
 /// What solves of a viscosity that varies took.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,7 +23,7 @@ pub struct Iterations {
 }
 
 /// The iterations of one solve from nothing: a circle of radius 1 with the tension 10 + 3 cos + 2 cos 2 + cos 3,
-/// `ratio` times as viscous as its surroundings, its viscosity smeared over Peskin's function.
+/// `ratio` times as viscous as the exterior fluid, its viscosity smeared over Peskin's function.
 ///
 /// # Errors
 /// A spacing that does not divide the region; no convergence.
@@ -55,18 +56,12 @@ pub fn iterations_in_a_run(
     dt: f64,
     steps: usize,
 ) -> Result<Iterations, StudyError> {
-    let swimmer = Swimmer {
-        activity: -4.0,
-        viscosity: 10.0,
-        viscosity_inside: Some(10.0 * ratio),
-        spacing: h,
-        ..Swimmer::thesis()
-    };
-    let droplet = swimmer.droplet()?;
-    let cells = (6.0 / h).round() as usize;
-    let solver = PeriodicStokes::new(Grid::periodic(cells, cells, h)?, swimmer.viscosity)?;
-    let mut scene = Scene::new(SmearedContrast::with_tolerance(solver, Peskin4, tolerance)?);
-    let _ = scene.add(droplet);
+    let mut droplet = DropletSetup { viscosity: Some(10.0 * ratio), ..DropletSetup::thesis() };
+    droplet.particles = droplet.particles.map(|particles| Particles { activity: -4.0, ..particles });
+    let method = Method::Grid(GridMethod { spacing: h, ..GridMethod::thesis() });
+    let setup = Setup { viscosity: 10.0, method, ..Setup::thesis() };
+    let mut scene = Scene::new(flow(setup.region, method, setup.viscosity, tolerance)?);
+    let _ = scene.add(setup.droplet(&droplet)?);
     scene.run(1.0).step_size(StepSize::Fixed(dt)).go()?;
     let (mut residual, mut most) = (0.0_f64, 0);
     let before = scene.system().hydrodynamics().work();

@@ -1,4 +1,4 @@
-//! A droplet ten times as viscous as its surroundings, against tables.
+//! A droplet ten times as viscous as the exterior fluid, against tables.
 
 use motile::active_interface::{
     Convention,

@@ -2,10 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, Curve, InitialConcentration, curve::polygon_moments};
-use motile::boundary_integral::{BoundaryIntegral, FluidDomain, FreeSpace, PeriodicBox, Settings};
-use motile::ib_core::{Handle, Scene, Vec2};
+use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
+use motile::ib_core::{Handle, Hydrodynamics, Scene, Vec2};
+use motile::setup::{AnyFlow, Built, DropletSetup, Region, Setup};
 
 use crate::validation::StudyError;
 
@@ -26,58 +25,40 @@ pub struct Several {
     pub steps: usize,
 }
 
-/// Two swimmers in unbounded fluid that come towards each other along lines `2 + offset` apart, to `time`. Each starts
-/// 2.5 from the middle.
+/// Two swimmers like the first of a scene, of radius one, in unbounded fluid, that come towards each other along lines
+/// `2 + offset` apart, to `time`. Each starts 2.5 from the middle.
 ///
 /// # Errors
 /// What a run can fail with.
-pub fn passing(swimmer: &Swimmer, offset: f64, time: f64) -> Result<Several, StudyError> {
-    let height = swimmer.radius + 0.5 * offset;
-    let places = [(Vec2::new(-2.5, height), 0.0), (Vec2::new(2.5, -height), 0.5 * TAU)];
-    run(swimmer, FreeSpace, &places, [None; 2], time)
+pub fn passing(base: &Setup, offset: f64, time: f64) -> Result<Several, StudyError> {
+    let height = 1.0 + 0.5 * offset;
+    run(base, Region::Plane, &[([-2.5, height], 0.0), ([2.5, -height], 0.5 * TAU)], time)
 }
 
-/// Ten swimmers in a square box of the side `swimmer.lengths[0]`, in two rows and a half, each with a heading of its
-/// own, to `time`.
+/// Ten swimmers like the first of a scene in its square box, in two rows and a half, each with a heading of its own, to
+/// `time`.
 ///
 /// # Errors
 /// What a run can fail with.
-pub fn ten_in_a_box(swimmer: &Swimmer, time: f64) -> Result<Several, StudyError> {
-    let side = swimmer.lengths[0];
+pub fn ten_in_a_box(base: &Setup, time: f64) -> Result<Several, StudyError> {
+    let [side, _] = base.region.lengths();
     let places: Vec<_> = (0..10)
         .map(|k| {
             let (row, column) = (f64::from(k / 4), f64::from(k % 4));
             let shift = if k / 4 == 1 { 0.5 } else { 0.0 };
             // Golden angles: no two alike.
-            (Vec2::new((column + shift) * side / 4.0, row * side / 3.0), 2.399_963 * f64::from(k))
+            ([(column + shift) * side / 4.0, row * side / 3.0], 2.399_963 * f64::from(k))
         })
         .collect();
-    run(swimmer, PeriodicBox::new(side, side)?, &places, [Some(side); 2], time)
+    run(base, base.region, &places, time)
 }
 
-fn run<D: FluidDomain + 'static>(
-    swimmer: &Swimmer,
-    domain: D,
-    places: &[(Vec2, f64)],
-    periods: [Option<f64>; 2],
-    time: f64,
-) -> Result<Several, StudyError> {
-    let settings = Settings { nodes: swimmer.nodes, ..Settings::default() };
-    let flow = BoundaryIntegral::new(domain, swimmer.viscosity, settings)?;
-    let mut scene = Scene::new(flow).with_step_size(swimmer.step);
-    let mut droplets: Vec<Handle<ActiveDroplet>> = Vec::new();
-    for &(centre, heading) in places {
-        let curve = Curve::circle(swimmer.radius)?.rotated(heading).translated(centre);
-        let markers = curve.markers(swimmer.concentration_cells)?;
-        let numbers =
-            InitialConcentration::polarised(swimmer.mean_concentration, heading)?.particle_numbers(&markers)?;
-        let droplet = ActiveDroplet::new(&markers, numbers, swimmer.tension()?, swimmer.diffusion)?;
-        droplets.push(scene.add(match swimmer.viscosity_inside {
-            Some(inside) => droplet.with_viscosity_inside(inside)?,
-            None => droplet,
-        }));
-    }
-    let particles = |scene: &Scene<_>, droplet: Handle<ActiveDroplet>| -> Result<f64, StudyError> {
+fn run(base: &Setup, region: Region, places: &[([f64; 2], f64)], time: f64) -> Result<Several, StudyError> {
+    let placed = |&(centre, angle)| DropletSetup { centre, angle, ..base.droplets[0].clone() };
+    let setup = Setup { region, droplets: places.iter().map(placed).collect(), ..base.clone() };
+    let Built { mut scene, droplets, .. } = setup.build()?;
+    let periods = region.lengths();
+    let particles = |scene: &Scene<AnyFlow>, droplet: Handle<ActiveDroplet>| -> Result<f64, StudyError> {
         Ok(scene.body(droplet)?.particle_numbers().iter().sum())
     };
     let start = droplets.iter().map(|&droplet| particles(&scene, droplet)).collect::<Result<Vec<_>, _>>()?;
@@ -98,16 +79,18 @@ fn run<D: FluidDomain + 'static>(
         .iter()
         .map(|&droplet| Ok(polygon_moments(scene.body(droplet)?.markers())?.centroid))
         .collect::<Result<_, StudyError>>()?;
-    let work = motile::ib_core::Hydrodynamics::work(scene.system().hydrodynamics());
+    let work = scene.system().hydrodynamics().work();
     let iterations = work.iterations as f64 / work.evaluations as f64;
     Ok(Several { centroids, gap: least, area_change, particle_change, iterations, steps: scene.steps() })
 }
 
-/// Smallest distance of the markers of one droplet from the sides of another, the closest image of it.
-fn gap(first: &[Vec2], second: &[Vec2], periods: [Option<f64>; 2]) -> f64 {
+/// Smallest distance of the markers of one droplet from the sides of another, the closest image of it; periods are
+/// infinite where there are no images.
+fn gap(first: &[Vec2], second: &[Vec2], periods: [f64; 2]) -> f64 {
     let middle = |points: &[Vec2]| points.iter().sum::<Vec2>() / points.len() as f64;
     let between = middle(second) - middle(first);
-    let shift = Vec2::from([0, 1].map(|i| periods[i].map_or(0.0, |period| (between[i] / period).round() * period)));
+    let image = |i: usize| if periods[i].is_finite() { (between[i] / periods[i]).round() * periods[i] } else { 0.0 };
+    let shift = Vec2::new(image(0), image(1));
     let mut least = f64::INFINITY;
     for point in first.iter().map(|point| point + shift) {
         for (k, from) in second.iter().enumerate() {

@@ -1,0 +1,168 @@
+//! The flow of interfaces by boundary integrals.
+
+use ib_core::{
+    Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium, SavedState,
+};
+use ib_core::{MarkerGroup, Vec2};
+use stokes_layers::{Interface, InterfaceFlow, LayerError, Region, Settings, Solution, WarmStart};
+
+/// Stokes flow of closed fluid interfaces in the plane, a periodic box or a channel, without a grid:
+/// [`stokes_layers::InterfaceFlow`], which has the equations, for the markers of bodies.
+///
+/// Every interface comes as a group of markers, [`MarkerKind::Interface`] or [`MarkerKind::UnevenInterface`]: `nodes`
+/// or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers. Positions and forces are truncated to
+/// the modes that the nodes carry and the velocities come back with these modes alone.
+#[derive(Debug, Clone)]
+pub struct BoundaryIntegral {
+    flow: InterfaceFlow,
+    /// Fastest relaxation, as in [`Medium`].
+    stiffness: f64,
+    work: FlowWork,
+}
+
+impl BoundaryIntegral {
+    /// A solver for exterior fluid of the given viscosity (stress times time).
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite, or a region or settings out of their range.
+    pub fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
+        let flow = InterfaceFlow::new(region, viscosity, settings)?;
+        let stiffness = stiffness(settings.nodes, std::f64::consts::TAU);
+        Ok(Self { flow, stiffness, work: FlowWork::default() })
+    }
+
+    /// The same solver for interfaces of which the smallest has this perimeter (length): what [`Hydrodynamics::medium`]
+    /// assumes until a first evaluation has seen the real ones; 2 pi unless it is set.
+    ///
+    /// # Errors
+    /// A perimeter that is not positive and finite.
+    pub fn with_reference_perimeter(self, perimeter: f64) -> Result<Self, LayerError> {
+        if !(perimeter.is_finite() && perimeter > 0.0) {
+            return Err(LayerError::NotPositive { name: "the reference perimeter", value: perimeter });
+        }
+        Ok(Self { stiffness: stiffness(self.settings().nodes, perimeter), ..self })
+    }
+
+    /// The region.
+    #[must_use]
+    pub fn region(&self) -> &Region {
+        self.flow.region()
+    }
+
+    /// Resolution and accuracy.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        self.flow.settings()
+    }
+
+    /// Takes over positions and forces.
+    fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+        if markers.groups().iter().any(|group| group.kind == MarkerKind::Points) {
+            return Err(FlowError::Unsupported {
+                what: "a body of points without a closed interface",
+                remedy: "use the immersed boundary method for scenes with solids",
+            });
+        }
+        let viscosity = self.flow.viscosity();
+        let interface = |group: &MarkerGroup| Interface {
+            positions: &markers.positions[group.range.clone()],
+            forces: &markers.forces[group.range.clone()],
+            viscosity: inside(group).unwrap_or(viscosity),
+        };
+        Ok(self.flow.load(markers.groups().iter().map(interface))?)
+    }
+}
+
+impl Hydrodynamics for BoundaryIntegral {
+    /// A wave number q on an interface relaxes at the rate `gamma q/(2 (eta_in + eta_out))`, so the stiffness is
+    /// `q eta_out/(2 (eta_in + eta_out))` with the largest wave number that the nodes carry, the largest over the
+    /// interfaces of the last evaluation; before the first one `q/4` with the reference perimeter.
+    fn medium(&self) -> Medium {
+        Medium {
+            domain: domain(self.region()),
+            viscosity: self.flow.viscosity(),
+            spacing: None,
+            shape_modes: Some(self.settings().nodes),
+            interface_stiffness: self.stiffness,
+            mobility_deficit: None,
+        }
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+        self.load(markers)?;
+        self.work.evaluations += 1;
+        if self.flow.is_empty() {
+            return Ok(FlowReport::default());
+        }
+        let (nodes, viscosity) = (self.settings().nodes, self.flow.viscosity());
+        let rates = markers.groups().iter().enumerate().filter_map(|(index, group)| {
+            let rate = stiffness(nodes, self.flow.perimeter(index)?);
+            Some(rate * 2.0 * viscosity / (viscosity + inside(group).unwrap_or(viscosity)))
+        });
+        self.stiffness = rates.fold(0.0, f64::max);
+        let Solution { iterations, residual, pressure_gradient } = self.flow.solve()?;
+        self.work.iterations += iterations;
+        self.work.most_iterations = self.work.most_iterations.max(iterations);
+        for index in 0..markers.groups().len() {
+            let range = markers.groups()[index].range.clone();
+            self.flow.velocities(index, &mut markers.velocities[range])?;
+        }
+        Ok(FlowReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
+    }
+
+    fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        self.load(markers)?;
+        for (index, group) in markers.groups().iter().enumerate() {
+            self.flow.set_velocities(index, &markers.velocities[group.range.clone()])?;
+        }
+        Ok(self.flow.sample(points, out)?)
+    }
+
+    fn work(&self) -> FlowWork {
+        self.work
+    }
+
+    fn save(&self) -> SavedState {
+        let WarmStart { velocities, directions } = self.flow.warm_start();
+        let counts = vec![velocities.len() as u64];
+        SavedState { reals: [&[self.stiffness], velocities.as_slice(), directions.as_slice()].concat(), counts }
+    }
+
+    fn load(&mut self, saved: &SavedState) {
+        let ([stiffness, rest @ ..], &[count]) = (saved.reals.as_slice(), saved.counts.as_slice()) else { return };
+        let count = usize::try_from(count).unwrap_or(usize::MAX);
+        let (Some(velocities), Some(directions)) = (rest.get(..count), rest.get(count..)) else { return };
+        self.stiffness = *stiffness;
+        self.flow.resume(WarmStart { velocities: velocities.to_vec(), directions: directions.to_vec() });
+    }
+}
+
+/// The viscosity inside an interface, if it is another one.
+fn inside(group: &MarkerGroup) -> Option<f64> {
+    match group.kind {
+        MarkerKind::Interface { viscosity_inside } | MarkerKind::UnevenInterface { viscosity_inside } => {
+            viscosity_inside
+        }
+        MarkerKind::Points => None,
+    }
+}
+
+/// A region as bodies see it, with its middle at the origin.
+fn domain(region: &Region) -> Domain {
+    let unbounded = Domain { origin: [0.0; 2], periods: [None; 2], walls: None };
+    match *region {
+        Region::Box { lengths } => {
+            Domain { origin: lengths.map(|length| -0.5 * length), periods: lengths.map(Some), ..unbounded }
+        }
+        Region::Channel { length, width, .. } => {
+            let (origin, walls) = ([-0.5 * length, -0.5 * width], Some([-0.5 * width, 0.5 * width]));
+            Domain { origin, periods: [Some(length), None], walls }
+        }
+        Region::Plane => unbounded,
+    }
+}
+
+/// A quarter of the largest wave number of a curve.
+fn stiffness(nodes: usize, perimeter: f64) -> f64 {
+    0.25 * (nodes / 2) as f64 * std::f64::consts::TAU / perimeter
+}

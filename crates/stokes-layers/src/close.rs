@@ -1,0 +1,255 @@
+//! Quadrature for points close to a curve, exact to the resolution of the curve at any distance.
+//!
+//! Where a point t comes close to the curve z(alpha), the kernels ln|z - t| and 1/(z - t)^k peak between the nodes. The
+//! complex parameter alpha_0 with z(alpha_0) = t locates the peak: with u = exp(i alpha) and u_0 = exp(i alpha_0),
+//! `f/(z - t)^k = h/(u - u_0)^k` with a smooth h, whose Fourier series is integrated term by term (singularity swap,
+//! af Klinteberg and Barnett, BIT 61, 2021). For equally spaced nodes the result is the trapezoidal rule with a factor
+//! at each node, in closed form.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use crate::{
+    curve::{Curve, REFINEMENT, Transforms, largest_wave},
+    greens::{Kernels, weighted},
+};
+
+mod correction;
+
+pub(crate) use correction::{CloseCorrection, reach};
+
+/// Newton iterations before giving up on a preimage.
+const MOST_ITERATIONS: usize = 30;
+/// A point closer to the curve than this fraction of the spacing counts as that far inside.
+const LEAST_DISTANCE: f64 = 1e-9;
+
+/// Where a point lies with respect to a curve close by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Preimage {
+    /// exp(i alpha_0).
+    unit: Complex64,
+    /// On the left of the curve.
+    inside: bool,
+}
+
+/// Weights at the fine nodes of a curve for one point.
+#[derive(Debug, Clone)]
+pub(crate) struct CloseWeights {
+    /// u at the fine nodes, and u to the power of the number of terms + 1.
+    units: Vec<Complex64>,
+    turns: Vec<Complex64>,
+    terms: usize,
+    series: Vec<Complex64>,
+    /// Source minus target at the fine nodes (length).
+    distance: Vec<Complex64>,
+    /// Stands for ln|d|.
+    log: Vec<f64>,
+    /// Stands for 1/d^k, k = 1, 2, 3.
+    powers: [Vec<Complex64>; 3],
+}
+
+impl CloseWeights {
+    pub(crate) fn new(nodes: usize) -> Self {
+        let len = REFINEMENT * nodes;
+        let terms = len / 2 - 4;
+        let unit = |j: usize, power: usize| Complex64::cis(TAU * ((j * power) % len) as f64 / len as f64);
+        let zeros = vec![Complex64::default(); len];
+        Self {
+            units: (0..len).map(|j| unit(j, 1)).collect(),
+            turns: (0..len).map(|j| unit(j, terms + 1)).collect(),
+            terms,
+            series: zeros.clone(),
+            distance: zeros.clone(),
+            log: vec![0.0; len],
+            powers: [zeros.clone(), zeros.clone(), zeros],
+        }
+    }
+
+    /// The kernels at fine node j.
+    pub(crate) fn kernels(&self, j: usize) -> Kernels {
+        let [first, second, third] = &self.powers;
+        weighted(self.log[j] - 0.5, [first[j], second[j], third[j]], self.distance[j].conj())
+    }
+
+    /// The fine node nearest to the point.
+    pub(crate) fn nearest(&self) -> usize {
+        let distances = self.distance.iter().map(Complex64::norm_sqr).enumerate();
+        distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(j, _)| j)
+    }
+
+    /// Finds the weights for `point`, relative to the centre of a curve whose fine nodes are ready, and says on
+    /// which side it lies; `None` where it is farther than `reach` fine spacings, so that plain weights do and the side
+    /// is not looked for.
+    pub(crate) fn find(
+        &mut self,
+        curve: &Curve,
+        transforms: &mut Transforms,
+        point: Complex64,
+        reach: f64,
+    ) -> Option<bool> {
+        let mut point = point;
+        let (mut nearest, mut least) = (0, f64::INFINITY);
+        for (j, z) in curve.fine.position.iter().enumerate() {
+            let square = (z - point).norm_sqr();
+            if square < least {
+                (nearest, least) = (j, square);
+            }
+        }
+        let weight = TAU / self.units.len() as f64;
+        let tangent = curve.fine.tangent[nearest];
+        let spacing = weight * tangent.norm();
+        let preimage = if least.sqrt() < reach * spacing {
+            let start = Complex64::new(weight * nearest as f64, 0.0) + (point - curve.fine.position[nearest]) / tangent;
+            let found = preimage(&curve.shape, point, start);
+            if let Some(found) = found
+                && (found.unit.norm() - 1.0).abs() < LEAST_DISTANCE * weight
+            {
+                // On the curve to round-off: the kernels are taken just inside.
+                point += Complex64::new(0.0, LEAST_DISTANCE) * tangent * weight;
+                let unit = found.unit / found.unit.norm() * (1.0 - LEAST_DISTANCE * weight);
+                refine(&curve.shape, point, unit)
+            } else {
+                found
+            }
+        } else {
+            None
+        };
+        for ((d, log), z) in self.distance.iter_mut().zip(&mut self.log).zip(&curve.fine.position) {
+            *d = z - point;
+            *log = 0.5 * d.norm_sqr().ln();
+        }
+        let [first, second, third] = &mut self.powers;
+        for (j, d) in self.distance.iter().enumerate() {
+            let inverse = d.inv();
+            first[j] = inverse;
+            second[j] = inverse * inverse;
+            third[j] = inverse * second[j];
+        }
+        let preimage = preimage?;
+        self.swap(&curve.shape, transforms, preimage);
+        Some(preimage.inside)
+    }
+
+    /// Turns plain weights into those for a pole at the preimage.
+    fn swap(&mut self, shape: &[Complex64], transforms: &mut Transforms, preimage: Preimage) {
+        let n = self.terms as f64;
+        let unit = preimage.unit;
+        // Ratio of the two units that is below one, by its value at u = 1.
+        let ratio = if preimage.inside { unit } else { unit.inv() };
+        let turned = ratio.powi(self.terms as i32 + 1);
+        let polar = if preimage.inside { unit } else { unit.conj().inv() };
+        let len = self.units.len();
+        self.series.fill(Complex64::default());
+        let mut power = Complex64::new(len as f64, 0.0);
+        for term in 1..=self.terms {
+            power *= polar;
+            self.series[term] = power / term as f64;
+        }
+        transforms.fine.forward(&mut self.series);
+        for j in 0..len {
+            let (p, tail) = if preimage.inside {
+                (ratio * self.units[j].conj(), turned * self.turns[j].conj())
+            } else {
+                (ratio * self.units[j], turned * self.turns[j])
+            };
+            let gap = 1.0 - p;
+            if gap.norm() * n < 0.3 {
+                // The closest node: distance and gap from the same difference of parameters, so that their quotient
+                // keeps its digits however small they are.
+                let turn = Complex64::new(0.0, if preimage.inside { 1.0 } else { -1.0 });
+                let parameter = p.ln() / turn;
+                let gap = -growth(turn * parameter);
+                let d = difference(shape, self.units[j], parameter);
+                self.distance[j] = d;
+                self.log[j] = (d / gap).norm().ln() - self.series[j].re;
+                let [first, second, third] = direct_factors(p, self.terms);
+                let ratio = gap / d;
+                self.powers[0][j] = ratio * first;
+                self.powers[1][j] = ratio * ratio * second;
+                self.powers[2][j] = ratio * ratio * ratio * third;
+                continue;
+            }
+            self.log[j] -= 0.5 * gap.norm_sqr().ln() + self.series[j].re;
+            let (a, b) = (0.5 * (n + 2.0) * (n + 3.0), (n + 1.0) * (n + 3.0));
+            let factors = [
+                1.0 - tail,
+                1.0 - tail * (n + 2.0 - p * (n + 1.0)),
+                1.0 - tail * (a - p * b + p * p * (0.5 * (n + 1.0) * (n + 2.0))),
+            ];
+            for (power, factor) in self.powers.iter_mut().zip(factors) {
+                power[j] *= factor;
+            }
+        }
+    }
+}
+
+/// `sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p = 1 the closed form
+/// loses its digits.
+fn direct_factors(p: Complex64, terms: usize) -> [Complex64; 3] {
+    let mut sums = [Complex64::default(); 3];
+    for n in (0..=terms).rev() {
+        let n = n as f64;
+        for (sum, weight) in sums.iter_mut().zip([1.0, n + 1.0, 0.5 * (n + 1.0) * (n + 2.0)]) {
+            *sum = *sum * p + weight;
+        }
+    }
+    sums
+}
+
+/// exp(x) - 1.
+fn growth(x: Complex64) -> Complex64 {
+    let half = 0.5 * x;
+    2.0 * half.exp() * half.sinh()
+}
+
+/// Position at a node less that at a parameter `offset` further on.
+fn difference(shape: &[Complex64], unit: Complex64, offset: Complex64) -> Complex64 {
+    let len = shape.len();
+    let mut sum = Complex64::default();
+    let mut power = Complex64::new(1.0, 0.0);
+    for m in 1..=largest_wave(len) {
+        power *= unit;
+        let phase = Complex64::new(0.0, m as f64) * offset;
+        sum -= shape[m] * power * growth(phase) + shape[len - m] * power.conj() * growth(-phase);
+    }
+    sum
+}
+
+/// The complex parameter that a curve takes a point to, from a first guess of it.
+fn preimage(shape: &[Complex64], point: Complex64, start: Complex64) -> Option<Preimage> {
+    refine(shape, point, (Complex64::new(0.0, 1.0) * start).exp())
+}
+
+fn refine(shape: &[Complex64], point: Complex64, start: Complex64) -> Option<Preimage> {
+    let mut unit = start;
+    let scale: f64 = shape.iter().map(|c| c.norm()).fold(0.0, f64::max);
+    for _ in 0..MOST_ITERATIONS {
+        let (value, derivative) = evaluate(shape, unit);
+        let step = (value - point) / derivative;
+        if !step.is_finite() || step.norm() > 2.0 {
+            return None;
+        }
+        unit *= (-Complex64::new(0.0, 1.0) * step).exp();
+        if (step * derivative).norm() < 1e-14 * scale || step.norm() < 1e-15 {
+            return Some(Preimage { unit, inside: unit.norm_sqr() < 1.0 });
+        }
+    }
+    None
+}
+
+/// Position and its derivative by the parameter at u = exp(i alpha) for complex alpha.
+fn evaluate(shape: &[Complex64], unit: Complex64) -> (Complex64, Complex64) {
+    let len = shape.len();
+    let largest = largest_wave(len);
+    let inverse = unit.inv();
+    let (mut up, mut up_slope) = (Complex64::default(), Complex64::default());
+    let (mut down, mut down_slope) = (Complex64::default(), Complex64::default());
+    for m in (1..=largest).rev() {
+        up = (up + shape[m]) * unit;
+        up_slope = (up_slope + shape[m] * m as f64) * unit;
+        down = (down + shape[len - m]) * inverse;
+        down_slope = (down_slope + shape[len - m] * m as f64) * inverse;
+    }
+    (shape[0] + up + down, Complex64::new(0.0, 1.0) * (up_slope - down_slope))
+}

@@ -1,0 +1,262 @@
+//! Closed curves on their nodes.
+
+mod calculus;
+mod transform;
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use crate::{
+    LayerError, Vec2,
+    error::{same_length, within},
+};
+pub use calculus::{PeriodicCalculus, TensionPlacement};
+pub(crate) use transform::{Transform, copy_band, differentiate, largest_wave};
+
+/// Fine nodes per node, where a flow is needed close to a curve.
+pub(crate) const REFINEMENT: usize = 4;
+
+/// Largest number of points that a curve is given by.
+const MOST_POINTS: f64 = 1_048_576.0;
+
+/// Transforms between points, nodes and fine nodes, shared by all curves.
+#[derive(Debug, Clone)]
+pub(crate) struct Transforms {
+    pub(crate) nodes: Transform,
+    pub(crate) fine: Transform,
+    points: Vec<Transform>,
+    buffer: Vec<Complex64>,
+    spectrum: Vec<Complex64>,
+}
+
+impl Transforms {
+    pub(crate) fn new(nodes: usize) -> Self {
+        Self {
+            nodes: Transform::new(nodes),
+            fine: Transform::new(REFINEMENT * nodes),
+            points: Vec::new(),
+            buffer: Vec::new(),
+            spectrum: vec![Complex64::default(); nodes],
+        }
+    }
+
+    /// The transform of `len` values at points with a buffer of that length; made at the first use of a length.
+    fn points(&mut self, len: usize) -> (&mut Transform, &mut [Complex64]) {
+        let index = self.points.iter().position(|plan| plan.len() == len).unwrap_or_else(|| {
+            self.points.push(Transform::new(len));
+            self.points.len() - 1
+        });
+        self.buffer.resize(self.buffer.len().max(len), Complex64::default());
+        (&mut self.points[index], &mut self.buffer[..len])
+    }
+
+    /// Fourier coefficients of values at points, as many as there are nodes, the modes that nodes do not carry left
+    /// out.
+    fn analyse(&mut self, values: &[Vec2], out: &mut [Complex64]) {
+        let (plan, buffer) = self.points(values.len());
+        for (slot, value) in buffer.iter_mut().zip(values) {
+            *slot = Complex64::new(value.x, value.y);
+        }
+        plan.forward(buffer);
+        copy_band(buffer, out, largest_wave(out.len()));
+    }
+
+    /// Values at nodes, x then y, from values at points.
+    pub(crate) fn at_nodes(&mut self, values: &[Vec2], out: &mut [f64]) {
+        let mut spectrum = std::mem::take(&mut self.spectrum);
+        self.analyse(values, &mut spectrum);
+        self.nodes.inverse(&mut spectrum);
+        let (x, y) = out.split_at_mut(spectrum.len());
+        for ((x, y), value) in x.iter_mut().zip(y).zip(&spectrum) {
+            (*x, *y) = (value.re, value.im);
+        }
+        self.spectrum = spectrum;
+    }
+
+    /// Fourier coefficients of values at nodes, x then y.
+    fn coefficients(&mut self, values: &[f64]) -> &[Complex64] {
+        let (x, y) = values.split_at(self.spectrum.len());
+        for ((value, x), y) in self.spectrum.iter_mut().zip(x).zip(y) {
+            *value = Complex64::new(*x, *y);
+        }
+        self.nodes.forward(&mut self.spectrum);
+        &self.spectrum
+    }
+
+    /// Values at points from values at nodes, x then y.
+    pub(crate) fn at_points(&mut self, values: &[f64], out: &mut [Vec2]) {
+        self.coefficients(values);
+        let spectrum = std::mem::take(&mut self.spectrum);
+        let (plan, buffer) = self.points(out.len());
+        copy_band(&spectrum, buffer, largest_wave(spectrum.len()));
+        plan.inverse(buffer);
+        for (out, value) in out.iter_mut().zip(buffer) {
+            *out = Vec2::new(value.re, value.im);
+        }
+        self.spectrum = spectrum;
+    }
+
+    /// Values at fine nodes from values at nodes, x then y.
+    pub(crate) fn at_fine(&mut self, values: &[f64], out: &mut [Complex64]) {
+        copy_band(self.coefficients(values), out, largest_wave(values.len() / 2));
+        self.fine.inverse(out);
+    }
+}
+
+/// A curve at equally spaced parameters, as complex numbers x + i y.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Samples {
+    /// Positions relative to the curve's centre (length).
+    pub(crate) position: Vec<Complex64>,
+    /// Derivative of the position by the parameter (length).
+    pub(crate) tangent: Vec<Complex64>,
+    /// Force per parameter times the weight 2 pi/number (force).
+    pub(crate) force: Vec<Complex64>,
+}
+
+impl Samples {
+    /// From Fourier coefficients; `second` is filled with the second derivative where it is given.
+    fn fill(
+        &mut self,
+        transform: &mut Transform,
+        [shape, force]: [&[Complex64]; 2],
+        second: Option<&mut Vec<Complex64>>,
+    ) {
+        let len = transform.len();
+        for values in [&mut self.position, &mut self.tangent, &mut self.force] {
+            values.resize(len, Complex64::default());
+        }
+        let largest = largest_wave(shape.len());
+        copy_band(shape, &mut self.position, largest);
+        copy_band(force, &mut self.force, largest);
+        self.tangent.copy_from_slice(&self.position);
+        differentiate(&mut self.tangent);
+        if let Some(second) = second {
+            second.clone_from(&self.tangent);
+            differentiate(second);
+            transform.inverse(second);
+        }
+        for values in [&mut self.position, &mut self.tangent, &mut self.force] {
+            transform.inverse(values);
+        }
+        let weight = TAU / len as f64;
+        self.force.iter_mut().for_each(|force| *force *= weight);
+    }
+}
+
+/// A closed curve: shape and force on its nodes and, where they are needed, on fine nodes.
+#[derive(Debug, Clone)]
+pub(crate) struct Curve {
+    /// Mean of the nodes (length), as given, not wrapped.
+    pub(crate) centre: Complex64,
+    /// Largest distance of a node from the centre (length).
+    pub(crate) radius: f64,
+    pub(crate) nodes: Samples,
+    /// Curvature at the nodes (1/length), positive for a circle.
+    pub(crate) curvature: Vec<f64>,
+    /// Fourier coefficients of the position relative to the centre.
+    pub(crate) shape: Vec<Complex64>,
+    /// Fourier coefficients of the force per parameter.
+    force: Vec<Complex64>,
+    pub(crate) fine: Samples,
+    refined: bool,
+    second: Vec<Complex64>,
+    /// Number of points that it is given by.
+    pub(crate) points: usize,
+}
+
+impl Curve {
+    pub(crate) fn new(nodes: usize) -> Self {
+        let zeros = vec![Complex64::default(); nodes];
+        Self {
+            centre: Complex64::default(),
+            radius: 0.0,
+            nodes: Samples::default(),
+            curvature: vec![0.0; nodes],
+            shape: zeros.clone(),
+            force: zeros,
+            fine: Samples::default(),
+            refined: false,
+            second: Vec::new(),
+            points: 0,
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.shape.len()
+    }
+
+    /// Weight of a node in an integral over the parameter.
+    pub(crate) fn weight(&self) -> f64 {
+        TAU / self.len() as f64
+    }
+
+    /// The nodes or the fine nodes.
+    pub(crate) fn samples(&self, fine: bool) -> &Samples {
+        if fine { &self.fine } else { &self.nodes }
+    }
+
+    /// Takes over positions and forces, truncated to the modes that the nodes carry; `curve` is its number.
+    pub(crate) fn load(
+        &mut self,
+        transforms: &mut Transforms,
+        [positions, forces]: [&[Vec2]; 2],
+        curve: usize,
+    ) -> Result<(), LayerError> {
+        same_length("the forces on a curve", forces.len(), positions.len())?;
+        within("the number of points of a curve", positions.len() as f64, self.len() as f64, MOST_POINTS)?;
+        for (what, values) in [("the position", positions), ("the force", forces)] {
+            if let Some(point) = values.iter().position(|value| !(value.x.is_finite() && value.y.is_finite())) {
+                let (x, y) = (values[point].x, values[point].y);
+                return Err(LayerError::NonFinite { what, curve, point, x, y });
+            }
+        }
+        self.points = positions.len();
+        transforms.analyse(positions, &mut self.shape);
+        self.centre = std::mem::take(&mut self.shape[0]);
+        transforms.analyse(forces, &mut self.force);
+        let per_parameter = positions.len() as f64 / TAU;
+        self.force.iter_mut().for_each(|force| *force *= per_parameter);
+        let Self { nodes, shape, force, second, .. } = self;
+        nodes.fill(&mut transforms.nodes, [shape, force], Some(second));
+        for ((curvature, first), second) in self.curvature.iter_mut().zip(&nodes.tangent).zip(second) {
+            let square = first.norm_sqr();
+            *curvature = (first.conj() * *second).im / (square * square.sqrt());
+        }
+        self.radius = self.nodes.position.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt();
+        self.refined = false;
+        if self.signed_area() > 0.0 { Ok(()) } else { Err(LayerError::Clockwise { curve }) }
+    }
+
+    /// Fills the fine nodes, once for each shape.
+    pub(crate) fn refine(&mut self, transforms: &mut Transforms) {
+        if !self.refined {
+            self.fine.fill(&mut transforms.fine, [&self.shape, &self.force], None);
+            self.refined = true;
+        }
+    }
+
+    /// Signed area (length squared), positive for a counter-clockwise curve.
+    fn signed_area(&self) -> f64 {
+        let terms = self.nodes.position.iter().zip(&self.nodes.tangent);
+        0.5 * self.weight() * terms.map(|(z, t)| (z.conj() * t).im).sum::<f64>()
+    }
+
+    /// Length of the curve (length).
+    pub(crate) fn perimeter(&self) -> f64 {
+        self.weight() * self.nodes.tangent.iter().map(|t| t.norm_sqr().sqrt()).sum::<f64>()
+    }
+
+    /// Largest distance between neighbouring nodes along the curve (length).
+    pub(crate) fn spacing(&self) -> f64 {
+        self.weight() * self.nodes.tangent.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Whether it goes around a point, relative to its centre, that is some spacings away from it, by Cauchy's formula.
+    pub(crate) fn winds_around(&self, point: Complex64) -> bool {
+        let terms = self.nodes.position.iter().zip(&self.nodes.tangent);
+        let sum: f64 = terms.map(|(z, tangent)| (tangent / (z - point)).im).sum();
+        sum * self.weight() > 0.5 * TAU
+    }
+}

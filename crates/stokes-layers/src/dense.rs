@@ -1,0 +1,272 @@
+//! The double layer of curves given node by node, as a matrix with a transpose.
+//!
+//! Where the single layer comes from elsewhere, from a grid for instance, the velocities v on fluid interfaces follow
+//! from those that the same forces have in a fluid of one viscosity: `A v = s`.
+
+mod curve;
+mod walls;
+
+use num_complex::Complex64;
+
+use crate::{
+    Forcing, LayerError, Region, Vec2,
+    error::within,
+    gmres::dot,
+    greens::{Stress, StressKernel},
+    region::Images,
+};
+pub use curve::{Foot, NodeCurve};
+use walls::DenseWalls;
+
+const FOUR_PI: f64 = 4.0 * std::f64::consts::PI;
+/// Relative size of the rows of images that are left out.
+const TOLERANCE: f64 = 1e-6;
+/// Most nodes of all curves: the matrix then takes 2.4 GB.
+const MOST_NODES: usize = 10_000;
+
+/// The matrix A of `A v = s` for the velocities v at the nodes of closed interfaces; s is the velocity times viscosity
+/// that all forces have in a fluid of one viscosity:
+///
+/// ```text
+/// A_(ia),(jb) = (D_j/4 pi) T_ab(X_j - X_i; n_j) w_j  -  (D_j/V) (X_j)_a (n_j)_b w_j
+/// ```
+///
+/// D the viscosity inside less that of the exterior fluid, V the area of a periodic box (no such term in a channel, which
+/// has the stress of its walls instead). The diagonal blocks follow from the exact identity that a uniform velocity on
+/// a curve is multiplied by the viscosity of the exterior fluid, without curvatures.
+///
+/// A curve with less viscous fluid inside gets the mode of uniform growth, which incompressible flow does not have,
+/// moved from the eigenvalue of the viscosity inside to the mean one.
+///
+/// Vectors have the x components of all nodes first, then the y components.
+#[derive(Debug, Clone)]
+pub struct DoubleLayerMatrix {
+    kernel: StressKernel,
+    images: Images,
+    area: f64,
+    walls: Option<DenseWalls>,
+    viscosity: f64,
+    nodes: usize,
+    /// Symmetric blocks, row after row.
+    blocks: [Vec<f64>; 3],
+    dipoles: Vec<[f64; 3]>,
+}
+
+/// Products `T n` of a stress and a vector, (xx, xy, yy).
+#[inline(always)]
+fn contract(t: &Stress, n: Vec2) -> [f64; 3] {
+    [t.xxx * n.x + t.xxy * n.y, t.xxy * n.x + t.xyy * n.y, t.xyy * n.x + t.yyy * n.y]
+}
+
+impl DoubleLayerMatrix {
+    /// For exterior fluid of the given viscosity (stress times time) in a box or a channel, whose `middle` is at that
+    /// height (length). Nodes closer to a wall than `least_gap` (length) count as that far away.
+    ///
+    /// # Errors
+    /// The plane, for which there is no such matrix, or a region out of its range.
+    pub fn new(region: Region, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, LayerError> {
+        region.check()?;
+        let walls = match region {
+            Region::Plane => return Err(LayerError::NoPeriod),
+            Region::Box { .. } => None,
+            Region::Channel { length, width, forcing } => {
+                Some(DenseWalls::new(length, width, middle, matches!(forcing, Forcing::Flux(_)), least_gap))
+            }
+        };
+        let (images, area) = (region.images(), region.area());
+        let kernel = StressKernel::new(&images, TOLERANCE);
+        let (blocks, dipoles) = (Default::default(), Vec::new());
+        Ok(Self { kernel, images, area, walls, viscosity, nodes: 0, blocks, dipoles })
+    }
+
+    /// The shortest of the periodically equivalent distances.
+    #[must_use]
+    pub fn wrap(&self, d: Vec2) -> Vec2 {
+        let d = self.images.wrap(Complex64::new(d.x, d.y));
+        Vec2::new(d.re, d.im)
+    }
+
+    /// Computes the matrix for curves whose nodes follow each other.
+    ///
+    /// # Errors
+    /// More than 10,000 nodes.
+    pub fn build(&mut self, curves: &[NodeCurve]) -> Result<(), LayerError> {
+        let n = curves.iter().map(NodeCurve::len).sum();
+        within("the number of nodes of a double layer", n as f64, 0.0, MOST_NODES as f64)?;
+        self.nodes = n;
+        if let Some(walls) = &mut self.walls {
+            walls.load(curves);
+        }
+        for block in &mut self.blocks {
+            block.resize(n * n, 0.0);
+        }
+        for target in curves {
+            for source in curves {
+                if target.first == source.first {
+                    self.fill_own(target);
+                } else {
+                    self.fill_other(target, source);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Blocks between the nodes of one curve; the stress is odd in the distance.
+    fn fill_own(&mut self, curve: &NodeCurve) {
+        let (first, count, n) = (curve.first, curve.len(), self.nodes);
+        let scale = curve.contrast / FOUR_PI;
+        let [xx, xy, yy] = &mut self.blocks;
+        for i in 0..count {
+            let row = (first + i) * n + first;
+            // Above the diagonal from the kernel, below it by symmetry.
+            if i + 1 < count {
+                let target = self.kernel.target(curve.positions[i]);
+                self.kernel.sum(&target, &curve.sources, i + 1);
+                for j in i + 1..count {
+                    let t = self.kernel.stress(j - i - 1);
+                    let here = contract(&t, scale * curve.normals[j]);
+                    let mirrored = contract(&t, -scale * curve.normals[i]);
+                    let column = (first + j) * n + first + i;
+                    (xx[row + j], xy[row + j], yy[row + j]) = (here[0], here[1], here[2]);
+                    (xx[column], xy[column], yy[column]) = (mirrored[0], mirrored[1], mirrored[2]);
+                }
+            }
+        }
+        let background = curve.contrast * curve.area / self.area;
+        for i in 0..count {
+            let row = (first + i) * n + first;
+            for (block, diagonal) in [(&mut *xx, true), (&mut *xy, false), (&mut *yy, true)] {
+                block[row + i] = 0.0;
+                let sum: f64 = block[row..row + count].iter().sum();
+                block[row + i] = if diagonal { self.viscosity + background - sum } else { -sum };
+            }
+        }
+    }
+
+    fn fill_other(&mut self, target: &NodeCurve, source: &NodeCurve) {
+        let n = self.nodes;
+        let scale = source.contrast / FOUR_PI;
+        let offset = self.wrap(target.centre - source.centre);
+        let [xx, xy, yy] = &mut self.blocks;
+        for (i, position) in target.positions.iter().enumerate() {
+            let at = self.kernel.target(position + offset);
+            self.kernel.sum(&at, &source.sources, 0);
+            let row = (target.first + i) * n + source.first;
+            for (j, normal) in source.normals.iter().enumerate() {
+                let block = contract(&self.kernel.stress(j), scale * normal);
+                (xx[row + j], xy[row + j], yy[row + j]) = (block[0], block[1], block[2]);
+            }
+        }
+    }
+
+    /// `out = A v`.
+    pub fn product(&mut self, curves: &[NodeCurve], v: &[f64], out: &mut [f64]) {
+        let n = self.nodes;
+        let (vx, vy) = v.split_at(n);
+        let (ux, uy) = out.split_at_mut(n);
+        let mean = self.mean(curves, v);
+        let [xx, xy, yy] = &self.blocks;
+        for i in 0..n {
+            let row = i * n..(i + 1) * n;
+            let mixed = &xy[row.clone()];
+            ux[i] = dot(&xx[row.clone()], vx) + dot(mixed, vy) + mean.x;
+            uy[i] = dot(mixed, vx) + dot(&yy[row], vy) + mean.y;
+        }
+        for curve in curves.iter().filter(|curve| curve.contrast < 0.0) {
+            let nodes = curve.first..curve.first + curve.len();
+            let flux: f64 =
+                nodes.clone().zip(&curve.normals).map(|(i, normal)| vx[i] * normal.x + vy[i] * normal.y).sum();
+            let amount = growth(curve) * flux;
+            for ((i, normal), w) in nodes.zip(&curve.normals).zip(&curve.weights) {
+                ux[i] += amount * normal.x / w;
+                uy[i] += amount * normal.y / w;
+            }
+        }
+        if self.walls.is_some() {
+            self.fill_dipoles(curves, v);
+            let Some(walls) = &mut self.walls else { return };
+            walls.add_dipoles(&self.dipoles, ux, uy);
+        }
+    }
+
+    /// `out = A^T q`.
+    pub fn transposed_product(&mut self, curves: &[NodeCurve], q: &[f64], out: &mut [f64]) {
+        let n = self.nodes;
+        out.fill(0.0);
+        let (qx, qy) = q.split_at(n);
+        let (ux, uy) = out.split_at_mut(n);
+        let [xx, xy, yy] = &self.blocks;
+        for i in 0..n {
+            let row = i * n..(i + 1) * n;
+            let (a, b, c) = (&xx[row.clone()], &xy[row.clone()], &yy[row]);
+            let (x, y) = (qx[i], qy[i]);
+            for j in 0..n {
+                ux[j] += a[j] * x + b[j] * y;
+                uy[j] += b[j] * x + c[j] * y;
+            }
+        }
+        let total = Vec2::new(qx.iter().sum(), qy.iter().sum());
+        let background = 1.0 / self.area;
+        for curve in curves {
+            let nodes = curve.first..curve.first + curve.len();
+            let growth = if curve.contrast < 0.0 {
+                let unit = nodes.clone().zip(&curve.normals).zip(&curve.weights);
+                growth(curve) * unit.map(|((i, n), w)| (qx[i] * n.x + qy[i] * n.y) / w).sum::<f64>()
+            } else {
+                0.0
+            };
+            for ((j, normal), position) in nodes.zip(&curve.normals).zip(&curve.positions) {
+                let amount = growth - curve.contrast * background * position.dot(&total);
+                ux[j] += amount * normal.x;
+                uy[j] += amount * normal.y;
+            }
+        }
+        if let Some(walls) = &mut self.walls {
+            walls.add_tractions(curves, qx, qy, ux, uy);
+        }
+    }
+
+    /// `-(1/V) sum D X (v.n) w` in a box.
+    fn mean(&self, curves: &[NodeCurve], v: &[f64]) -> Vec2 {
+        if self.area.is_infinite() {
+            return Vec2::zeros();
+        }
+        let n = self.nodes;
+        let mut sum = Vec2::zeros();
+        for curve in curves {
+            for (k, (x, normal)) in curve.positions.iter().zip(&curve.normals).enumerate() {
+                let i = curve.first + k;
+                sum -= curve.contrast * (v[i] * normal.x + v[n + i] * normal.y) * x;
+            }
+        }
+        sum / self.area
+    }
+
+    fn fill_dipoles(&mut self, curves: &[NodeCurve], v: &[f64]) {
+        let n = self.nodes;
+        self.dipoles.clear();
+        for curve in curves {
+            let scale = curve.contrast / FOUR_PI;
+            for (k, normal) in curve.normals.iter().enumerate() {
+                let (x, y) = (v[curve.first + k], v[n + curve.first + k]);
+                self.dipoles.push([scale * x * normal.x, scale * (x * normal.y + y * normal.x), scale * y * normal.y]);
+            }
+        }
+    }
+
+    /// Part of the mean pressure gradient that comes from velocities on the nodes (force per volume).
+    #[must_use]
+    pub fn pressure_gradient(&mut self, curves: &[NodeCurve], v: &[f64]) -> f64 {
+        self.fill_dipoles(curves, v);
+        self.walls.as_mut().map_or(0.0, |walls| -walls.pressure_gradient(&self.dipoles))
+    }
+}
+
+/// What the flux of a curve with less viscous fluid inside is multiplied by: brings the eigenvalue of its growth to the mean viscosity.
+fn growth(curve: &NodeCurve) -> f64 {
+    -0.5 * curve.contrast / curve.weights.iter().sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,82 @@
+use super::*;
+
+fn curves(layer: &DoubleLayerMatrix) -> Vec<NodeCurve> {
+    let mut first = 0;
+    [(Vec2::new(0.1, 0.2), 40, 3.0), (Vec2::new(2.2, 2.7), 24, -0.8)]
+        .into_iter()
+        .map(|(centre, nodes, contrast)| {
+            let mut curve = NodeCurve::default();
+            let positions: Vec<Vec2> = (0..nodes)
+                .map(|k| std::f64::consts::TAU * k as f64 / nodes as f64)
+                .map(|t| centre + Vec2::new(0.9 * t.cos(), 0.6 * t.sin()))
+                .collect();
+            curve.load(layer, first, contrast, &positions).unwrap();
+            first += nodes;
+            curve
+        })
+        .collect()
+}
+
+fn layers() -> [DoubleLayerMatrix; 4] {
+    let channel = |forcing| Region::Channel { length: 5.0, width: 5.0, forcing };
+    [
+        Region::Box { lengths: [5.0; 2] },
+        Region::Box { lengths: [5.0, 4.8] },
+        channel(Forcing::Gradient(0.0)),
+        channel(Forcing::Flux(0.0)),
+    ]
+    .map(|region| DoubleLayerMatrix::new(region, 1.5, 1.0, 1e-3).unwrap())
+}
+
+fn vector(len: usize, seed: f64) -> Vec<f64> {
+    (0..len).map(|k| (seed * (k * k + 1) as f64).sin()).collect()
+}
+
+#[test]
+fn the_transposed_product_is_that_of_the_transposed_matrix() {
+    for mut layer in layers() {
+        let curves = curves(&layer);
+        layer.build(&curves).unwrap();
+        let (v, q) = (vector(128, 0.7), vector(128, 1.3));
+        let (mut av, mut aq) = (vec![0.0; 128], vec![0.0; 128]);
+        layer.product(&curves, &v, &mut av);
+        layer.transposed_product(&curves, &q, &mut aq);
+        let (left, right) = (dot(&q, &av), dot(&aq, &v));
+        // The walls' modes are truncated for each distance on its own.
+        assert!((left - right).abs() < 1e-5 * left.abs().max(1.0), "{left} {right}");
+    }
+}
+
+#[test]
+fn rigid_motions_are_multiplied_by_the_exterior_viscosity() {
+    for mut layer in layers() {
+        let mut curves = curves(&layer);
+        // Far from each other the trapezoidal rule is exact.
+        curves.truncate(1);
+        layer.build(&curves).unwrap();
+        let mut out = vec![0.0; 80];
+        for motion in [|_: Vec2| Vec2::new(1.0, 0.0), |_| Vec2::new(0.0, 1.0), |r: Vec2| Vec2::new(-r.y, r.x)] {
+            let values: Vec<Vec2> = curves[0].positions.iter().map(|r| motion(*r)).collect();
+            let v: Vec<f64> = values.iter().map(|v| v.x).chain(values.iter().map(|v| v.y)).collect();
+            layer.product(&curves, &v, &mut out);
+            for (out, v) in out.iter().zip(&v) {
+                assert!((out - v).abs() < 1e-4, "{out} {v}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_is_refused_before_memory_is_taken() {
+    assert_eq!(DoubleLayerMatrix::new(Region::Plane, 0.0, 1.0, 0.1).unwrap_err(), LayerError::NoPeriod);
+    assert!(DoubleLayerMatrix::new(Region::Box { lengths: [1.0, -1.0] }, 0.0, 1.0, 0.1).is_err());
+    let mut layer = layers()[0].clone();
+    let mut curve = NodeCurve::default();
+    let error = curve.load(&layer, 0, 1.0, &[Vec2::zeros(); 7]).unwrap_err();
+    assert!(matches!(error, LayerError::OutOfRange { value: 7.0, least: 8.0, .. }), "{error}");
+    let circle = |k: usize| 1e-3 * std::f64::consts::TAU * k as f64;
+    let positions: Vec<Vec2> = (0..1000).map(|k| Vec2::new(circle(k).cos(), circle(k).sin())).collect();
+    curve.load(&layer, 0, 1.0, &positions).unwrap();
+    let error = layer.build(&vec![curve; 11]).unwrap_err();
+    assert!(matches!(error, LayerError::OutOfRange { value: 11_000.0, .. }), "{error}");
+}

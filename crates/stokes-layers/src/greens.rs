@@ -1,0 +1,17 @@
+//! Green's functions of the Stokes equations: point forces, their stresses, rows and lattices of images, walls.
+//!
+//! They are normalised to `lap G - grad p = -4 pi delta`, so that a force F in a fluid of viscosity eta moves it with
+//! `G F/(4 pi eta)`.
+
+mod logarithm;
+mod nodes;
+mod pair;
+mod point;
+mod stress;
+pub(crate) mod walls;
+
+pub(crate) use logarithm::ln;
+pub(crate) use nodes::{Nodes, Vectors};
+pub(crate) use pair::{FreePair, PairKernel, RowPair, Stokeslet};
+pub(crate) use point::{Flow, GreensFunction, Kernels, free, weighted};
+pub(crate) use stress::{Sources, Stress, StressKernel};

@@ -1,0 +1,157 @@
+//! Stokeslet and stress between two points, in free space and for rows of images.
+
+use super::{logarithm::ln, nodes::Window};
+
+/// The parts of a Stokeslet `G = -1/2 ln(q) I + [[xx, xy], [xy, yy]]`.
+pub(crate) struct Stokeslet {
+    pub(crate) q: f64,
+    pub(crate) xx: f64,
+    pub(crate) xy: f64,
+    pub(crate) yy: f64,
+}
+
+/// A Green's function of the Stokes equations, `lap G - grad p = -4 pi delta`, and its stress, between node i of two
+/// windows.
+pub(crate) trait PairKernel {
+    /// The Stokeslet.
+    fn stokeslet(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> Stokeslet;
+
+    /// The stress (xxx, xxy, xyy, yyy) as a function of source minus target.
+    fn stress(&self, target: &Window<'_>, source: &Window<'_>, i: usize) -> [f64; 4];
+
+    /// The stress acting on dipoles (xx, s, yy) at the source and at the target: velocity at the target, and at the
+    /// source.
+    #[inline(always)]
+    fn act(&self, t: &Window<'_>, s: &Window<'_>, i: usize, source: [f64; 3], target: [f64; 3]) -> [[f64; 2]; 2] {
+        let [xxx, xxy, xyy, yyy] = self.stress(t, s, i);
+        let act = |[xx, s, yy]: [f64; 3]| [xxx * xx + xxy * s + xyy * yy, xxy * xx + xyy * s + yyy * yy];
+        // The stress is odd in the distance.
+        [act(source), act(target).map(|u| -u)]
+    }
+
+    /// Diagonal (xx, xy, yy) of `G + ln|alpha difference|` on a curve with derivative (tx, ty) by the parameter.
+    fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3];
+}
+
+/// Free space: `G = -ln r I + xx/r^2`, `T = -4 xxx/r^4`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FreePair {
+    /// Centre of the source minus centre of the target (length).
+    pub(crate) offset: [f64; 2],
+}
+
+impl PairKernel for FreePair {
+    #[inline(always)]
+    fn stokeslet(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> Stokeslet {
+        let (dx, dy) = (s.x[i] - t.x[i] + self.offset[0], s.y[i] - t.y[i] + self.offset[1]);
+        let q = dx * dx + dy * dy;
+        let inverse = 1.0 / q;
+        Stokeslet { q, xx: dx * dx * inverse, xy: dx * dy * inverse, yy: dy * dy * inverse }
+    }
+
+    #[inline(always)]
+    fn stress(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> [f64; 4] {
+        let (dx, dy) = (s.x[i] - t.x[i] + self.offset[0], s.y[i] - t.y[i] + self.offset[1]);
+        let inverse = 1.0 / (dx * dx + dy * dy);
+        let xx = -4.0 * dx * dx * inverse * inverse;
+        let yy = -4.0 * dy * dy * inverse * inverse;
+        [xx * dx, xx * dy, yy * dx, yy * dy]
+    }
+
+    #[inline(always)]
+    fn act(&self, t: &Window<'_>, s: &Window<'_>, i: usize, source: [f64; 3], target: [f64; 3]) -> [[f64; 2]; 2] {
+        let (dx, dy) = (s.x[i] - t.x[i] + self.offset[0], s.y[i] - t.y[i] + self.offset[1]);
+        let (xx, xy, yy) = (dx * dx, dx * dy, dy * dy);
+        let inverse = 1.0 / (xx + yy);
+        let factor = -4.0 * inverse * inverse;
+        let a = factor * (xx * source[0] + xy * source[1] + yy * source[2]);
+        let b = factor * (xx * target[0] + xy * target[1] + yy * target[2]);
+        [[a * dx, a * dy], [-b * dx, -b * dy]]
+    }
+
+    fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3] {
+        let square = tx * tx + ty * ty;
+        let log = -0.5 * ln(square);
+        [log + tx * tx / square, tx * ty / square, log + ty * ty / square]
+    }
+}
+
+/// Periodic along x, unbounded in y: `G = -A I + ...` with `A = 1/2 ln(2 cosh k dy - 2 cos k dx)`, for channels.
+///
+/// Circular and hyperbolic functions of differences are products of those of the nodes and of the offset of the curves.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RowPair {
+    /// 2 pi / period (1/length).
+    k: f64,
+    sin: f64,
+    cos: f64,
+    up: f64,
+    down: f64,
+    dy: f64,
+}
+
+/// Functions of the difference of two nodes that rows of images are made of.
+struct RowTerms {
+    /// sin and cos of k dx/2.
+    s: f64,
+    c: f64,
+    /// sinh and cosh of k dy/2.
+    sh: f64,
+    ch: f64,
+    /// dy (length).
+    dy: f64,
+}
+
+impl RowPair {
+    /// For a source whose centre lies `offset` from that of the target.
+    pub(crate) fn new(k: f64, [along, across]: [f64; 2]) -> Self {
+        let (sin, cos) = (0.5 * k * along).sin_cos();
+        let up = (0.5 * k * across).exp();
+        Self { k, sin, cos, up, down: 1.0 / up, dy: across }
+    }
+
+    #[inline(always)]
+    fn terms(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> RowTerms {
+        let sin = s.sin[i] * t.cos[i] - s.cos[i] * t.sin[i];
+        let cos = s.cos[i] * t.cos[i] + s.sin[i] * t.sin[i];
+        let (up, down) = (s.up[i] * t.down[i] * self.up, s.down[i] * t.up[i] * self.down);
+        RowTerms {
+            s: sin * self.cos + cos * self.sin,
+            c: cos * self.cos - sin * self.sin,
+            sh: 0.5 * (up - down),
+            ch: 0.5 * (up + down),
+            dy: s.y[i] - t.y[i] + self.dy,
+        }
+    }
+}
+
+impl PairKernel for RowPair {
+    #[inline(always)]
+    fn stokeslet(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> Stokeslet {
+        let RowTerms { s, c, sh, ch, dy } = self.terms(t, s, i);
+        let q = 2.0 * (s * s + sh * sh);
+        let factor = self.k * dy / q;
+        let (ax, ay) = (s * c * factor, sh * ch * factor);
+        Stokeslet { q: 2.0 * q, xx: 1.0 - ay, xy: ax, yy: ay }
+    }
+
+    #[inline(always)]
+    fn stress(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> [f64; 4] {
+        let RowTerms { s, c, sh, ch, dy } = self.terms(t, s, i);
+        let k = self.k;
+        let (s2, sh2) = (s * s, sh * sh);
+        let factor = k / (2.0 * (s2 + sh2));
+        let (sc, shch) = (s * c, sh * ch);
+        let (ax, ay) = (factor * sc, factor * shch);
+        let square = 2.0 * dy * factor * factor;
+        let axx = square * (sh2 - s2 - 2.0 * s2 * sh2);
+        let axy = -2.0 * square * sc * shch;
+        [-4.0 * ax - axy, axx - 2.0 * ay, axy, -2.0 * ay - axx]
+    }
+
+    fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3] {
+        let square = tx * tx + ty * ty;
+        let log = -0.5 * ln(self.k * self.k * square);
+        [log + tx * tx / square, tx * ty / square, log + ty * ty / square]
+    }
+}

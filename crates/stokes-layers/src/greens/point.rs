@@ -1,0 +1,259 @@
+//! Kernels of velocity, gradient and pressure of forces and dipoles, in complex form.
+//!
+//! With d = source minus target, the single layer of a force F is `w = -l F + 1/2 conj(F e_1)`, that of the double
+//! layer with velocity v on an element z' is `i v z' c_1 + i conj((v conj z' - conj v z') c_1 - v z' e_2)`; in free
+//! space `l = ln|d| - 1/2`, `c_k = 1/d^k`, `e_k = conj(d)/d^k`.
+
+use std::f64::consts::PI;
+
+use num_complex::Complex64;
+
+use crate::Region;
+
+const I: Complex64 = Complex64::new(0.0, 1.0);
+const ZERO: Complex64 = Complex64::new(0.0, 0.0);
+
+/// The functions of d that the flow at a point is made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Kernels {
+    pub(crate) log: f64,
+    pub(crate) c: [Complex64; 3],
+    pub(crate) e: [Complex64; 3],
+    /// Minus the derivative of c_1 by conj(d): pi/area in a periodic box.
+    pub(crate) background: f64,
+}
+
+/// Flow times viscosity at a point, as complex numbers.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Flow {
+    /// u + i v.
+    pub(crate) velocity: Complex64,
+    /// Derivative of u + i v by z.
+    pub(crate) spin: Complex64,
+    /// Derivative of u + i v by conj(z).
+    pub(crate) strain: Complex64,
+    pub(crate) pressure: f64,
+}
+
+impl std::ops::AddAssign for Flow {
+    fn add_assign(&mut self, other: Self) {
+        self.velocity += other.velocity;
+        self.spin += other.spin;
+        self.strain += other.strain;
+        self.pressure += other.pressure;
+    }
+}
+
+impl Flow {
+    /// `[[du/dx, du/dy], [dv/dx, dv/dy]]`.
+    pub(crate) fn gradient(&self) -> [[f64; 2]; 2] {
+        let (along, across) = (self.spin + self.strain, I * (self.spin - self.strain));
+        [[along.re, across.re], [along.im, across.im]]
+    }
+
+    /// Adds 4 pi times the flow of a force; times `sign`.
+    pub(crate) fn add_force(&mut self, k: &Kernels, force: Complex64, sign: f64) {
+        let force = force * sign;
+        self.velocity += 0.5 * (force * k.e[0]).conj() - force * k.log;
+        let pull = force * k.c[0];
+        self.spin += I * pull.im;
+        self.strain += 0.5 * (force.conj() * k.c[0] + force * k.e[1]).conj();
+        self.pressure -= 2.0 * pull.re;
+    }
+
+    /// Adds 4 pi times the flow of a double layer: velocity times contrast and weight on the element `tangent`; times
+    /// `sign`.
+    pub(crate) fn add_dipole(&mut self, k: &Kernels, velocity: Complex64, tangent: Complex64, sign: f64) {
+        let velocity = velocity * sign;
+        let product = velocity * tangent;
+        let flux = velocity * tangent.conj();
+        let flux = flux - flux.conj();
+        self.velocity -= I * product * k.c[0] + I * (flux * k.c[0] - product * k.e[1]).conj();
+        let turn = product * k.c[1];
+        self.spin -= 2.0 * I * turn.re;
+        self.strain -= I * product * k.background + I * (flux * k.c[1] - 2.0 * product * k.e[2]).conj();
+        self.pressure -= 4.0 * turn.im;
+    }
+}
+
+/// The Green's function of a plane or of periodic images; a channel's is that of a row of images and its walls'
+/// correction ([`crate::greens::walls`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum GreensFunction {
+    /// The plane.
+    Free,
+    /// A row of images along x with wave number k = 2 pi/period.
+    Row { k: f64 },
+    /// All images of a periodic box, in rows along the shorter period.
+    Lattice { k: f64, across: f64, rows: usize, transposed: bool },
+}
+
+impl GreensFunction {
+    /// That of a region, less the walls; rows of images are as many as bring the rest below `tolerance`.
+    pub(crate) fn new(region: &Region, tolerance: f64) -> Self {
+        match *region {
+            Region::Plane => Self::Free,
+            Region::Channel { length, .. } => Self::Row { k: 2.0 * PI / length },
+            Region::Box { lengths } => {
+                let transposed = lengths[1] < lengths[0];
+                let [along, across] = if transposed { [lengths[1], lengths[0]] } else { lengths };
+                let k = 2.0 * PI / along;
+                let rows = ((-tolerance.ln() / k + 0.5 * along) / across + 0.5).ceil() as usize;
+                Self::Lattice { k, across, rows, transposed }
+            }
+        }
+    }
+
+    /// All images.
+    pub(crate) fn at(&self, d: Complex64) -> Kernels {
+        self.evaluate(d, false)
+    }
+
+    /// All images but the one at d itself: `at(d)` minus [`free`] of d, without the loss of digits close to d = 0.
+    pub(crate) fn images(&self, d: Complex64) -> Kernels {
+        self.evaluate(d, true)
+    }
+
+    fn evaluate(&self, d: Complex64, regular: bool) -> Kernels {
+        match *self {
+            Self::Free if regular => Kernels { log: 0.0, c: [ZERO; 3], e: [ZERO; 3], background: 0.0 },
+            Self::Free => free(d),
+            Self::Row { k } => row(d, k, regular),
+            Self::Lattice { transposed: false, .. } => self.lattice::<3>(d, regular),
+            Self::Lattice { transposed: true, .. } => {
+                // Reflection at the diagonal, d' = i conj(d).
+                let Kernels { log, c, e, background } = self.lattice::<3>(I * d.conj(), regular);
+                Kernels {
+                    log,
+                    c: [-I * c[0].conj(), -c[1].conj(), I * c[2].conj()],
+                    e: [-e[0].conj(), I * e[1].conj(), e[2].conj()],
+                    background,
+                }
+            }
+        }
+    }
+
+    /// `l` and `e_1`, all that the velocity of a force needs.
+    pub(crate) fn stokeslet(&self, d: Complex64) -> (f64, Complex64) {
+        let kernels = match *self {
+            Self::Lattice { transposed: false, .. } => self.lattice::<1>(d, false),
+            Self::Lattice { transposed: true, .. } => {
+                let Kernels { log, e, .. } = self.lattice::<1>(I * d.conj(), false);
+                return (log, -e[0].conj());
+            }
+            _ => self.at(d),
+        };
+        (kernels.log, kernels.e[0])
+    }
+
+    /// Rows along x, of which the first N functions of each family are computed.
+    fn lattice<const N: usize>(&self, d: Complex64, regular: bool) -> Kernels {
+        let Self::Lattice { k, across, rows, .. } = *self else { return free(d) };
+        let d = Complex64::new(d.re, d.im - across * (d.im / across).round());
+        let (mut log, mut c) = singular_row(d, k, regular);
+        let mut moments = c.map(|c| c * d.im);
+        let turn = (I * k * d).exp();
+        let back = turn.inv();
+        let decay = (-k * across).exp();
+        let (mut product, mut shrink, mut height) = (1.0, 1.0, 0.0);
+        for _ in 0..rows {
+            shrink *= decay;
+            height += across;
+            for (q, y, side) in [(turn * shrink, d.im + height, 1.0), (back * shrink, d.im - height, -1.0)] {
+                let rest = (1.0 - q).inv();
+                product *= rest.norm_sqr();
+                let factor = q * rest;
+                let first = -I * (side * k) * factor;
+                let second = -k * k * factor * rest;
+                let third = I * (0.5 * side * k * k * k) * factor * rest * rest * (1.0 + q);
+                for (index, term) in [first, second, third].into_iter().enumerate().take(N) {
+                    c[index] += term;
+                    moments[index] += term * y;
+                }
+            }
+        }
+        log -= 0.5 * product.ln();
+        let mean = k * (d.im * d.im / across + across / 6.0);
+        let background = 0.5 * k / across;
+        c[0] += I * (k * d.im / across);
+        c[1] -= background;
+        let two = 2.0 * I;
+        let one = if regular { 1.0 } else { 0.0 };
+        let e = [mean - one - two * moments[0], c[0] - two * moments[1], c[1] + 0.5 * background - two * moments[2]];
+        Kernels { log: log - 0.5 * (mean - one), c, e, background }
+    }
+}
+
+pub(crate) fn free(d: Complex64) -> Kernels {
+    let inverse = d.inv();
+    let c = [inverse, inverse * inverse, inverse * inverse * inverse];
+    weighted(0.5 * d.norm_sqr().ln() - 0.5, c, d.conj())
+}
+
+/// Free-space kernels from functions that stand for ln|d| and 1/d^k.
+pub(crate) fn weighted(log: f64, c: [Complex64; 3], conjugate: Complex64) -> Kernels {
+    Kernels { log, c, e: c.map(|c| c * conjugate), background: 0.0 }
+}
+
+/// conj(d) becomes d - 2 i dy, and the sum over images of 1/d^k is a derivative of the cotangent.
+fn row(d: Complex64, k: f64, regular: bool) -> Kernels {
+    let (log, c) = singular_row(d, k, regular);
+    let y = Complex64::new(0.0, -2.0 * d.im);
+    let one = if regular { 0.0 } else { 1.0 };
+    Kernels { log: log - 0.5 * one, c, e: [one + y * c[0], c[0] + y * c[1], c[1] + y * c[2]], background: 0.0 }
+}
+
+/// `ln|2 sin(k d/2)|` and the sums over a row of 1/d^k; where `regular`, less the functions of d alone.
+fn singular_row(d: Complex64, k: f64, regular: bool) -> (f64, [Complex64; 3]) {
+    let half = 0.5 * k;
+    let x = d * half;
+    if regular && x.norm_sqr() < 0.25 {
+        return near_row(x, k);
+    }
+    // One circular and one hyperbolic function serve sine and cosine.
+    let ((s, c), sh) = (x.re.sin_cos(), x.im.sinh());
+    let ch = (1.0 + sh * sh).sqrt();
+    let (sin, cos) = (Complex64::new(s * ch, c * sh), Complex64::new(c * ch, -s * sh));
+    let cosecant = half * sin.inv();
+    let first = cosecant * cos;
+    let (log, c) = (0.5 * (4.0 * sin.norm_sqr()).ln(), [first, cosecant * cosecant, cosecant * cosecant * first]);
+    if regular {
+        let own = free(d);
+        (log - own.log - 0.5, [c[0] - own.c[0], c[1] - own.c[1], c[2] - own.c[2]])
+    } else {
+        (log, c)
+    }
+}
+
+/// The regular functions of a row by the Laurent series `cot x = 1/x - sum a_n x^(2n - 1)`, a_n = 2 zeta(2n)/pi^(2n).
+fn near_row(x: Complex64, k: f64) -> (f64, [Complex64; 3]) {
+    const SERIES: [f64; 11] = [
+        1.0 / 3.0,
+        1.0 / 45.0,
+        2.0 / 945.0,
+        1.0 / 4725.0,
+        2.0 / 93_555.0,
+        1_382.0 / 638_512_875.0,
+        4.0 / 18_243_225.0,
+        3_617.0 / 162_820_783_125.0,
+        87_734.0 / 38_979_295_480_125.0,
+        349_222.0 / 1_531_329_465_290_625.0,
+        310_732.0 / 13_447_856_940_643_125.0,
+    ];
+    let (half, square) = (0.5 * k, x * x);
+    let (mut log, mut first, mut second, mut third) = (ZERO, ZERO, ZERO, ZERO);
+    let mut power = Complex64::new(1.0, 0.0);
+    for (index, a) in SERIES.iter().enumerate() {
+        let order = 2.0 * index as f64 + 1.0;
+        // power is x^(order - 1).
+        log -= power * (a / (order + 1.0));
+        first -= power * *a;
+        second += power * (a * order);
+        if index + 1 < SERIES.len() {
+            third -= power * (0.5 * SERIES[index + 1] * (order + 2.0) * (order + 1.0));
+        }
+        power *= square;
+    }
+    let c = [first * x * half, second * (half * half), third * x * (half * half * half)];
+    (k.ln() + (log * square).re, c)
+}

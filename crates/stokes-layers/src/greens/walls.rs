@@ -1,0 +1,298 @@
+//! What two no-slip walls add to the flow of forces and dipoles that are periodic along them.
+//!
+//! The correction is a Fourier series in x with modes `exp(-k s)`, s the distance from a wall, so that sources and
+//! targets enter by products and the cost is (nodes) x (modes). Modes are as many as the gaps to the walls ask for.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+mod flow;
+mod points;
+
+pub(crate) use points::WallPoints;
+use points::{LANES, Lanes};
+
+/// No gap asks for more modes than this.
+const MOST_MODES: usize = 4096;
+
+/// Sums over sources for some modes, real and imaginary parts: of e q and of e (p - k s q), with e = exp(-k s - i k x),
+/// q complex and p real.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    plain: [Lanes; 2],
+    mixed: [Lanes; 2],
+}
+
+impl Sums {
+    /// Both sums of one mode.
+    fn of(sums: &[Self], n: usize) -> [Complex64; 2] {
+        let (sum, lane) = (&sums[n / LANES], n % LANES);
+        [sum.plain, sum.mixed].map(|[re, im]| Complex64::new(re[lane], im[lane]))
+    }
+}
+
+/// Velocities that the sources alone would have at a wall, mode by mode.
+#[derive(Debug, Clone, Copy, Default)]
+struct Slip {
+    u: Complex64,
+    v: Complex64,
+}
+
+/// Coefficients of some modes near one wall: the streamfunction is `exp(-k s + i k x) (R - s B)`.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Coefficients {
+    /// k R + B.
+    sum: [Lanes; 2],
+    /// k R.
+    pub(crate) plain: [Lanes; 2],
+    /// k B.
+    pub(crate) linear: [Lanes; 2],
+}
+
+/// Factors of one mode that depend on the height alone.
+#[derive(Debug, Clone, Copy)]
+struct Factors {
+    even: [f64; 4],
+    odd: [f64; 4],
+}
+
+/// The correction by the walls as a series, and the flow that does not depend on x.
+#[derive(Debug, Clone)]
+pub(crate) struct WallModes {
+    /// 2 pi / period (1/length).
+    pub(crate) k: f64,
+    /// Half the distance between the walls (length).
+    pub(crate) half: f64,
+    zero_flux: bool,
+    /// Smallest decay that still counts, as an exponent.
+    exponent: f64,
+    factors: Vec<Factors>,
+    sums: [Vec<Sums>; 2],
+    slips: [Vec<Slip>; 2],
+    pub(crate) coefficients: [Vec<Coefficients>; 2],
+    /// Coefficients of 1, y and half^2 - y^2 in the velocity that does not depend on x.
+    pub(crate) mean: [f64; 3],
+    modes: usize,
+}
+
+impl WallModes {
+    pub(crate) fn new(period: f64, half: f64, zero_flux: bool) -> Self {
+        Self {
+            k: TAU / period,
+            half,
+            zero_flux,
+            exponent: 0.0,
+            factors: Vec::new(),
+            sums: Default::default(),
+            slips: Default::default(),
+            coefficients: Default::default(),
+            mean: [0.0; 3],
+            modes: 0,
+        }
+    }
+
+    /// Clears the sources for targets no closer to a wall than `target_gap` and sources no closer than `source_gap`.
+    pub(crate) fn begin(&mut self, source_gap: f64, target_gap: f64, accuracy: f64) {
+        self.exponent = 2.5 - accuracy.ln();
+        self.modes = self.count(source_gap + target_gap);
+        let chunks = self.modes.div_ceil(LANES);
+        while self.factors.len() < chunks * LANES {
+            let n = self.factors.len() + 1;
+            self.factors.push(factors(self.k * n as f64, self.half));
+        }
+        for slips in &mut self.slips {
+            slips.clear();
+            slips.resize(chunks * LANES, Slip::default());
+        }
+        self.mean = [0.0; 3];
+    }
+
+    fn count(&self, distance: f64) -> usize {
+        let needed = self.exponent / (self.k * distance.max(1e-300));
+        (needed.min(MOST_MODES as f64).ceil() as usize).max(1)
+    }
+
+    /// Sums over points with q (for the upper wall; its conjugate for the lower one) and p.
+    fn moments(&mut self, points: &WallPoints, target_gap: f64, source: impl Fn(usize) -> (Complex64, f64)) {
+        let (k, exponent, modes) = (self.k, self.exponent, self.modes);
+        for ((side, sums), sign) in points.sides.iter().zip(&mut self.sums).zip([1.0, -1.0]) {
+            sums.clear();
+            sums.resize(modes.div_ceil(LANES), Sums::default());
+            for (j, powers) in side.iter().enumerate() {
+                let needed = exponent / (k * (powers.distance + target_gap).max(1e-300));
+                let chunks = (needed.min(modes as f64) as usize / LANES + 1).min(sums.len());
+                let (q, p) = source(j);
+                let (q_re, q_im) = (q.re, sign * q.im);
+                let mut powers = *powers;
+                let first = k * powers.distance;
+                let mut depth: Lanes = std::array::from_fn(|lane| first * (lane + 1) as f64);
+                for sum in &mut sums[..chunks] {
+                    let Sums { plain: [a_re, a_im], mixed: [b_re, b_im] } = sum;
+                    for lane in 0..LANES {
+                        // The phase of a source is the conjugate of that of a target.
+                        let (re, im) = (powers.re[lane], -powers.im[lane]);
+                        let (c_re, c_im) = (p - depth[lane] * q_re, -depth[lane] * q_im);
+                        a_re[lane] += re * q_re - im * q_im;
+                        a_im[lane] += re * q_im + im * q_re;
+                        b_re[lane] += re * c_re - im * c_im;
+                        b_im[lane] += re * c_im + im * c_re;
+                        depth[lane] += first * LANES as f64;
+                    }
+                    powers.advance();
+                }
+            }
+        }
+    }
+
+    /// Adds forces (times weight) at points; `target_gap` as in [`WallModes::begin`].
+    pub(crate) fn add_forces(&mut self, points: &WallPoints, target_gap: f64, forces: impl Fn(usize) -> Complex64) {
+        self.moments(points, target_gap, |j| (forces(j), forces(j).re));
+        for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
+            for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
+                let [plain, mixed] = Sums::of(sums, n);
+                let inverse = 1.0 / (n + 1) as f64;
+                slip.u += mixed * inverse;
+                slip.v += I * (mixed - plain) * (side * inverse);
+            }
+        }
+        let (c, h) = (self.k, self.half);
+        let (mut s0, mut s1, mut s2) = (0.0, 0.0, 0.0);
+        for (j, y) in points.y.iter().enumerate() {
+            let fx = forces(j).re;
+            s0 += fx;
+            s1 += y * fx;
+            s2 += (h * h - y * y) * fx;
+        }
+        self.mean[0] += (c * h - 1.0) * s0;
+        self.mean[1] -= c / h * s1;
+        if self.zero_flux {
+            self.mean[2] -= 0.75 * c / (h * h * h) * s2;
+        }
+    }
+
+    /// Adds dipoles: (v_x n_x, v_x n_y + v_y n_x, v_y n_y) times weight at points, with x measured from anywhere as
+    /// long as the flux through the curve is zero.
+    pub(crate) fn add_dipoles(
+        &mut self,
+        points: &WallPoints,
+        target_gap: f64,
+        dipoles: impl Fn(usize) -> [f64; 3],
+        x: impl Fn(usize) -> f64,
+    ) {
+        self.moments(points, target_gap, |j| {
+            let [xx, mixed, yy] = dipoles(j);
+            (Complex64::new(xx - yy, mixed), xx + yy)
+        });
+        for ((sums, slips), side) in self.sums.iter().zip(&mut self.slips).zip([1.0, -1.0]) {
+            for (n, slip) in slips.iter_mut().enumerate().take(self.modes) {
+                let [plain, mixed] = Sums::of(sums, n);
+                slip.u -= I * (plain + mixed) * (2.0 * self.k);
+                slip.v += mixed * (2.0 * side * self.k);
+            }
+        }
+        let (c, h) = (self.k, self.half);
+        let (mut shear, mut moment) = (0.0, 0.0);
+        for (j, y) in points.y.iter().enumerate() {
+            let [xx, mixed, yy] = dipoles(j);
+            shear += mixed;
+            moment += y * mixed - x(j) * (xx + yy);
+        }
+        self.mean[1] -= c / h * shear;
+        if self.zero_flux {
+            self.mean[2] += 1.5 * c / (h * h * h) * moment;
+        }
+    }
+
+    /// Solves for the series that cancels the velocity of the sources at the walls.
+    pub(crate) fn solve(&mut self) {
+        let chunks = self.modes.div_ceil(LANES);
+        for coefficients in &mut self.coefficients {
+            coefficients.clear();
+            coefficients.resize(chunks, Coefficients::default());
+        }
+        for n in 0..self.modes {
+            let k = self.k * (n + 1) as f64;
+            let [upper, lower] = [self.slips[0][n], self.slips[1][n]];
+            let (psi_upper, psi_lower) = (-I * upper.v / k, -I * lower.v / k);
+            let (slope_upper, slope_lower) = (-upper.u, -lower.u);
+            let (pe, po) = (0.5 * (psi_upper + psi_lower), 0.5 * (psi_upper - psi_lower));
+            let (qe, qo) = (0.5 * (slope_upper - slope_lower), 0.5 * (slope_upper + slope_lower));
+            let Factors { even, odd } = self.factors[n];
+            let (a, b) = (pe * even[0] + qe * even[1], qe * even[2] - pe * even[3]);
+            let (c, d) = (po * odd[0] - qo * odd[1], qo * odd[2] - po * odd[3]);
+            for (side, sign) in [(0, 0.5), (1, -0.5)] {
+                let (r, b) = ((0.5 * a + sign * c) * k, 0.5 * b + sign * d);
+                let slot = &mut self.coefficients[side][n / LANES];
+                for (array, value) in [(&mut slot.sum, r + b), (&mut slot.plain, r), (&mut slot.linear, b * k)] {
+                    (array[0][n % LANES], array[1][n % LANES]) = (value.re, value.im);
+                }
+            }
+        }
+    }
+
+    /// Adds the velocity of the correction at points by `add(index, u, v)`; `source_gap` as in [`WallModes::begin`].
+    pub(crate) fn velocities(&self, points: &WallPoints, source_gap: f64, mut add: impl FnMut(usize, f64, f64)) {
+        for (i, y) in points.y.iter().enumerate() {
+            let (mut u, mut v) = (self.mean_velocity(*y), 0.0);
+            for (side, sign) in [(0, 1.0), (1, -1.0)] {
+                let mut powers = points.sides[side][i];
+                let s = powers.distance;
+                let coefficients = &self.coefficients[side];
+                let needed = self.exponent / (self.k * (s + source_gap).max(1e-300));
+                let chunks = (needed.min(self.modes as f64) as usize / LANES + 1).min(coefficients.len());
+                let [mut sum, mut plain, mut linear_re, mut linear_im] = [[0.0; LANES]; 4];
+                for c in &coefficients[..chunks] {
+                    for lane in 0..LANES {
+                        let (re, im) = (powers.re[lane], powers.im[lane]);
+                        sum[lane] += re * c.sum[0][lane] - im * c.sum[1][lane];
+                        plain[lane] += re * c.plain[1][lane] + im * c.plain[0][lane];
+                        linear_re[lane] += re * c.linear[0][lane] - im * c.linear[1][lane];
+                        linear_im[lane] += re * c.linear[1][lane] + im * c.linear[0][lane];
+                    }
+                    powers.advance();
+                }
+                let [sum, plain, linear_re, linear_im] =
+                    [sum, plain, linear_re, linear_im].map(|lanes| lanes.iter().sum::<f64>());
+                u += sign * (sum - s * linear_re);
+                v += plain - s * linear_im;
+            }
+            add(i, u, v);
+        }
+    }
+
+    pub(crate) fn mean_velocity(&self, y: f64) -> f64 {
+        self.mean[0] + self.mean[1] * y + self.mean[2] * (self.half * self.half - y * y)
+    }
+}
+
+const I: Complex64 = Complex64::new(0.0, 1.0);
+
+/// Solution of the biharmonic equation between the walls for given values and slopes, split into even and odd parts and
+/// scaled by exp(-k half) to stay finite.
+fn factors(k: f64, half: f64) -> Factors {
+    let kh = k * half;
+    let decay = (-2.0 * kh).exp();
+    let (sinh, cosh) = (0.5 * (1.0 - decay), 0.5 * (1.0 + decay));
+    let even = 0.25 * (1.0 - decay * decay) + kh * decay;
+    let z = 2.0 * kh;
+    let odd = if z < 0.5 {
+        // (sinh z - z)/2 by its series, since the difference of the two cancels.
+        let mut term = z * z * z / 6.0;
+        let mut sum = term;
+        for j in 2..12 {
+            term *= z * z / f64::from(2 * j * (2 * j + 1));
+            sum += term;
+        }
+        0.5 * sum * (-z).exp()
+    } else {
+        0.25 * (1.0 - decay * decay) - kh * decay
+    };
+    Factors {
+        even: [sinh + kh * decay, half * decay, cosh, k * sinh].map(|value| value / even),
+        odd: [cosh - kh * decay, half * decay, sinh, k * cosh].map(|value| value / odd),
+    }
+}
+
+#[cfg(test)]
+mod tests;

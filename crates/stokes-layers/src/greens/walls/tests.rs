@@ -1,0 +1,79 @@
+//! Green's function of a channel against the Stokes equations and its walls.
+
+use super::*;
+use crate::greens::{Flow, GreensFunction};
+
+/// Velocity and gradient at a target by a unit force at a source, times 4 pi viscosity.
+fn greens_function(modes: &mut WallModes, target: [f64; 2], source: [f64; 2], force: Complex64) -> (Complex64, Flow) {
+    let (mut from, mut to) = (WallPoints::default(), WallPoints::default());
+    from.push(modes, source[0], source[1]);
+    to.push(modes, target[0], target[1]);
+    modes.begin(from.gap(), to.gap(), 1e-15);
+    modes.add_forces(&from, to.gap(), |_| force);
+    modes.solve();
+    let walls = modes.flow(&to, 0);
+    let mut row = Flow::default();
+    let d = Complex64::new(source[0] - target[0], source[1] - target[1]);
+    row.add_force(&GreensFunction::Row { k: modes.k }.at(d), force, 1.0);
+    let mut fast = Complex64::default();
+    modes.velocities(&to, from.gap(), |_, u, v| fast = Complex64::new(u, v));
+    assert!((fast - walls.velocity).norm() < 1e-11, "{fast} {}", walls.velocity);
+    (row.velocity + walls.velocity, walls)
+}
+
+#[test]
+fn greens_function_of_a_channel() {
+    // channel_greens_function.csv: period 4, width 2; zero flux, target, source, (Gxx, Gxy, Gyx, Gyy).
+    let table = [
+        (false, [0.5, 0.3], [0.0, 0.0], [1.1784861392876, 0.44573020238905, 0.2745808454774, -0.046810182975054]),
+        (false, [0.1, 0.05], [0.0, 0.0], [2.7597646762562, 0.40098683955777, 0.3933797966449, 1.2832398475756]),
+        (false, [1.9, -0.6], [0.0, 0.4], [0.60845732698052, -0.01223564484989, -0.0066381849594813, -0.02968392467597]),
+        (false, [0.0, 0.75], [0.0, 0.2], [0.1874090388085, 0.0, 0.0, 0.26449726269913]),
+        (false, [-0.7, -0.85], [-0.6, -0.8], [1.4982178003109, 0.60070494851271, 0.12361745052196, 0.070804536013316]),
+        (false, [2.0, 0.0], [0.0, 0.0], [1.1789380383492, 0.0, 0.0, -0.12475063742573]),
+        (false, [0.3, 0.95], [0.2, 0.93], [0.92305173530545, 0.39248444104763, -0.17181458083639, -0.17705677679815]),
+        (true, [0.5, 0.3], [0.0, 0.0], [0.10641764625007, 0.44573020238905, 0.2745808454774, -0.046810182975054]),
+        (true, [0.1, 0.05], [0.0, 0.0], [1.5846126742728, 0.40098683955777, 0.3933797966449, 1.2832398475756]),
+        (
+            true,
+            [1.9, -0.6],
+            [0.0, 0.4],
+            [-0.024887751983179, -0.01223564484989, -0.0066381849594813, -0.02968392467597],
+        ),
+        (true, [0.0, 0.75], [0.0, 0.2], [-0.30739180413189, 0.0, 0.0, 0.26449726269913]),
+        (true, [-0.7, -0.85], [-0.6, -0.8], [1.3805258855258, 0.60070494851271, 0.12361745052196, 0.070804536013316]),
+        (true, [2.0, 0.0], [0.0, 0.0], [0.00084079325303654, 0.0, 0.0, -0.12475063742573]),
+        (true, [0.3, 0.95], [0.2, 0.93], [0.90753354386873, 0.39248444104763, -0.17181458083639, -0.17705677679815]),
+    ];
+    for (zero_flux, target, source, [xx, xy, yx, yy]) in table {
+        let mut modes = WallModes::new(4.0, 1.0, zero_flux);
+        let (x, _) = greens_function(&mut modes, target, source, Complex64::new(1.0, 0.0));
+        let (y, _) = greens_function(&mut modes, target, source, I);
+        let error = (x - Complex64::new(xx, yx)).norm().max((y - Complex64::new(xy, yy)).norm());
+        assert!(error < 1e-12, "{target:?} {source:?}: {error:e}");
+    }
+}
+
+#[test]
+fn gradient_and_pressure_satisfy_the_stokes_equations() {
+    let mut modes = WallModes::new(5.0, 1.2, true);
+    let (source, force) = ([0.3, 0.5], Complex64::new(0.6, -0.8));
+    let step = 1e-4;
+    let mut at = |dx: f64, dy: f64| greens_function(&mut modes, [0.9 + dx, -0.4 + dy], source, force).1;
+    let centre = at(0.0, 0.0);
+    let (east, west) = (at(step, 0.0), at(-step, 0.0));
+    let (north, south) = (at(0.0, step), at(0.0, -step));
+    let scale = 0.5 / step;
+    let velocity = |flow: &Flow| [flow.velocity.re, flow.velocity.im];
+    for i in 0..2 {
+        let difference = |a: &Flow, b: &Flow| scale * (velocity(a)[i] - velocity(b)[i]);
+        assert!((centre.gradient()[i][0] - difference(&east, &west)).abs() < 1e-7);
+        assert!((centre.gradient()[i][1] - difference(&north, &south)).abs() < 1e-7);
+    }
+    let slope = |flow: &Flow, i: usize, j: usize| scale * flow.gradient()[i][j];
+    let laplacian = |i: usize| slope(&east, i, 0) - slope(&west, i, 0) + slope(&north, i, 1) - slope(&south, i, 1);
+    // The mean pressure gradient is not part of the pressure.
+    let mean = 1.5 * modes.k / 1.2f64.powi(3) * (1.2f64.powi(2) - 0.25) * force.re;
+    assert!((scale * (east.pressure - west.pressure) + mean - laplacian(0)).abs() < 1e-7);
+    assert!((scale * (north.pressure - south.pressure) - laplacian(1)).abs() < 1e-7);
+}

@@ -1,0 +1,380 @@
+//! The flow of fluid interfaces: velocities on them from the forces on them, for any viscosity inside and outside.
+
+use std::f64::consts::PI;
+
+use num_complex::Complex64;
+
+use crate::{
+    LayerError, Region, Settings, Vec2,
+    error::{positive, same_length, within},
+    gmres::{Gmres, Outcome},
+    greens::{Flow, Vectors},
+    layer::{Density, Layers},
+};
+
+const FOUR_PI: f64 = 4.0 * PI;
+/// Largest ratio of the periods of a box.
+const LARGEST_RATIO: f64 = 20.0;
+
+/// A closed interface as points of equally spaced parameters: point k of n belongs to the parameter 2 pi k/n.
+#[derive(Debug, Clone, Copy)]
+pub struct Interface<'a> {
+    /// Points, counter-clockwise, at least as many as the settings have nodes (length).
+    pub positions: &'a [Vec2],
+    /// Force on the fluid at each point (force): the force per length times the length that belongs to the point.
+    pub forces: &'a [Vec2],
+    /// Viscosity inside (stress times time).
+    pub viscosity: f64,
+}
+
+/// What a solution needed and found.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Solution {
+    /// Iterations; none where all viscosities are equal.
+    pub iterations: usize,
+    /// Relative residual.
+    pub residual: f64,
+    /// Mean pressure gradient along a channel (force per volume).
+    pub pressure_gradient: f64,
+}
+
+/// The flow at a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlowSample {
+    /// Velocity (length per time).
+    pub velocity: Vec2,
+    /// Pressure (force per length in 2D), periodic part.
+    pub pressure: f64,
+    /// Velocity gradient `[[du/dx, du/dy], [dv/dx, dv/dy]]` (1/time).
+    pub gradient: [[f64; 2]; 2],
+}
+
+impl Default for FlowSample {
+    fn default() -> Self {
+        Self { velocity: Vec2::zeros(), pressure: 0.0, gradient: [[0.0; 2]; 2] }
+    }
+}
+
+/// What one solution leaves for the next.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct WarmStart {
+    /// Velocities at the nodes, x then y, interface after interface.
+    pub velocities: Vec<f64>,
+    /// Directions of earlier iterations; see [`Gmres::save`].
+    pub directions: Vec<f64>,
+}
+
+/// Stokes flow of closed fluid interfaces.
+///
+/// The velocity at an interface with force per length F on it is (Pozrikidis, Boundary Integral and Singularity
+/// Methods, 1992)
+///
+/// ```text
+/// (eta_in + eta_out)/2 v(x) = 1/(4 pi) INT G(x, y) F(y) ds - (eta_in - eta_out)/(4 pi) INT v(y) T(x, y) n ds
+/// ```
+///
+/// with the Green's function G of the region and its stress T; n points outward. The single layer is integrated by the
+/// rule of Kress, the double layer by the trapezoidal rule, both on `nodes` equally spaced values of the parameter, so
+/// that errors fall faster than any power of the number of nodes. Where viscosities differ the equation is solved by
+/// GMRES. Nodes close to another interface get a quadrature of their own, so that gaps are limited by what the film
+/// between them needs, not by the kernel.
+///
+/// [`InterfaceFlow::load`], [`InterfaceFlow::solve`], then [`InterfaceFlow::velocities`] on the interfaces and
+/// [`InterfaceFlow::sample`] anywhere. While the numbers of interfaces and points stay the same nothing is allocated.
+#[derive(Debug, Clone)]
+pub struct InterfaceFlow {
+    region: Region,
+    viscosity: f64,
+    settings: Settings,
+    layers: Layers,
+    gmres: Gmres,
+    /// Inside, and inside minus outside, interface by interface.
+    viscosities: Vec<f64>,
+    contrasts: Vec<f64>,
+    /// 2/(inside + outside).
+    scales: Vec<f64>,
+    /// Velocities at the nodes, x then y, interface after interface: those last solved for, from which the next
+    /// solution starts, and those of the present interfaces.
+    solution: Vec<f64>,
+    velocities: Vec<f64>,
+    right: Vec<f64>,
+    /// Unit normals at the nodes, as velocities.
+    normals: Vec<f64>,
+    deflation: Vec<f64>,
+}
+
+impl InterfaceFlow {
+    /// For exterior fluid of the given viscosity (stress times time).
+    ///
+    /// # Errors
+    /// A viscosity or a length that is not positive and finite, periods of which one is more than 20 times the other,
+    /// settings out of their range.
+    pub fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
+        positive("the viscosity", viscosity)?;
+        region.check()?;
+        if let Region::Box { lengths: [lx, ly] } = region {
+            within("the ratio of the periods", lx.max(ly) / lx.min(ly), 1.0, LARGEST_RATIO)?;
+        }
+        settings.check()?;
+        Ok(Self {
+            region,
+            viscosity,
+            settings,
+            layers: Layers::new(region, settings.nodes, settings.tolerance),
+            gmres: Gmres::recycling(),
+            viscosities: Vec::new(),
+            contrasts: Vec::new(),
+            scales: Vec::new(),
+            solution: Vec::new(),
+            velocities: Vec::new(),
+            right: Vec::new(),
+            normals: Vec::new(),
+            deflation: Vec::new(),
+        })
+    }
+
+    /// The region.
+    #[must_use]
+    pub fn region(&self) -> &Region {
+        &self.region
+    }
+
+    /// Viscosity of the exterior fluid (stress times time).
+    #[must_use]
+    pub fn viscosity(&self) -> f64 {
+        self.viscosity
+    }
+
+    /// Resolution and accuracy.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Number of interfaces.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.layers.curves.len()
+    }
+
+    /// Whether there are no interfaces.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.layers.curves.is_empty()
+    }
+
+    /// Length of an interface (length), none where there is no interface of that number.
+    #[must_use]
+    pub fn perimeter(&self, interface: usize) -> Option<f64> {
+        self.layers.curves.get(interface).map(crate::curve::Curve::perimeter)
+    }
+
+    /// Takes over interfaces, truncated to the modes that the nodes carry.
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite, positions or forces that are not finite, too few or too many
+    /// points, a clockwise curve, a node beyond a wall.
+    pub fn load<'a>(&mut self, interfaces: impl Iterator<Item = Interface<'a>> + Clone) -> Result<(), LayerError> {
+        self.viscosities.clear();
+        self.contrasts.clear();
+        self.scales.clear();
+        for Interface { viscosity, .. } in interfaces.clone() {
+            positive("the viscosity inside an interface", viscosity)?;
+            self.viscosities.push(viscosity);
+            self.contrasts.push(viscosity - self.viscosity);
+            self.scales.push(2.0 / (viscosity + self.viscosity));
+        }
+        self.layers.load(interfaces.map(|Interface { positions, forces, .. }| [positions, forces]))
+    }
+
+    /// Solves for the velocities on the interfaces.
+    ///
+    /// # Errors
+    /// No convergence.
+    pub fn solve(&mut self) -> Result<Solution, LayerError> {
+        if self.is_empty() {
+            self.velocities.clear();
+            return Ok(Solution::default());
+        }
+        let nodes = self.settings.nodes;
+        let contrast = self.contrasts.iter().any(|contrast| *contrast != 0.0);
+        // Right-hand side and guess: the single layer and the forced flow over the mean viscosity.
+        self.right.clear();
+        self.layers.single_layer(contrast);
+        for (Vectors { x, y }, scale) in self.layers.flow().iter().zip(&self.scales) {
+            self.right.extend(x.iter().chain(y).map(|value| value / FOUR_PI * scale));
+        }
+        for (index, (curve, scale)) in self.layers.curves.iter().zip(&self.scales).enumerate() {
+            let right = &mut self.right[2 * nodes * index..][..nodes];
+            for (value, z) in right.iter_mut().zip(&curve.nodes.position) {
+                *value += self.layers.forced_flow(z.im + curve.centre.im, self.viscosity) * self.viscosity * scale;
+            }
+        }
+        let cold = !self.settings.warm_start || self.solution.len() != self.right.len();
+        if cold || !contrast {
+            self.solution.clone_from(&self.right);
+        }
+        let mut outcome = Outcome::default();
+        if contrast {
+            if cold {
+                self.gmres.forget();
+            }
+            outcome = self.solve_contrast().inspect_err(|_| self.solution.clear())?;
+        }
+        self.velocities.clone_from(&self.solution);
+        let density = Density { values: &self.velocities, contrasts: &self.contrasts };
+        let Outcome { iterations, residual } = outcome;
+        Ok(Solution { iterations, residual, pressure_gradient: self.layers.pressure_gradient(density, self.viscosity) })
+    }
+
+    fn solve_contrast(&mut self) -> Result<Outcome, LayerError> {
+        let Settings { tolerance, most_iterations, .. } = self.settings;
+        self.normals.clear();
+        self.deflation.clear();
+        let mut goal = tolerance;
+        for ((curve, viscosity), scale) in self.layers.curves.iter().zip(&self.viscosities).zip(&self.scales) {
+            // A rigid motion is multiplied by eta_out alone, so a residual in it counts that much more.
+            goal = goal.min(tolerance * self.viscosity * scale);
+            // A uniform expansion is multiplied by eta_in alone. The velocity has none, so the operator may do with it
+            // as it likes: what is added makes the factor that of the rest.
+            self.deflation.push((1.0 - viscosity * scale).max(0.0) / curve.perimeter());
+            // Not `norm`, whose care for overflow is slow.
+            self.normals.extend(curve.nodes.tangent.iter().map(|t| t.im / t.norm_sqr().sqrt()));
+            self.normals.extend(curve.nodes.tangent.iter().map(|t| -t.re / t.norm_sqr().sqrt()));
+        }
+        goal = goal.max(1e-15);
+        let Self { gmres, layers, contrasts, scales, right, solution, normals, deflation, .. } = self;
+        let operator = Operator { contrasts, scales, normals, deflation };
+        let product = |v: &[f64], out: &mut [f64], accuracy: f64| {
+            operator.apply(layers, v, accuracy.max(tolerance), out);
+        };
+        let outcome = gmres.solve(product, right, solution, goal, most_iterations);
+        let Outcome { iterations, residual } = outcome;
+        if residual <= goal {
+            Ok(outcome)
+        } else {
+            Err(LayerError::NoConvergence { iterations, residual, tolerance: goal })
+        }
+    }
+
+    /// Velocities (length per time) at the points of an interface from the last solution, with the modes that the nodes
+    /// carry alone.
+    ///
+    /// # Errors
+    /// No such interface or no solution for it, another number of points, velocities that are not finite.
+    pub fn velocities(&mut self, interface: usize, out: &mut [Vec2]) -> Result<(), LayerError> {
+        let nodes = self.settings.nodes;
+        let expected = self.layers.curves.get(interface).map_or(0, |curve| curve.points);
+        same_length("the velocities of an interface", out.len(), expected)?;
+        same_length("the solution", self.velocities.len(), 2 * nodes * self.len())?;
+        self.layers.transforms.at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out);
+        finite_vectors("the velocity", interface, out)
+    }
+
+    /// Takes over velocities at the points of an interface, as if they were the solution.
+    ///
+    /// # Errors
+    /// No such interface, another number of points, velocities that are not finite.
+    pub fn set_velocities(&mut self, interface: usize, values: &[Vec2]) -> Result<(), LayerError> {
+        let nodes = self.settings.nodes;
+        let expected = self.layers.curves.get(interface).map_or(0, |curve| curve.points);
+        same_length("the velocities of an interface", values.len(), expected)?;
+        finite_vectors("the velocity", interface, values)?;
+        self.velocities.resize(2 * nodes * self.len(), 0.0);
+        self.layers.transforms.at_nodes(values, &mut self.velocities[2 * nodes * interface..][..2 * nodes]);
+        Ok(())
+    }
+
+    /// The flow at points anywhere, at any distance from the interfaces, for the velocities that were solved for or
+    /// set.
+    ///
+    /// # Errors
+    /// Points that are not finite, slices of different length, no solution.
+    pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), LayerError> {
+        same_length("out", out.len(), points.len())?;
+        finite_vectors("the position", 0, points)?;
+        same_length("the solution", self.velocities.len(), 2 * self.settings.nodes * self.len())?;
+        let Self { layers, viscosities, contrasts, velocities, .. } = self;
+        let density = Density { values: velocities, contrasts };
+        let points = points.iter().map(|point| Complex64::new(point.x, point.y));
+        layers.prepare_points(density, points.clone());
+        for (index, (point, out)) in points.zip(out).enumerate() {
+            let (flow, inside) = layers.flow_at(index, point, density);
+            let viscosity = inside.map_or(self.viscosity, |interface| viscosities[interface]);
+            *out = flow_sample(&flow, viscosity);
+            // The forced flow is a parabola, so this difference is its slope.
+            let forced = |y: f64| layers.forced_flow(y, self.viscosity) * self.viscosity / viscosity;
+            out.velocity.x += forced(point.im);
+            out.gradient[0][1] += 0.5 * (forced(point.im + 1.0) - forced(point.im - 1.0));
+        }
+        Ok(())
+    }
+
+    /// What the next solution depends on besides the interfaces.
+    #[must_use]
+    pub fn warm_start(&self) -> WarmStart {
+        let directions = if self.gmres.len() == self.solution.len() { self.gmres.save() } else { Vec::new() };
+        WarmStart { velocities: self.solution.clone(), directions }
+    }
+
+    /// Continues from what another solution left; what does not fit is ignored.
+    pub fn resume(&mut self, WarmStart { velocities, directions }: WarmStart) {
+        self.gmres.restore(velocities.len(), &directions);
+        self.solution = velocities;
+    }
+}
+
+/// The left-hand side of the equation over the mean viscosity of each interface.
+struct Operator<'a> {
+    contrasts: &'a [f64],
+    scales: &'a [f64],
+    normals: &'a [f64],
+    deflation: &'a [f64],
+}
+
+impl Operator<'_> {
+    /// `out = v + scale/(4 pi) double layer + deflation`.
+    fn apply(&self, layers: &mut Layers, v: &[f64], accuracy: f64, out: &mut [f64]) {
+        let density = Density { values: v, contrasts: self.contrasts };
+        let nodes = density.nodes();
+        layers.double_layer(density, accuracy);
+        for (index, (curve, sum)) in layers.curves.iter().zip(layers.flow()).enumerate() {
+            let range = 2 * nodes * index..2 * nodes * (index + 1);
+            let (x, y) = out[range.clone()].split_at_mut(nodes);
+            let (vx, vy) = density.of(index);
+            let (nx, ny) = self.normals[range].split_at(nodes);
+            let factor = self.scales[index] / FOUR_PI;
+            let growth = if self.deflation[index] > 0.0 {
+                let tangents = &curve.nodes.tangent;
+                let flux: f64 = (0..nodes).map(|i| (vx[i] * nx[i] + vy[i] * ny[i]) * tangents[i].norm()).sum();
+                self.deflation[index] * flux * curve.weight()
+            } else {
+                0.0
+            };
+            for i in 0..nodes {
+                x[i] = vx[i] + factor * sum.x[i] + growth * nx[i];
+                y[i] = vy[i] + factor * sum.y[i] + growth * ny[i];
+            }
+        }
+    }
+}
+
+fn finite_vectors(what: &'static str, curve: usize, values: &[Vec2]) -> Result<(), LayerError> {
+    match values.iter().position(|value| !(value.x.is_finite() && value.y.is_finite())) {
+        Some(point) => Err(LayerError::NonFinite { what, curve, point, x: values[point].x, y: values[point].y }),
+        None => Ok(()),
+    }
+}
+
+fn flow_sample(flow: &Flow, viscosity: f64) -> FlowSample {
+    let factor = 1.0 / FOUR_PI;
+    let scale = factor / viscosity;
+    FlowSample {
+        velocity: Vec2::new(flow.velocity.re * scale, flow.velocity.im * scale),
+        pressure: flow.pressure * factor,
+        gradient: flow.gradient().map(|row| row.map(|slope| slope * scale)),
+    }
+}
+
+#[cfg(test)]
+mod tests;

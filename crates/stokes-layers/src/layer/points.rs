@@ -1,0 +1,127 @@
+//! Layers at points anywhere.
+
+use num_complex::Complex64;
+
+use crate::{
+    close::{CloseWeights, reach},
+    curve::REFINEMENT,
+    greens::{Flow, Kernels, free},
+};
+
+use super::{Density, Layers};
+
+/// Room for the flow at points.
+#[derive(Debug, Clone)]
+pub(crate) struct PointSums {
+    /// Distance in spacings below which a point is close to a curve.
+    reach: f64,
+    weights: CloseWeights,
+    /// The point relative to the images of a curve that it is close to.
+    close: Vec<Complex64>,
+    /// The mean flow of a box.
+    mean: Complex64,
+}
+
+impl PointSums {
+    pub(crate) fn new(weights: CloseWeights, tolerance: f64) -> Self {
+        Self { reach: reach(tolerance), weights, close: Vec::new(), mean: Complex64::default() }
+    }
+}
+
+impl Layers {
+    /// Prepares for [`Layers::flow_at`] at these points.
+    pub(crate) fn prepare_points(&mut self, density: Density<'_>, points: impl Iterator<Item = Complex64>) {
+        self.curves.iter_mut().for_each(|curve| curve.refine(&mut self.transforms));
+        self.refine(density);
+        self.points.mean = self.mean_flow(density).unwrap_or_default();
+        if let Some(walls) = &mut self.walls {
+            walls.prepare_points(&self.curves, density, &self.fine, points);
+        }
+    }
+
+    /// The flow at the point of that number, and the curve that it lies inside of: the single layer less the double
+    /// layer.
+    pub(crate) fn flow_at(&mut self, index: usize, point: Complex64, density: Density<'_>) -> (Flow, Option<usize>) {
+        let mut flow = Flow::default();
+        let mut inside = None;
+        let images = self.region.images();
+        for body in 0..self.curves.len() {
+            let apart = images.wrap(point - self.curves[body].centre);
+            let distance = self.points.reach * self.curves[body].spacing();
+            self.points.close.clear();
+            for shift in images.shifts() {
+                let point = apart + shift;
+                let curve = &self.curves[body];
+                if point.norm() > curve.radius + distance {
+                    continue;
+                }
+                let is_close = |z: &Complex64| (z - point).norm_sqr() < distance * distance;
+                let side = if curve.nodes.position.iter().any(is_close) {
+                    self.points.close.push(point);
+                    self.add_close(body, point, density.contrasts[body], &mut flow)
+                } else {
+                    None
+                };
+                if side.unwrap_or_else(|| self.curves[body].winds_around(point)) {
+                    inside = Some(body);
+                }
+            }
+            self.add_nodes(body, apart, density, &mut flow);
+        }
+        match &self.walls {
+            Some(walls) => walls.add_flow(index, &mut flow),
+            None => flow.velocity += self.points.mean,
+        }
+        (flow, inside)
+    }
+
+    /// Adds the flow of one image of a curve by the quadrature for close points, and tells the side if the point is
+    /// close to the fine nodes as well.
+    fn add_close(&mut self, body: usize, point: Complex64, contrast: f64, flow: &mut Flow) -> Option<bool> {
+        let Self { curves, transforms, points: PointSums { weights, reach, .. }, .. } = self;
+        let curve = &curves[body];
+        let len = REFINEMENT * curve.len();
+        let inside = weights.find(curve, transforms, point, *reach);
+        let velocities = &self.fine[body * len..(body + 1) * len];
+        // The double layer of a constant is known: with the velocity of the nearest node taken off, nothing is divided
+        // by a small distance.
+        let constant = if inside.is_some() { velocities[weights.nearest()] } else { Complex64::default() };
+        if inside == Some(true) {
+            flow.velocity += constant * (4.0 * std::f64::consts::PI * contrast);
+        }
+        let weight = contrast * curve.weight() / REFINEMENT as f64;
+        for (j, velocity) in velocities.iter().enumerate() {
+            let k = weights.kernels(j);
+            flow.add_force(&k, curve.fine.force[j], 1.0);
+            flow.add_dipole(&k, velocity - constant, curve.fine.tangent[j] * weight, 1.0);
+        }
+        inside
+    }
+
+    /// Adds the flow of the nodes of a curve and of all its images but the close ones, which have been added.
+    fn add_nodes(&self, body: usize, apart: Complex64, density: Density<'_>, flow: &mut Flow) {
+        let curve = &self.curves[body];
+        let weight = curve.weight() * density.contrasts[body];
+        let (vx, vy) = density.of(body);
+        let images = self.region.images();
+        for (i, z) in curve.nodes.position.iter().enumerate() {
+            let nearest = images.wrap(z - apart);
+            let mut add = |k: &Kernels, sign: f64| {
+                flow.add_force(k, curve.nodes.force[i], sign);
+                if weight != 0.0 {
+                    flow.add_dipole(k, Complex64::new(vx[i], vy[i]), curve.nodes.tangent[i] * weight, sign);
+                }
+            };
+            let mut own = false;
+            for point in &self.points.close {
+                let d = z - point;
+                if (d - nearest).norm_sqr() < 1e-20 * curve.radius * curve.radius {
+                    own = true;
+                } else {
+                    add(&free(d), -1.0);
+                }
+            }
+            add(&if own { self.greens.images(nearest) } else { self.greens.at(nearest) }, 1.0);
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! Sums of Green's functions that have a [`Series`], by moments.
+//!
+//! With distances as `D + z - z'`, target and source each taken from the centre of its curve, the powers of z - z'
+//! separate by the binomial theorem: the sources enter by a few moments, and the flow is a polynomial. The cost grows
+//! with the number of nodes, not with its square.
+
+use std::f64::consts::PI;
+
+use num_complex::Complex64;
+
+use crate::greens::Vectors;
+
+use super::series::Series;
+
+/// Moments of sources about a point, k = 0 .. degree, with lengths in a unit of their own.
+#[derive(Debug, Default, Clone)]
+pub(crate) struct Moments {
+    /// Sum of F z^k.
+    plain: Vec<Complex64>,
+    /// Sum of conj(F) z^k.
+    conjugate: Vec<Complex64>,
+    /// Sum of F conj(z) z^k.
+    mixed: Vec<Complex64>,
+    /// Sum of (v.n) z^k, of dipoles alone.
+    flux: Vec<Complex64>,
+}
+
+impl Moments {
+    pub(crate) fn clear(&mut self, degree: usize) {
+        for family in [&mut self.plain, &mut self.conjugate, &mut self.mixed, &mut self.flux] {
+            family.clear();
+            family.resize(degree + 1, Complex64::default());
+        }
+    }
+}
+
+/// The flow near a point as `P(z) + conj Q(z) + z conj R(z)`, R = -P', and terms of second order.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Expansion {
+    p: Vectors,
+    q: Vectors,
+    r: Vectors,
+    low: Low,
+    power: Vectors,
+    columns: [Vec<f64>; 5],
+    accumulators: [Vectors; 3],
+}
+
+impl Expansion {
+    /// Moments of forces at `positions` about their origin.
+    pub(crate) fn forces(&mut self, unit: f64, positions: &[Complex64], forces: &[Complex64], out: &mut Moments) {
+        let [fx, fy, gx, gy, _] = &mut self.columns;
+        resize([&mut *fx, fy, gx, gy], positions.len());
+        for (i, (z, f)) in positions.iter().zip(forces).enumerate() {
+            let g = f * z.conj() / unit;
+            (fx[i], fy[i], gx[i], gy[i]) = (f.re, f.im, g.re, g.im);
+        }
+        start(&mut self.power, positions.len());
+        let degree = out.plain.len();
+        for k in 0..degree {
+            let [fx, fy, gx, gy, _] = &self.columns;
+            let (xr, xi) = dot(fx, &self.power);
+            let (yr, yi) = dot(fy, &self.power);
+            out.plain[k] = Complex64::new(xr - yi, xi + yr);
+            out.conjugate[k] = Complex64::new(xr + yi, xi - yr);
+            let (xr, xi) = dot(gx, &self.power);
+            let (yr, yi) = dot(gy, &self.power);
+            out.mixed[k] = Complex64::new(xr - yi, xi + yr);
+            out.flux[k] = Complex64::default();
+            advance(&mut self.power, positions, unit);
+        }
+    }
+
+    /// Moments of the double layer: `products` holds v n and `fluxes` v.n, both times their weight. Force F along v
+    /// with a derivative along n, and the reverse.
+    pub(crate) fn dipoles(
+        &mut self,
+        unit: f64,
+        positions: &[Complex64],
+        products: &[Complex64],
+        fluxes: &[f64],
+        out: &mut Moments,
+    ) {
+        let [ax, ay, cx, cy, b] = &mut self.columns;
+        resize([&mut *ax, ay, cx, cy], positions.len());
+        b.clear();
+        b.extend_from_slice(fluxes);
+        for (i, (z, a)) in positions.iter().zip(products).enumerate() {
+            let c = a * z.conj() / unit;
+            (ax[i], ay[i], cx[i], cy[i]) = (a.re, a.im, c.re, c.im);
+        }
+        start(&mut self.power, positions.len());
+        let degree = out.plain.len();
+        let inverse = 1.0 / unit;
+        let mut last = [Complex64::default(); 3];
+        for k in 0..degree {
+            let [ax, ay, cx, cy, b] = &self.columns;
+            let (xr, xi) = dot(ax, &self.power);
+            let (yr, yi) = dot(ay, &self.power);
+            let a = Complex64::new(xr - yi, xi + yr);
+            let (xr, xi) = dot(cx, &self.power);
+            let (yr, yi) = dot(cy, &self.power);
+            let c = Complex64::new(xr - yi, xi + yr);
+            let (re, im) = dot(b, &self.power);
+            let b = Complex64::new(re, im);
+            let factor = 2.0 * inverse * k as f64;
+            out.plain[k] = last[0] * factor;
+            out.conjugate[k] = last[1] * factor;
+            out.mixed[k] = last[2] * factor + b * (2.0 * inverse);
+            out.flux[k] = b;
+            last = [a, b, c];
+            advance(&mut self.power, positions, unit);
+        }
+    }
+
+    /// Clears the flow for targets about a new origin.
+    pub(crate) fn begin(&mut self, degree: usize) {
+        for part in [&mut self.p, &mut self.q] {
+            part.clear(degree + 2);
+        }
+        self.low = Low::default();
+    }
+
+    /// Adds the flow of the moments of a source, whose origin lies where delta = 0 in `series`.
+    pub(crate) fn add(&mut self, series: &Series, moments: &Moments, unit: f64) {
+        let degree = series.degree().min(moments.plain.len() - 1);
+        let [sr, si] = &series.s;
+        let [tr, ti] = &series.t;
+        let mut inverse = 1.0;
+        for q in 0..=degree {
+            if q > 0 {
+                inverse /= -(q as f64);
+            }
+            let a = moments.plain[q] * inverse;
+            let b = moments.conjugate[q] * (0.5 * inverse);
+            let c = (moments.mixed[q] * 0.5 - moments.flux[q] * (2.0 / unit)) * inverse;
+            let half = a * 0.5;
+            let count = degree + 1 - q;
+            let (sr, si, dr, di) =
+                (&sr[q..q + count], &si[q..q + count], &sr[q + 1..=q + count], &si[q + 1..=q + count]);
+            let (tr, ti) = (&tr[q..q + count], &ti[q..q + count]);
+            let (pr, pi) = (&mut self.p.x[..count], &mut self.p.y[..count]);
+            let (qr, qi) = (&mut self.q.x[..count], &mut self.q.y[..count]);
+            for k in 0..count {
+                pr[k] += sr[k] * half.re - si[k] * half.im;
+                pi[k] += sr[k] * half.im + si[k] * half.re;
+                qr[k] += sr[k] * b.re - si[k] * b.im + tr[k] * a.re - ti[k] * a.im + dr[k] * c.re - di[k] * c.im;
+                qi[k] += sr[k] * b.im + si[k] * b.re + tr[k] * a.im + ti[k] * a.re + dr[k] * c.im + di[k] * c.re;
+            }
+        }
+        self.low.add(moments);
+    }
+
+    /// Adds the flow at `positions`; `area` is infinite without a uniform background force.
+    pub(crate) fn add_flow(&mut self, positions: &[Complex64], unit: f64, area: f64, out: &mut Vectors) {
+        // Divide by k!: the coefficients of P, Q and R = -P'.
+        let mut inverse = 1.0;
+        let len = self.p.x.len();
+        self.r.clear(len);
+        for k in 0..len {
+            if k > 0 {
+                self.r.x[k - 1] = -self.p.x[k] * inverse;
+                self.r.y[k - 1] = -self.p.y[k] * inverse;
+                inverse /= k as f64;
+            }
+            for part in [&mut self.p, &mut self.q] {
+                part.x[k] *= inverse;
+                part.y[k] *= inverse;
+            }
+        }
+        let n = positions.len();
+        self.power.clear(n);
+        for (i, z) in positions.iter().enumerate() {
+            (self.power.x[i], self.power.y[i]) = (z.re / unit, z.im / unit);
+        }
+        for (sums, coefficients) in self.accumulators.iter_mut().zip([&self.p, &self.q, &self.r]) {
+            horner(coefficients, &self.power, sums);
+        }
+        let Low { a0, a1, b0, b1, b2, c0, c1, e0, e1 } = self.low;
+        let second = PI * unit * unit / (2.0 * area);
+        let flux = 2.0 * PI * unit / area;
+        let constant = second * c1 - 0.5 * second * b2 + flux * e1;
+        let [p, q, r] = &self.accumulators;
+        for i in 0..n {
+            let z = Complex64::new(self.power.x[i], self.power.y[i]);
+            let r = Complex64::new(r.x[i], -r.y[i]);
+            let quadratic = second * (a0 * z.norm_sqr() - z * c0 - z.conj() * a1)
+                - second * z * (0.5 * z * b0 - b1)
+                - flux * z * e0;
+            let w = constant + quadratic + z * r;
+            out.x[i] += w.re + p.x[i] + q.x[i];
+            out.y[i] += w.im + p.y[i] - q.y[i];
+        }
+    }
+}
+
+/// The low moments of all sources, for the terms of second order.
+#[derive(Debug, Clone, Copy, Default)]
+struct Low {
+    a0: Complex64,
+    a1: Complex64,
+    b0: Complex64,
+    b1: Complex64,
+    b2: Complex64,
+    c0: Complex64,
+    c1: Complex64,
+    e0: Complex64,
+    e1: Complex64,
+}
+
+impl Low {
+    fn add(&mut self, m: &Moments) {
+        self.a0 += m.plain[0];
+        self.a1 += m.plain[1];
+        self.b0 += m.conjugate[0];
+        self.b1 += m.conjugate[1];
+        self.b2 += m.conjugate[2];
+        self.c0 += m.mixed[0];
+        self.c1 += m.mixed[1];
+        self.e0 += m.flux[0];
+        self.e1 += m.flux[1];
+    }
+}
+
+fn resize<const N: usize>(arrays: [&mut Vec<f64>; N], len: usize) {
+    for array in arrays {
+        array.resize(len, 0.0);
+    }
+}
+
+fn start(power: &mut Vectors, len: usize) {
+    power.clear(len);
+    power.x.fill(1.0);
+}
+
+/// Multiplies the powers by z in the unit.
+fn advance(power: &mut Vectors, positions: &[Complex64], unit: f64) {
+    let inverse = 1.0 / unit;
+    for ((x, y), z) in power.x.iter_mut().zip(&mut power.y).zip(positions) {
+        let (zx, zy) = (z.re * inverse, z.im * inverse);
+        (*x, *y) = (*x * zx - *y * zy, *x * zy + *y * zx);
+    }
+}
+
+/// Sums of a real column times real and imaginary part of the powers.
+fn dot(column: &[f64], power: &Vectors) -> (f64, f64) {
+    const LANES: usize = 8;
+    let n = column.len();
+    let (columns, rest) = column.as_chunks::<LANES>();
+    let (re, re_rest) = power.x[..n].as_chunks::<LANES>();
+    let (im, im_rest) = power.y[..n].as_chunks::<LANES>();
+    let (mut real, mut imaginary) = ([0.0; LANES], [0.0; LANES]);
+    for ((c, re), im) in columns.iter().zip(re).zip(im) {
+        for lane in 0..LANES {
+            real[lane] += c[lane] * re[lane];
+            imaginary[lane] += c[lane] * im[lane];
+        }
+    }
+    let mut sums = (real.iter().sum::<f64>(), imaginary.iter().sum::<f64>());
+    for ((c, re), im) in rest.iter().zip(re_rest).zip(im_rest) {
+        sums.0 += c * re;
+        sums.1 += c * im;
+    }
+    sums
+}
+
+/// Values of a polynomial at all points by Horner's scheme.
+fn horner(coefficients: &Vectors, points: &Vectors, out: &mut Vectors) {
+    let n = points.x.len();
+    out.clear(n);
+    let (x, y) = (&points.x[..n], &points.y[..n]);
+    let (re, im) = (&mut out.x[..n], &mut out.y[..n]);
+    for (cr, ci) in coefficients.x.iter().zip(&coefficients.y).rev() {
+        for i in 0..n {
+            let (a, b) = (re[i], im[i]);
+            re[i] = a * x[i] - b * y[i] + cr;
+            im[i] = a * y[i] + b * x[i] + ci;
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! Taylor series of a Green's function where it has no singularity.
+
+use std::f64::consts::{PI, TAU};
+
+use num_complex::Complex64;
+
+use crate::{
+    Region,
+    curve::Transform,
+    greens::{GreensFunction, ln},
+    region::Images,
+};
+
+/// Largest ratio of the distance of points to that of a singularity for which a series is used.
+pub(crate) const LARGEST_RATIO: f64 = 0.6;
+/// Largest degree of a series: its smallest terms are 1e-14 then.
+pub(crate) const MOST_DEGREES: usize = 62;
+
+/// Series of a Green's function around a distance D, for target minus source D + delta and a force F, in complex form:
+///
+/// ```text
+/// w = F [ (pi/2V)|delta|^2 + Re S(delta) ] + conj F [ -(pi/4V) delta^2 - 1/2 delta conj S'(delta) + conj T(delta) ]
+/// ```
+///
+/// Every solution of the Stokes equations for a force elsewhere has this form, with a uniform background force 1/V
+/// where the domain is periodic in both directions. Entry n of each array is n! times the coefficient of
+/// (delta/unit)^n, real and imaginary parts apart.
+#[derive(Debug, Clone)]
+pub(crate) struct Series {
+    pub(crate) s: [Vec<f64>; 2],
+    pub(crate) t: [Vec<f64>; 2],
+}
+
+impl Series {
+    /// Nothing, with room for any degree.
+    pub(crate) fn new() -> Self {
+        let room = || [Vec::with_capacity(MOST_DEGREES + 2), Vec::with_capacity(MOST_DEGREES + 2)];
+        Self { s: room(), t: room() }
+    }
+
+    /// The highest power; one coefficient more is kept for the derivative.
+    pub(crate) fn degree(&self) -> usize {
+        self.s[0].len().saturating_sub(2)
+    }
+
+    fn clear(&mut self) {
+        self.s.iter_mut().chain(&mut self.t).for_each(Vec::clear);
+    }
+
+    fn push(&mut self, s: Complex64, t: Complex64) {
+        for (array, value) in self.s.iter_mut().zip([s.re, s.im]).chain(self.t.iter_mut().zip([t.re, t.im])) {
+            array.push(value);
+        }
+    }
+
+    /// Free space, D not zero: `S = 1/2 - ln(D + delta)`, `T = conj(D)/(2 (D + delta))`.
+    pub(crate) fn free(&mut self, distance: Complex64, extent: Extent) {
+        let Extent { unit, degree, .. } = extent;
+        self.clear();
+        let ratio = -Complex64::new(unit, 0.0) / distance;
+        let factor = 0.5 * distance.conj() / distance;
+        self.push(Complex64::new(0.5 - distance.norm().ln(), 0.0), factor);
+        let mut power = Complex64::new(1.0, 0.0);
+        for n in 1..=degree + 1 {
+            let lower = power * ratio;
+            power = lower * n as f64;
+            self.push(lower, power * factor);
+        }
+    }
+
+    /// Another series in terms of another unit and to a lower degree.
+    pub(crate) fn rescale(&mut self, other: &Self, ratio: f64, degree: usize) {
+        for (own, other) in self.s.iter_mut().zip(&other.s).chain(self.t.iter_mut().zip(&other.t)) {
+            own.clear();
+            let mut power = 1.0;
+            for value in other.iter().take(degree + 2) {
+                own.push(value * power);
+                power *= ratio;
+            }
+        }
+    }
+
+    /// The series for the reverse direction, source and target exchanged.
+    pub(crate) fn reverse(&mut self, other: &Self) {
+        for (own, other) in self.s.iter_mut().zip(&other.s).chain(self.t.iter_mut().zip(&other.t)) {
+            own.clear();
+            own.extend(other.iter().enumerate().map(|(n, value)| if n.is_multiple_of(2) { *value } else { -value }));
+        }
+    }
+}
+
+/// Where a series has to hold and how it is scaled.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Extent {
+    /// Largest |delta| (length).
+    pub(crate) reach: f64,
+    /// Length that delta is divided by.
+    pub(crate) unit: f64,
+    /// The highest power.
+    pub(crate) degree: usize,
+}
+
+/// Finds series from the values on a circle.
+#[derive(Debug, Clone)]
+pub(crate) struct SeriesFinder {
+    circles: [Circle; 2],
+    greens: GreensFunction,
+    images: Images,
+    area: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Circle {
+    transform: Transform,
+    even: Vec<Complex64>,
+    odd: Vec<Complex64>,
+}
+
+impl SeriesFinder {
+    pub(crate) fn new(region: &Region, tolerance: f64) -> Self {
+        let greens = GreensFunction::new(region, tolerance.min(1e-12));
+        let circles = [Circle::new(64), Circle::new(128)];
+        Self { circles, greens, images: region.images(), area: region.area() }
+    }
+
+    /// The series around `distance` (target minus source), those parts of the images at the distances `direct` left out
+    /// that the plane has.
+    pub(crate) fn find(&mut self, distance: Complex64, direct: &[Complex64], extent: Extent, out: &mut Series) {
+        // A coefficient is spoilt by the one that is its mirror image in the length of the transform.
+        let circle = &mut self.circles[usize::from(2 * extent.degree + 2 > 64)];
+        circle.values(&self.greens, &self.images, distance, extent.reach);
+        circle.subtract(direct, extent.reach);
+        circle.series(self.area, extent, out);
+    }
+}
+
+impl Circle {
+    fn new(len: usize) -> Self {
+        let zeros = vec![Complex64::default(); len];
+        Self { transform: Transform::new(len), even: zeros.clone(), odd: zeros }
+    }
+
+    fn point(&self, j: usize, radius: f64) -> Complex64 {
+        Complex64::from_polar(radius, TAU * j as f64 / self.even.len() as f64)
+    }
+
+    /// The parts of the flow that go with F and with conj F, on a circle around `centre`.
+    fn values(&mut self, greens: &GreensFunction, images: &Images, centre: Complex64, radius: f64) {
+        for j in 0..self.even.len() {
+            let (log, direction) = greens.stokeslet(images.wrap(centre + self.point(j, radius)));
+            self.even[j] = Complex64::new(-log, 0.0);
+            self.odd[j] = 0.5 * direction.conj();
+        }
+    }
+
+    /// Takes off free space around the distances given.
+    fn subtract(&mut self, direct: &[Complex64], radius: f64) {
+        for i in 0..self.even.len() {
+            let point = self.point(i, radius);
+            for distance in direct {
+                let d = distance + point;
+                self.even[i] -= 0.5 - 0.5 * ln(d.norm_sqr());
+                self.odd[i] -= 0.5 * d / d.conj();
+            }
+        }
+    }
+
+    fn series(&mut self, area: f64, extent: Extent, out: &mut Series) {
+        let Extent { reach, unit, degree } = extent;
+        self.transform.forward(&mut self.even);
+        self.transform.forward(&mut self.odd);
+        let len = self.even.len();
+        out.clear();
+        let mut scale = 1.0;
+        for n in 0..=degree + 1 {
+            let s = if n == 0 { self.even[0] - 0.5 * PI / area * reach * reach } else { self.even[n] * 2.0 };
+            // The term delta conj S' of conj F has waves of the other sign, two below those of S.
+            let slope = if n + 2 < len / 2 { self.even[n + 2] * (n + 2) as f64 } else { Complex64::default() };
+            let t = self.odd[(len - n) % len].conj() + slope;
+            if n > 0 {
+                scale *= n as f64 * unit / reach;
+            }
+            out.push(s * scale, t * scale);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
