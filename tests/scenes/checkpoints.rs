@@ -225,7 +225,7 @@ fn a_checkpoint_of_other_physics_is_refused_by_name() {
         ("the exterior viscosity is 100 in it and 50 here", Swimmer { viscosity: 50.0, ..good.clone() }),
         ("the viscosity inside is 20 in it and 30 here", Swimmer { viscosity_inside: Some(30.0), ..good.clone() }),
         ("the viscosity inside is 20 in it and not given here", Swimmer { viscosity_inside: None, ..good.clone() }),
-        ("the number of markers is", Swimmer { marker_spacing: Some(0.1), ..good.clone() }),
+        ("the number of markers is", Swimmer { marker_spacing: Some(0.15), ..good.clone() }),
     ];
     for (expected, other) in others {
         let error = built(other.build()).resume(&saved).expect_err(expected);
