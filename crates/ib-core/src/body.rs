@@ -118,6 +118,13 @@ pub trait Body: Any + std::fmt::Debug + Send {
         scales.fill(1.0);
     }
 
+    /// What the body is made of, besides its state: named numbers that stay what they are over a run, such as its
+    /// moduli. A checkpoint of a body of other ones is refused. By default the number of markers, which a body leaves
+    /// out if it may change.
+    fn properties(&self) -> Vec<(String, f64)> {
+        vec![("the number of markers".to_owned(), self.marker_count() as f64)]
+    }
+
     /// Everything from which [`Body::load`] makes the present state again, bit for bit: by default what
     /// [`Body::write_state`] writes. A body whose next step depends on more must save that too.
     fn save(&self) -> SavedState {

@@ -1,6 +1,6 @@
 //! Geometry, forces and marker motion of a smooth curve by Fourier series in the marker number.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use fourier::PeriodicSeries;
 use ib_core::Vec2;

@@ -120,6 +120,16 @@ impl<H: Hydrodynamics> System<H> {
         &self.report
     }
 
+    /// What the scene is made of, besides its bodies and its domain.
+    pub(crate) fn properties(&self) -> Vec<(String, f64)> {
+        let mut properties = vec![("the exterior viscosity".to_owned(), self.hydrodynamics.medium().viscosity)];
+        if let Some(repulsion) = &self.repulsion {
+            properties.push(("the strength of the repulsion".to_owned(), repulsion.strength()));
+            properties.push(("the range of the repulsion".to_owned(), repulsion.range()));
+        }
+        properties
+    }
+
     /// Whether [`System::markers`] holds the flow of the present state.
     #[must_use]
     pub fn is_evaluated(&self) -> bool {
