@@ -54,7 +54,6 @@ impl SpectralCurve {
             geometry.stretch[k] = stretch;
             geometry.tangents[k] = vector(tangent / stretch);
             geometry.weights[k] = stretch * spacing;
-            geometry.chords[k] = vector(tangent) * spacing;
         }
         self.vectors.shift(0.5 * spacing);
         for (direction, tangent) in geometry.directions.iter_mut().zip(self.vectors.values()) {
