@@ -1,12 +1,11 @@
-//! A run from the flags to the files.
-
 use std::path::{Path, PathBuf};
 
+use super::*;
+use crate::{MethodFlags, OutputFlags, Summary};
 use clap::Parser;
 use motile::ib_core::StepSize;
-use motile::setup::{Built, GridMethod, Method, Region, Setup};
 use motile::stokes_grid::Drive;
-use motile_examples::{MethodFlags, OutputFlags, Summary, WatchedRun, caption};
+use motile::{Built, GridMethod, Method, Region, Setup};
 
 #[derive(Debug, Parser)]
 struct Flags {
