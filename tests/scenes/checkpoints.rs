@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{
-    Body, Checkpoint, CheckpointError, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
+    Body, Checkpoint, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
+    checkpoint::CheckpointError,
 };
 use motile::stokes_grid::Drive;
 use motile::{

@@ -2,7 +2,11 @@
 
 use std::f64::consts::PI;
 
-use ib_core::{Body, BodyError, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
+use ib_core::{
+    Body, BodyError, MarkerKind, Medium, Vec2,
+    body::{StepInfo, StepLimits},
+    checkpoint::SavedState,
+};
 
 use super::geometry::{Geometry, equidistribute, outward};
 use super::redistribution::redistribute;
