@@ -6,7 +6,7 @@ fn a_snapshot_of_a_box_and_of_a_channel() {
     let swimmer = Swimmer { spacing: 0.25, lengths: [6.0, 4.0], offset: [1.0, 0.5], ..Swimmer::default() };
     let (mut scene, _) = swimmer.build_on_grid().unwrap();
     let raster = Raster::of(scene.system(), 0.25).unwrap();
-    assert_eq!((raster.cells(), raster.periodic()), ([24, 16], [true, true]));
+    assert_eq!((raster.cells(), raster.periodic), ([24, 16], [true, true]));
     assert_eq!(raster.coarsened(12).cells(), [12, 8]);
     let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
     assert!((seen.droplets[0].centroid - Vec2::new(1.0, 0.5)).norm() < 1e-9);
@@ -21,8 +21,8 @@ fn a_snapshot_of_a_box_and_of_a_channel() {
 
     let (scene, _) = swimmer.build_on_grid_in_channel(motile::stokes_grid::Drive::ZeroGradient).unwrap();
     let raster = Raster::of(scene.system(), 0.25).unwrap();
-    assert_eq!((raster.origin(), raster.size()), ([-3.0, -2.0], [6.0, 4.0]));
-    assert_eq!(raster.periodic(), [true, false]);
+    assert_eq!((raster.origin, raster.size), ([-3.0, -2.0], [6.0, 4.0]));
+    assert_eq!(raster.periodic, [true, false]);
 }
 
 #[test]
