@@ -18,10 +18,9 @@ use crate::error::{not_negative, positive};
 use crate::{
     Flux, InterfaceError, Tension,
     concentration::{Repair, Transport, cell_peclet},
-    curve::CrossingFinder,
+    curve::{CrossingFinder, polygon::raw_area},
 };
 use filter::ShortWaveFilter;
-use geometry::signed_area;
 pub(crate) use limits::finest_response;
 use shape::Shape;
 use spectral::SpectralCurve;
@@ -104,8 +103,6 @@ pub struct ActiveDroplet {
     /// Particles at the start, and the bounds on the relative changes of area and particles.
     pub(crate) initial_number: f64,
     pub(crate) bounds: [f64; 2],
-    /// Whether the tension law lets particles collapse.
-    pub(crate) collapsible: bool,
 }
 
 impl ActiveDroplet {
@@ -149,7 +146,7 @@ impl ActiveDroplet {
         transport: Option<Transport>,
     ) -> Result<Self, InterfaceError> {
         let markers = crate::curve::markers_from_points(markers)?;
-        let initial_area = signed_area(&markers);
+        let initial_area = raw_area(&markers);
         let mut droplet = Self {
             name: "droplet".to_owned(),
             motion: Motion::default(),
@@ -171,19 +168,18 @@ impl ActiveDroplet {
             filter: ShortWaveFilter::default(),
             band: None,
             spectral: None,
-            crossing: CrossingFinder::new(),
+            crossing: CrossingFinder::default(),
             repair: Repair::default(),
             redistributed: (0, 0),
             last_repair: Repair::default(),
             last_redistributed: (0, 0),
             initial_number: numbers.iter().sum(),
             bounds: [AREA_BOUND, NUMBER_BOUND],
-            collapsible: tension.warning().is_some(),
             tension,
             numbers,
         };
         droplet.shape.markers = markers;
-        droplet.update()?;
+        droplet.update();
         droplet.target_spacing = droplet.shape.geometry.mean_length();
         Ok(droplet)
     }
@@ -286,12 +282,6 @@ impl ActiveDroplet {
         self.initial_area
     }
 
-    /// The tension law.
-    #[must_use]
-    pub fn tension_law(&self) -> &dyn Tension {
-        self.tension.as_ref()
-    }
-
     /// Diffusion constant of the particles (length squared per time).
     #[must_use]
     pub fn diffusion(&self) -> f64 {
@@ -328,7 +318,7 @@ impl ActiveDroplet {
     /// What a user should know at the present state.
     #[must_use]
     pub fn warnings(&self) -> Vec<DropletWarning> {
-        let mut warnings: Vec<_> = self.tension.warning().map(DropletWarning::from).into_iter().collect();
+        let mut warnings = Vec::from_iter(self.tension.warning());
         let peclet = self.cell_peclet();
         if peclet > PECLET_LIMIT {
             let spacing = self.shape.geometry.mean_length() * PECLET_LIMIT / peclet;
@@ -338,37 +328,36 @@ impl ActiveDroplet {
     }
 
     /// Brings everything that follows from markers and particle numbers up to date.
-    pub(crate) fn update(&mut self) -> Result<(), InterfaceError> {
+    pub(crate) fn update(&mut self) {
         self.shape.update(self.spectral.as_mut());
-        self.update_tensions()
+        self.update_tensions();
     }
 
     /// Brings concentrations and tensions up to date.
-    pub(crate) fn update_tensions(&mut self) -> Result<(), InterfaceError> {
+    pub(crate) fn update_tensions(&mut self) {
         let lengths = &self.shape.geometry.lengths;
         self.concentrations.resize(lengths.len(), 0.0);
         self.tensions.resize(lengths.len(), 0.0);
         for (k, c) in self.concentrations.iter_mut().enumerate() {
             *c = self.numbers.get(k).map_or(0.0, |n| n / lengths[k]);
         }
-        self.tension.values(&self.concentrations, &mut self.tensions)
+        self.tension.values(&self.concentrations, &mut self.tensions);
     }
 
     /// The truncation and the geometry that `medium` asks for, made anew only where they have changed.
-    pub(crate) fn fit(&mut self, medium: &Medium) -> Result<(), InterfaceError> {
+    pub(crate) fn fit(&mut self, medium: &Medium) {
         let count = self.shape.markers.len();
         let smooth = medium.shape_modes.is_some() && matches!(self.motion, Motion::Equidistributed { .. });
         if smooth != self.spectral.as_ref().is_some_and(|spectral| spectral.len() == count) {
             self.spectral = smooth.then(|| SpectralCurve::new(count));
             self.other.markers.clear();
-            self.update()?;
+            self.update();
         }
         match medium.shape_modes.filter(|&modes| modes < count) {
             None => self.band = None,
             Some(modes) if self.band.as_ref().is_some_and(|b| b.len() == count && b.modes() == modes) => {}
             Some(modes) => self.band = Some(BandLimit::new(count, modes)),
         }
-        Ok(())
     }
 
     /// Mean of the viscosities on both sides, on which the speed of an interface depends (stress times time).

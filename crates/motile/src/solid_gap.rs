@@ -1,11 +1,11 @@
 //! The gap between a droplet and elastic solids during a run.
 
 use active_interface::ActiveDroplet;
-use elastic_solids::{Solid, SolidError, solid::SurfaceGap};
-use ib_core::{Body, Handle, Hydrodynamics, Observer, System};
+use elastic_solids::Solid;
+use ib_core::{Body, Boundary, Handle, Hydrodynamics, Observer, System};
 
-/// Measures the gap between the droplets of a system and all its solids, keeps the smallest
-/// one, and ends the run where the droplet enters a solid deeper than it may.
+/// Measures the gap between the droplets of a system and all its solids, keeps the smallest one, and
+/// ends the run where the droplet enters a solid deeper than it may.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -28,7 +28,7 @@ use ib_core::{Body, Handle, Hydrodynamics, Observer, System};
 pub struct SolidGap {
     allowed: f64,
     set_back: f64,
-    surfaces: Option<SurfaceGap>,
+    surfaces: Boundary,
     present: Option<f64>,
     smallest: Option<(f64, f64)>,
 }
@@ -61,7 +61,7 @@ impl SolidGap {
     /// a grid spacing.
     #[must_use]
     pub fn new(allowed: f64) -> Self {
-        Self { allowed, set_back: 0.0, surfaces: None, present: None, smallest: None }
+        Self { allowed, set_back: 0.0, surfaces: Boundary::default(), present: None, smallest: None }
     }
 
     /// The same for solids that are meshed this far behind the surfaces where they stop the fluid (length, see
@@ -86,31 +86,16 @@ impl SolidGap {
 
     /// The smallest gap at the present state of a system (length), the droplet, and its marker where it is; `None` without
     /// solids or droplets.
-    ///
-    /// # Errors
-    /// Positions that are not finite.
-    pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<Option<NearestSolid>, SolidError> {
-        let period = system.hydrodynamics().medium().domain.periods[0];
-        let surfaces = self.surfaces.get_or_insert_with(|| SurfaceGap::new(period));
-        surfaces.clear();
-        let mut any = false;
-        for (_, solid) in system.bodies::<Solid>() {
-            surfaces.add(solid)?;
-            any = true;
-        }
-        if !any {
-            return Ok(None);
-        }
-        surfaces.sort();
-        let mut least: Option<NearestSolid> = None;
-        for (droplet, body) in system.bodies::<ActiveDroplet>() {
-            let (gap, marker) = surfaces.smallest(body.markers())?;
-            let gap = gap - self.set_back;
-            if least.is_none_or(|least| gap < least.gap) {
-                least = Some(NearestSolid { gap, droplet, marker });
-            }
-        }
-        Ok(least)
+    pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Option<NearestSolid> {
+        self.surfaces.clear();
+        system.bodies::<Solid>().for_each(|(_, solid)| solid.write_boundary(&[], &mut self.surfaces));
+        self.surfaces.sort();
+        let periods = system.hydrodynamics().medium().domain.periods;
+        let nearest = system.bodies::<ActiveDroplet>().filter_map(|(droplet, body)| {
+            let (gap, marker) = self.surfaces.smallest(body.markers(), periods)?;
+            Some(NearestSolid { gap: gap - self.set_back, droplet, marker })
+        });
+        nearest.min_by(|a, b| a.gap.total_cmp(&b.gap))
     }
 }
 
@@ -129,7 +114,7 @@ impl<H: Hydrodynamics> Observer<H> for SolidGap {
     /// # Errors
     /// [`SolidEntered`].
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        let found = self.measure(system)?;
+        let found = self.measure(system);
         self.present = found.map(|place| place.gap);
         let Some(NearestSolid { gap, droplet, marker }) = found else { return Ok(()) };
         if self.smallest.is_none_or(|(least, _)| gap < least) {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use ib_core::{Body, BodyError, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
 
-use super::geometry::{Geometry, equidistribute, outward, signed_area};
+use super::geometry::{Geometry, equidistribute, outward};
 use super::redistribution::redistribute;
 use super::shape::Shape;
 use super::spectral::SpectralCurve;
@@ -12,6 +12,7 @@ use super::{MINIMUM_MARKERS, finest_response};
 use crate::{
     ActiveDroplet, InterfaceError, Motion,
     concentration::{Repair, Transport, repair_positivity},
+    curve::polygon::raw_area,
 };
 
 /// Concentrations (particles per length) whose tensions tell a law, in whatever units it is.
@@ -47,7 +48,7 @@ impl Body for ActiveDroplet {
     }
 
     fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        self.fit(medium)?;
+        self.fit(medium);
         let count = self.shape.markers.len();
         let mut before = self.tensions[count - 1] * self.shape.geometry.directions[count - 1];
         for (k, force) in forces.iter_mut().enumerate() {
@@ -87,7 +88,8 @@ impl Body for ActiveDroplet {
             self.shape.move_to(positions, self.spectral.as_mut());
         }
         self.numbers.copy_from_slice(numbers);
-        Ok(self.update_tensions()?)
+        self.update_tensions();
+        Ok(())
     }
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
@@ -116,24 +118,18 @@ impl Body for ActiveDroplet {
         }
         numbers.fill(0.0);
         if let Some(transport) = self.transport.as_mut() {
-            // What the stabiliser adds implicitly is taken off here.
             let lengths = &self.shape.geometry.lengths;
-            let advected = transport.add_advection(&self.numbers, lengths, &self.slip, numbers);
-            let stabilised = if self.stabiliser.len() == count {
-                transport.add_diffusion(lengths, &self.stabiliser, &self.numbers, -1.0, numbers)
-            } else {
-                Ok(())
-            };
-            // Fluxes that are not finite: the state that this leads to is refused when it is read.
-            if advected.is_err() || stabilised.is_err() {
-                numbers.fill(f64::NAN);
+            transport.add_advection(&self.numbers, lengths, &self.slip, numbers);
+            // What the stabiliser adds implicitly is taken off here.
+            if self.stabiliser.len() == count {
+                transport.add_diffusion(lengths, &self.stabiliser, &self.numbers, -1.0, numbers);
             }
         }
     }
 
     fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
         let count = self.shape.markers.len();
-        self.fit(medium)?;
+        self.fit(medium);
         self.diffusivities.resize(count, 0.0);
         self.diffusivities.fill(self.diffusion);
         self.stabiliser.clear();
@@ -158,9 +154,7 @@ impl Body for ActiveDroplet {
         let out = &mut out[positions.len()..];
         if let Some(transport) = self.transport.as_mut() {
             let geometry = geometry_at(&self.shape, &mut self.other, self.spectral.as_mut(), positions);
-            if transport.add_diffusion(&geometry.lengths, &self.diffusivities, numbers, factor, out).is_err() {
-                out.fill(f64::NAN);
-            }
+            transport.add_diffusion(&geometry.lengths, &self.diffusivities, numbers, factor, out);
         }
     }
 
@@ -168,10 +162,7 @@ impl Body for ActiveDroplet {
         let (positions, numbers) = state.split_at_mut(2 * self.shape.markers.len());
         if let Some(transport) = self.transport.as_mut() {
             let geometry = geometry_at(&self.shape, &mut self.other, self.spectral.as_mut(), positions);
-            // A state that is not finite or has collapsed segments is refused when it is read.
-            if transport.solve_diffusion(&geometry.lengths, &self.diffusivities, factor, numbers).is_err() {
-                numbers.fill(f64::NAN);
-            }
+            transport.solve_diffusion(&geometry.lengths, &self.diffusivities, factor, numbers);
         }
     }
 
@@ -183,8 +174,8 @@ impl Body for ActiveDroplet {
                     let (tensions, count) = (&self.tensions, self.tensions.len());
                     let strength =
                         |k: usize| 0.5 * rate * (tensions[k] + tensions[if k == 0 { count - 1 } else { k - 1 }]);
-                    self.filter.apply(&mut self.shape.markers, &self.shape.geometry, spacing, strength)?;
-                    self.update()?;
+                    self.filter.apply(&mut self.shape.markers, &self.shape.geometry, spacing, strength);
+                    self.update();
                 }
             }
             Motion::Equidistributed { .. } => {}
@@ -194,17 +185,17 @@ impl Body for ActiveDroplet {
                 self.last_redistributed = (inserted, removed);
                 if inserted + removed > 0 {
                     self.resize(self.shape.markers.len());
-                    self.update()?;
+                    self.update();
                 }
             }
         }
         if self.keeps_area {
-            self.restore_area()?;
+            self.restore_area();
         }
         if self.transport.is_some() {
             self.last_repair = repair_positivity(&mut self.numbers)?;
             if self.last_repair.segments > 0 {
-                self.update_tensions()?;
+                self.update_tensions();
             }
         }
         if let Some((first, second)) = self.crossing.first_crossing(&self.shape.markers)? {
@@ -279,7 +270,7 @@ impl Body for ActiveDroplet {
         let (slip, numbers) = rest.split_at(count);
         self.resize(count);
         self.read_state(state)?;
-        self.fit(medium)?;
+        self.fit(medium);
         self.slip.copy_from_slice(slip);
         (self.target_spacing, self.initial_area, self.initial_number) = (numbers[0], numbers[1], numbers[2]);
         self.repair = Repair { segments: segments as usize, moved: numbers[3], furthest: furthest as usize };
@@ -309,7 +300,7 @@ impl ActiveDroplet {
     fn check_bounds(&self) -> Result<(), BodyError> {
         let total: f64 = self.numbers.iter().sum();
         let changes = [
-            ("the area", signed_area(&self.shape.markers) / self.initial_area - 1.0),
+            ("the area", raw_area(&self.shape.markers) / self.initial_area - 1.0),
             ("the number of particles", if total > 0.0 { total / self.initial_number - 1.0 } else { 0.0 }),
         ];
         for ((what, change), bound) in changes.into_iter().zip(self.bounds) {
@@ -317,7 +308,7 @@ impl ActiveDroplet {
                 return Err(BodyError::NotConserved { what, change, bound });
             }
         }
-        if self.collapsible && total > 0.0 {
+        if total > 0.0 && self.tension.warning().is_some() {
             let most = self.numbers.iter().fold(0.0_f64, |a, &b| a.max(b));
             if most > COLLAPSED * total {
                 return Err(InterfaceError::Collapse { part: most / total }.into());
@@ -340,15 +331,14 @@ impl ActiveDroplet {
 
     /// Moves all markers along their normals by the same distance so that the area is the initial one (twice, the
     /// second time for the quadratic part).
-    fn restore_area(&mut self) -> Result<(), InterfaceError> {
+    fn restore_area(&mut self) {
         for _ in 0..2 {
-            let missing = self.initial_area - signed_area(&self.shape.markers);
+            let missing = self.initial_area - raw_area(&self.shape.markers);
             let total: f64 = self.shape.geometry.weights.iter().sum();
             for (marker, tau) in self.shape.markers.iter_mut().zip(&self.shape.geometry.tangents) {
                 *marker += missing / total * outward(*tau);
             }
-            self.update()?;
+            self.update();
         }
-        Ok(())
     }
 }

@@ -3,7 +3,7 @@
 use ib_core::Vec2;
 
 use super::geometry::{Geometry, outward};
-use crate::{InterfaceError, tridiagonal::CirculantTridiagonal};
+use crate::tridiagonal::CirculantTridiagonal;
 
 /// Largest part of a mode that one pass takes away.
 const STRONGEST: f64 = 0.5;
@@ -30,20 +30,19 @@ impl ShortWaveFilter {
         geometry: &Geometry,
         spacing: f64,
         strength: impl Fn(usize) -> f64,
-    ) -> Result<(), InterfaceError> {
-        let smoothing = CirculantTridiagonal::smoothing(0.5 * spacing, geometry.mean_length())?;
+    ) {
+        let smoothing = CirculantTridiagonal::smoothing(0.5 * spacing, geometry.mean_length());
         for list in [&mut self.once, &mut self.twice] {
             list.resize(markers.len(), Vec2::zeros());
         }
         let strongest = (0..markers.len()).map(&strength).fold(0.0, f64::max);
         if !(strongest > 0.0 && strongest.is_finite()) {
-            return Ok(());
+            return;
         }
         let passes = (strongest / STRONGEST).ceil().min(MOST_PASSES);
         for _ in 0..passes as usize {
             self.pass(markers, geometry, &smoothing, |k| (strength(k).max(0.0) / passes).min(STRONGEST));
         }
-        Ok(())
     }
 
     fn pass(

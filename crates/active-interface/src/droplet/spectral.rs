@@ -84,7 +84,6 @@ impl SpectralCurve {
             geometry.stretch[k] = stretch;
             geometry.tangents[k] = vector(tangent / stretch);
             geometry.weights[k] = stretch * spacing;
-            geometry.chords[k] = vector(tangent) * spacing;
         }
         // Arc length of a segment: the integral of |X_alpha| over it, mode by mode.
         for (entry, stretch) in self.spectrum.iter_mut().zip(&geometry.stretch) {

@@ -44,7 +44,7 @@ fn solids_of_every_material_are_seen() {
     for solid in solids {
         let mut scene = setup.build().unwrap().scene;
         scene.add(solid);
-        let gap = SolidGap::new(0.0).measure(scene.system()).unwrap().unwrap().gap;
+        let gap = SolidGap::new(0.0).measure(scene.system()).unwrap().gap;
         assert!((gap - (-1.0 - top)).abs() < 2e-3, "{gap}");
     }
 }
@@ -61,10 +61,10 @@ fn the_nearest_of_all_droplets_counts() {
         ..Setup::default()
     };
     let Built { scene, droplets, .. } = setup.build().unwrap();
-    let place = SolidGap::new(0.0).measure(scene.system()).unwrap().unwrap();
+    let place = SolidGap::new(0.0).measure(scene.system()).unwrap();
     assert!(place.droplet == droplets[0] && (place.gap - 0.1).abs() < 2e-3, "{place:?}");
     let lower = Setup { droplets: vec![droplet(1.2), droplet(-1.4)], ..setup };
     let Built { scene, droplets, .. } = lower.build().unwrap();
-    let place = SolidGap::new(0.0).measure(scene.system()).unwrap().unwrap();
+    let place = SolidGap::new(0.0).measure(scene.system()).unwrap();
     assert!(place.droplet == droplets[1] && (place.gap - 0.1).abs() < 2e-3, "{place:?}");
 }

@@ -63,12 +63,12 @@ fn scene(along: f64, rate: f64, walls: bool) -> (Scene<Wind>, Handle<ActiveDropl
 fn records_columns_and_gap() {
     let (mut scene, droplet) = scene(0.25, -0.1, true);
     let mut recorder = TrajectoryRecorder::new(droplet).with_gap_flow();
-    assert!(recorder.is_empty() && recorder.minimum_gap().is_none() && recorder.column("time").is_none());
+    assert!(recorder.records().is_empty() && recorder.minimum_gap().is_none() && recorder.column("time").is_none());
     let step = StepSize::Fixed(0.05);
     scene.run(5.0).step_size(step).observe(Every::StepAfter(0.5), &mut recorder).go().unwrap();
     // Continued: the end of the first run is the start of the second one.
     scene.run(10.0).step_size(step).observe(Every::StepAfter(0.5), &mut recorder).go().unwrap();
-    assert_eq!(recorder.len(), 21);
+    assert_eq!(recorder.records().len(), 21);
 
     let column = |name: &str| -> Vec<f64> {
         recorder.column(name).unwrap().into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()
