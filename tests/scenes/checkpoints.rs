@@ -5,12 +5,13 @@ use std::path::PathBuf;
 
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{
-    Body, Checkpoint, CheckpointError, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
+    Body, Checkpoint, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
+    checkpoint::CheckpointError,
 };
 use motile::stokes_grid::Drive;
 use motile::{
-    AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Particles, Region, Setup,
-    SolidSetup,
+    AnyFlow, Built, ChannelShape, DropletSetup, Exclusion, GridMethod, IntegralMethod, Material, Method, Particles,
+    Region, Setup, SolidSetup,
 };
 use proptest::prelude::*;
 
@@ -152,19 +153,14 @@ fn without_a_grid() {
     compare(|| scene(&contrast), 3.0, AUTO, &stops(12, 4));
 }
 
-/// A droplet between walls of springs of this constant of the thesis.
-fn walled(spring: f64) -> Setup {
-    let shear = Moduli::from_thesis_spring_constant(spring).expect("moduli").shear();
-    Setup {
+#[test]
+fn an_elastic_channel() {
+    let shear = Moduli::from_thesis_spring_constant(1e4).expect("moduli").shear();
+    let setup = Setup {
         region: Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient },
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear }),
         ..coarse()
-    }
-}
-
-#[test]
-fn an_elastic_channel() {
-    let setup = walled(1e4);
+    };
     let make = || scene(&setup);
     compare(make, 3.0, AUTO, &stops(13, 10));
     compare(|| make().advanced_by(RungeKuttaChebyshev::new()), 3.0, ADAPTIVE, &stops(14, 15));
@@ -242,41 +238,50 @@ fn a_checkpoint_of_another_scene_is_refused_and_changes_nothing() {
 /// What differs is named with both values, whatever it is.
 #[test]
 fn a_checkpoint_of_other_physics_is_refused_by_name() {
-    let good = DropletSetup { viscosity: Some(20.0), ..DropletSetup::active(-3.0) };
-    let setup = |droplet: &DropletSetup| Setup { droplets: vec![droplet.clone()], ..coarse() };
-    let particles = |change: fn(&mut Particles)| {
-        let mut droplet = good.clone();
-        droplet.particles.iter_mut().for_each(change);
-        setup(&droplet)
+    let good = filled(20.0, &coarse());
+    let saved = scene(&good).checkpoint("");
+    let droplet = |change: fn(&mut DropletSetup)| {
+        let mut setup = good.clone();
+        change(&mut setup.droplets[0]);
+        setup
     };
-    let finer = GridMethod { marker_spacing: Some(0.05), ..GridMethod::of_spacing(0.2) };
+    let particles = |change: fn(&mut Particles)| {
+        let mut setup = good.clone();
+        setup.droplets[0].particles.as_mut().map(change);
+        setup
+    };
+    let Method::Grid(grid) = good.method else { panic!("a grid") };
+    let finer = Method::Grid(GridMethod { marker_spacing: Some(0.15), ..grid });
     let others = [
         ("the tension at a concentration", particles(|particles| particles.activity = -2.0)),
-        ("the tension at a concentration", setup(&DropletSetup { tension: 7.0, ..good.clone() })),
+        ("the tension at a concentration", particles(|particles| particles.excluded_volume = Exclusion::Step(20.0))),
+        ("the tension at a concentration", droplet(|droplet| droplet.tension = 7.0)),
         ("the diffusion constant is 0.1 in it and 0.2 here", particles(|particles| particles.diffusion = 0.2)),
-        ("the exterior viscosity is 100 in it and 50 here", Setup { viscosity: 50.0, ..setup(&good) }),
-        (
-            "the viscosity inside is 20 in it and 30 here",
-            setup(&DropletSetup { viscosity: Some(30.0), ..good.clone() }),
-        ),
-        ("the viscosity inside is 20 in it and not given", setup(&DropletSetup { viscosity: None, ..good.clone() })),
-        ("the number of markers is", Setup { method: Method::Grid(finer), ..setup(&good) }),
+        ("the exterior viscosity is 100 in it and 50 here", Setup { viscosity: 50.0, ..good.clone() }),
+        ("the viscosity inside is 20 in it and 30 here", droplet(|droplet| droplet.viscosity = Some(30.0))),
+        ("the viscosity inside is 20 in it and not given here", droplet(|droplet| droplet.viscosity = None)),
+        ("the number of markers is", Setup { method: finer, ..good.clone() }),
     ];
-    let saved = scene(&setup(&good)).checkpoint("");
     for (expected, other) in others {
         let error = scene(&other).resume(&saved).expect_err(expected);
         assert!(matches!(error, SceneError::OtherProperty { .. }), "{error}");
         assert!(error.to_string().contains(expected), "{error}");
     }
-    let saved = scene(&walled(1e4)).checkpoint("");
-    let error = scene(&walled(2e4)).resume(&saved).expect_err("softer walls");
+    let elastic = |shear: f64| {
+        let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
+        let region = Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient };
+        scene(&Setup { region, solids: walls, ..coarse() })
+    };
+    let saved = elastic(187.5).checkpoint("");
+    let error = elastic(375.0).resume(&saved).expect_err("softer walls");
     assert!(error.to_string().contains("the energy of a shear"), "{error}");
     // Another grid for the same bodies is no obstacle.
-    let on_grid = |spacing: f64| {
+    let on = |spacing: f64| {
         let grid = GridMethod { marker_spacing: Some(0.1), ..GridMethod::of_spacing(spacing) };
-        scene(&Setup { method: Method::Grid(grid), ..setup(&good) })
+        scene(&Setup { method: Method::Grid(grid), ..coarse() })
     };
-    on_grid(0.15).resume(&on_grid(0.2).checkpoint("")).expect("the same bodies");
+    let saved = on(0.2).checkpoint("");
+    on(0.15).resume(&saved).expect("the same bodies");
 }
 
 /// Every kind of scene in every other: refused, or taken, and what is refused changes nothing.

@@ -12,7 +12,8 @@ mod warning;
 
 use std::sync::Arc;
 
-use ib_core::{BandLimit, Medium, Vec2};
+use fourier::BandLimit;
+use ib_core::{Medium, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::{

@@ -8,7 +8,7 @@ pub use step_limit::{StepCause, StepLimit, StepLimits};
 
 use std::any::Any;
 
-use crate::{BodyError, BodyFlow, Boundary, MarkerKind, Medium, SavedState, Vec2};
+use crate::{BodyError, MarkerKind, Medium, Vec2, checkpoint::SavedState, gap::Boundary, scene::BodyFlow};
 
 /// What can be seen of a body beyond its markers: the speed of a droplet, say.
 pub trait Observe: Body {

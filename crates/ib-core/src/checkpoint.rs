@@ -9,7 +9,10 @@ pub use saved_state::{ForeignState, SavedState};
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Body, Domain, FlowReport, Hydrodynamics, Integrator, MarkerKind, Scene, SceneError, StepReport, Vec2};
+use crate::{
+    Body, Domain, Hydrodynamics, Integrator, MarkerKind, Scene, SceneError, Vec2, hydrodynamics::FlowReport,
+    scene::StepReport,
+};
 
 /// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
 ///

@@ -2,7 +2,7 @@
 
 use stokes_grid::StokesError;
 
-use crate::CheckpointError;
+use crate::checkpoint::CheckpointError;
 
 /// The flow could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::{Observables, observables::net_flux};
-use motile::ib_core::{Every, Hydrodynamics, Scene, StepSize, System, wall_gap};
+use motile::ib_core::{Every, Hydrodynamics, Scene, StepSize, System, gap::wall_gap};
 use motile::stokes_grid::flux;
 use motile::{AnyFlow, Built, Method, Region, Setup};
 

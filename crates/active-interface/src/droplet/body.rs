@@ -2,7 +2,11 @@
 
 use std::f64::consts::PI;
 
-use ib_core::{Body, BodyError, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
+use ib_core::{
+    Body, BodyError, MarkerKind, Medium, Vec2,
+    body::{StepInfo, StepLimits},
+    checkpoint::SavedState,
+};
 
 use super::geometry::{Geometry, equidistribute, outward};
 use super::redistribution::redistribute;
@@ -110,7 +114,8 @@ impl Body for ActiveDroplet {
             }
         }
         if let Some(band) = self.band.as_mut() {
-            band.apply(&mut self.motions);
+            // As long as the droplet since `fit`.
+            let _ = band.apply(&mut self.motions);
         }
         let (positions, numbers) = rate.split_at_mut(2 * count);
         for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {

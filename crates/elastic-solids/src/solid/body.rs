@@ -1,6 +1,11 @@
 //! The solid as a body of a scene.
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, SavedState, StepLimit, StepLimits, Vec2};
+use ib_core::{
+    Body, BodyError, MarkerKind, Medium, Vec2,
+    body::{StepLimit, StepLimits},
+    checkpoint::SavedState,
+    gap::Boundary,
+};
 
 use crate::solid::surface_correction::SurfaceCorrection;
 use crate::{Solid, SolidError};

@@ -10,8 +10,10 @@ pub use bodies::BodyFlow;
 use super::SceneId;
 use crate::gap::{Gap, Gaps};
 use crate::{
-    Body, BodyError, FlowReport, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SavedState, SceneError,
-    StepInfo, StepLimit, Vec2,
+    Body, BodyError, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SceneError, Vec2,
+    body::{StepInfo, StepLimit},
+    checkpoint::SavedState,
+    hydrodynamics::FlowReport,
 };
 use forces::write_forces;
 
