@@ -13,7 +13,9 @@ use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use motile::active_interface::{ActiveDroplet, curve::polygon_moments, observables::centroid_velocity};
 use motile::elastic_solids::Moduli;
-use motile::ib_core::{Checkpoint, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2};
+use motile::ib_core::{
+    Checkpoint, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2,
+};
 use motile::stokes_grid::Drive;
 use motile::{
     AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup,

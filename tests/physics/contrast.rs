@@ -1,7 +1,9 @@
 //! Droplets of another viscosity than the exterior fluid on a grid, against boundary integrals.
 
 use allocation_counter::measure;
-use motile::ib_core::{CubicQuadratic, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2};
+use motile::ib_core::{
+    CubicQuadratic, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2,
+};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 use motile::{DropletSetup, Region, Setup};
 use motile_tests::validation::contrast::{Droplet, Errors, Exact, exact_flow, field_errors};
