@@ -1,7 +1,7 @@
 //! Wrong input ends in an error that names it, before any work; a run that goes wrong leaves the last good state.
 
 use motile::ib_core::{Body, FlowError, SceneError, StepSize};
-use motile::setup::{Built, DropletSetup, Setup};
+use motile::{Built, DropletSetup, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 #[test]

@@ -6,8 +6,8 @@ use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
     SceneError, SpectralEstimate, StepSize, Vec2,
 };
-use motile::setup::{AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Setup, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Grid};
+use motile::{AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Setup, SolidSetup};
 use motile_tests::validation::order;
 use motile_tests::validation::scene::{on_grid, open_channel, without_grid};
 

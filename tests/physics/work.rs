@@ -2,8 +2,8 @@
 
 use motile::active_interface::{ActiveDroplet, Curve};
 use motile::ib_core::{Body, CubicQuadratic, FlowWork, Hydrodynamics, ImmersedBoundary, Scene};
-use motile::setup::{GridMethod, Method, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes};
+use motile::{GridMethod, Method, Setup};
 use motile_tests::validation::scene::on_grid;
 
 #[test]

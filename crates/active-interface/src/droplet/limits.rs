@@ -28,7 +28,7 @@ impl ActiveDroplet {
             let slip = self.slip.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
             // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, holds up to about
             // two segments a step.
-            let dt = 1.8 * self.geometry.mean_length() / slip;
+            let dt = 1.8 * self.shape.geometry.mean_length() / slip;
             limits.push(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
         }
         limits

@@ -16,8 +16,6 @@ use super::geometry::{Geometry, outward};
 pub(crate) struct SpectralCurve {
     vectors: PeriodicSeries,
     numbers: PeriodicSeries,
-    /// |X_alpha| at the markers (length).
-    stretch: Vec<f64>,
 }
 
 fn complex(v: Vec2) -> Complex64 {
@@ -36,33 +34,33 @@ fn analyse(series: &mut PeriodicSeries, samples: impl ExactSizeIterator<Item = C
 impl SpectralCurve {
     pub(crate) fn new(count: usize) -> Self {
         let series = PeriodicSeries::new(count);
-        Self { vectors: series.clone(), numbers: series, stretch: vec![0.0; count] }
+        Self { vectors: series.clone(), numbers: series }
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.stretch.len()
+        self.vectors.len()
     }
 
-    /// Replaces lengths, directions (at the middle of the segments), tangents and weights of `geometry` by those of the
-    /// smooth curve.
-    pub(crate) fn refine(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
+    /// The geometry of the smooth curve through the markers; directions are those at the middle of the segments.
+    pub(crate) fn update(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
+        geometry.resize(self.len());
+        geometry.stretch.resize(self.len(), 0.0);
         let spacing = TAU / self.len() as f64;
         // Relative to one marker, so that droplets that have travelled far lose no digits.
         analyse(&mut self.vectors, markers.iter().map(|marker| complex(marker - markers[0])));
         self.vectors.differentiate();
         for (k, &tangent) in self.vectors.values().iter().enumerate() {
             let stretch = tangent.norm();
-            self.stretch[k] = stretch;
+            geometry.stretch[k] = stretch;
             geometry.tangents[k] = vector(tangent / stretch);
             geometry.weights[k] = stretch * spacing;
-            geometry.chords[k] = vector(tangent) * spacing;
         }
         self.vectors.shift(0.5 * spacing);
         for (direction, tangent) in geometry.directions.iter_mut().zip(self.vectors.values()) {
             *direction = vector(tangent / tangent.norm());
         }
         // Arc length of a segment: the integral of |X_alpha| over it, mode by mode.
-        analyse(&mut self.numbers, self.stretch.iter().map(|&stretch| stretch.into()));
+        analyse(&mut self.numbers, geometry.stretch.iter().map(|&stretch| stretch.into()));
         self.numbers.multiply(|wave| {
             if wave == 0.0 {
                 spacing.into()
@@ -115,7 +113,7 @@ impl SpectralCurve {
         analyse(&mut self.vectors, motion.iter().map(|&normal| complex(normal)));
         self.vectors.differentiate();
         // dW/dalpha up to its mean, which the integration leaves out.
-        let slopes = self.vectors.values().iter().zip(&geometry.tangents).zip(&self.stretch);
+        let slopes = self.vectors.values().iter().zip(&geometry.tangents).zip(&geometry.stretch);
         let slopes = slopes.map(|((derivative, tau), stretch)| -vector(*derivative).dot(tau) - relaxation * stretch);
         analyse(&mut self.numbers, slopes.map(Complex64::from));
         self.numbers.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { 1.0 / Complex64::new(0.0, wave) });

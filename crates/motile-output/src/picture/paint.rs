@@ -112,7 +112,7 @@ struct Painter<'a> {
 
 impl Painter<'_> {
     /// The shifts that bring periodic images of points within a box around them into view.
-    fn images<'p>(&self, points: impl IntoIterator<Item = &'p Vec2> + Clone) -> Vec<Vec2> {
+    fn images<'p>(&self, points: &(impl Iterator<Item = &'p Vec2> + Clone)) -> Vec<Vec2> {
         let raster = self.picture.field.raster();
         let frame = &self.layout.frame;
         // Half a type size more, for the width of lines.
@@ -121,7 +121,7 @@ impl Painter<'_> {
             if !raster.periodic()[k] {
                 return vec![0.0];
             }
-            let values = points.clone().into_iter().map(|p| p[k]).filter(|v| v.is_finite());
+            let values = points.clone().map(|p| p[k]).filter(|v| v.is_finite());
             let (first, last) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
             let period = raster.size()[k];
             let from = ((low - margin - last) / period).ceil() as i64;
@@ -159,7 +159,7 @@ impl Painter<'_> {
         let unit = self.layout.unit;
         let pen = Pen::new(Rgb::INK, (0.07 * unit).max(0.9)).opacity(0.72);
         for line in streamlines(&flow.velocity, spacing, flow.anchor)? {
-            for shift in self.images(&line) {
+            for shift in self.images(&line.iter()) {
                 let path = self.path(&line, shift);
                 self.canvas.stroke(&path, &pen);
                 // Arrow heads along the line, at least one.
@@ -189,7 +189,7 @@ impl Painter<'_> {
         let picture = self.picture;
         let pen = Pen::new(SOLID_EDGE, (0.1 * self.layout.unit).max(1.0));
         for solid in &picture.solids {
-            for shift in self.images(solid.area.iter().flatten()) {
+            for shift in self.images(&solid.area.iter().flatten()) {
                 let rings: Vec<Vec<Pixel>> = solid.area.iter().map(|ring| self.path(ring, shift)).collect();
                 self.canvas.fill(&rings, SOLID, 1.0);
                 for line in &solid.edges {
@@ -229,7 +229,7 @@ impl Painter<'_> {
         let picture = self.picture;
         let unit = self.layout.unit;
         for track in &picture.tracks {
-            for shift in self.images(track) {
+            for shift in self.images(&track.iter()) {
                 let path = self.path(track, shift);
                 self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.3 * unit).opacity(0.75));
                 self.canvas.stroke(&path, &Pen::new(TRACK, 0.13 * unit));
@@ -248,7 +248,7 @@ impl Painter<'_> {
             let colour = |v: &f64| picture.interface_legend.as_ref().map_or(Rgb::INK, |l| l.scale.colour(*v));
             let mut colours: Vec<Rgb> = curve.values.iter().map(colour).collect();
             colours.push(colours[0]);
-            for shift in self.images(&curve.points) {
+            for shift in self.images(&curve.points.iter()) {
                 let mut path = self.path(&curve.points, shift);
                 path.push(path[0]);
                 self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.8 * unit).opacity(0.7));

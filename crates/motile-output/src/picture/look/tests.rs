@@ -1,13 +1,16 @@
 use super::*;
 use crate::Raster;
-use motile::Swimmer;
+use motile::prelude::*;
 
 #[test]
 fn all_droplets_and_solids_are_drawn() {
-    let swimmer = Swimmer { spacing: 0.25, lengths: [8.0, 4.0], offset: [-2.0, 0.0], ..Swimmer::default() };
-    let mut scene = swimmer.scene().unwrap();
-    scene.add(swimmer.droplet().unwrap());
-    scene.add(Swimmer { offset: [2.0, 0.0], ..swimmer }.droplet().unwrap());
+    let setup = Setup {
+        region: Region::Box { lengths: [8.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.25)),
+        droplets: [-2.0, 2.0].map(|x| DropletSetup { centre: [x, 0.0], ..DropletSetup::default() }).to_vec(),
+        ..Setup::default()
+    };
+    let mut scene = setup.build().unwrap().scene;
     let raster = Raster::of(scene.system(), 0.25).unwrap();
     let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
     assert_eq!([0, 1].map(|k| seen.droplets[k].centroid.x.round()), [-2.0, 2.0]);
