@@ -12,9 +12,9 @@ mod warning;
 
 use std::sync::Arc;
 
+use ib_core::input::{InputError, all_finite, not_negative, positive, same_length};
 use ib_core::{BandLimit, Medium, Vec2};
 
-use crate::error::{not_negative, positive};
 use crate::{
     Flux, InterfaceError, Tension,
     concentration::{Repair, Transport, cell_peclet},
@@ -120,8 +120,8 @@ impl ActiveDroplet {
         tension: impl Tension + 'static,
         diffusion: f64,
     ) -> Result<Self, InterfaceError> {
-        crate::error::length("particle numbers", markers.len(), numbers.len())?;
-        crate::error::all_finite("the particle numbers", &numbers)?;
+        same_length("particle numbers", markers.len(), numbers.len())?;
+        all_finite("the particle numbers", &numbers)?;
         for &number in &numbers {
             not_negative("a particle number", number)?;
         }
@@ -221,7 +221,7 @@ impl ActiveDroplet {
     pub fn with_bounds(mut self, area: f64, particles: f64) -> Result<Self, InterfaceError> {
         for (name, value) in [("the bound on the area", area), ("the bound on the particles", particles)] {
             if value.is_nan() || value < 0.0 {
-                return Err(InterfaceError::Negative { name, value });
+                return Err(InputError::Negative { name, value }.into());
             }
         }
         self.bounds = [area, particles];

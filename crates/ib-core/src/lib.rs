@@ -52,6 +52,7 @@ mod error;
 mod gap;
 mod hydrodynamics;
 mod immersed_boundary;
+pub mod input;
 mod integrator;
 mod kernel;
 mod mobility;

@@ -1,9 +1,9 @@
 //! Pressure drop and fluxes in a channel with a droplet.
 
+use ib_core::input::{finite, positive};
 use ib_core::{BodyError, FlowError, FlowReport, FlowSample, Handle, Hydrodynamics, Medium, SceneError, System, Vec2};
 
 use crate::curve::polygon::edges;
-use crate::error::{finite, positive};
 use crate::{
     ActiveDroplet, InterfaceError,
     curve::polygon_moments,
