@@ -8,13 +8,7 @@ mod walls;
 
 use num_complex::Complex64;
 
-use crate::{
-    Forcing, LayerError, Region, Vec2,
-    error::within,
-    gmres::dot,
-    greens::{Stress, StressKernel},
-    region::Images,
-};
+use crate::{Forcing, LayerError, Region, Vec2, error::within, gmres::dot, greens::StressKernel, region::Images};
 pub use curve::{Foot, NodeCurve};
 use walls::DenseWalls;
 
@@ -54,8 +48,8 @@ pub struct DoubleLayerMatrix {
 
 /// Products `T n` of a stress and a vector, (xx, xy, yy).
 #[inline(always)]
-fn contract(t: &Stress, n: Vec2) -> [f64; 3] {
-    [t.xxx * n.x + t.xxy * n.y, t.xxy * n.x + t.xyy * n.y, t.xyy * n.x + t.yyy * n.y]
+fn contract([xxx, xxy, xyy, yyy]: &[f64; 4], n: Vec2) -> [f64; 3] {
+    [xxx * n.x + xxy * n.y, xxy * n.x + xyy * n.y, xyy * n.x + yyy * n.y]
 }
 
 impl DoubleLayerMatrix {
@@ -120,18 +114,13 @@ impl DoubleLayerMatrix {
         for i in 0..count {
             let row = (first + i) * n + first;
             // Above the diagonal from the kernel, below it by symmetry.
-            if i + 1 < count {
-                let target = self.kernel.target(curve.positions[i]);
-                self.kernel.sum(&target, &curve.sources, i + 1);
-                for j in i + 1..count {
-                    let t = self.kernel.stress(j - i - 1);
-                    let here = contract(&t, scale * curve.normals[j]);
-                    let mirrored = contract(&t, -scale * curve.normals[i]);
-                    let column = (first + j) * n + first + i;
-                    (xx[row + j], xy[row + j], yy[row + j]) = (here[0], here[1], here[2]);
-                    (xx[column], xy[column], yy[column]) = (mirrored[0], mirrored[1], mirrored[2]);
-                }
-            }
+            self.kernel.stresses(curve.positions[i], &curve.sources, i + 1, |j, stress| {
+                let here = contract(&stress, scale * curve.normals[j]);
+                let mirrored = contract(&stress, -scale * curve.normals[i]);
+                let column = (first + j) * n + first + i;
+                [xx[row + j], xy[row + j], yy[row + j]] = here;
+                [xx[column], xy[column], yy[column]] = mirrored;
+            });
         }
         let background = curve.contrast * curve.area / self.area;
         for i in 0..count {
@@ -150,13 +139,10 @@ impl DoubleLayerMatrix {
         let offset = self.wrap(target.centre - source.centre);
         let [xx, xy, yy] = &mut self.blocks;
         for (i, position) in target.positions.iter().enumerate() {
-            let at = self.kernel.target(position + offset);
-            self.kernel.sum(&at, &source.sources, 0);
             let row = (target.first + i) * n + source.first;
-            for (j, normal) in source.normals.iter().enumerate() {
-                let block = contract(&self.kernel.stress(j), scale * normal);
-                (xx[row + j], xy[row + j], yy[row + j]) = (block[0], block[1], block[2]);
-            }
+            self.kernel.stresses(position + offset, &source.sources, 0, |j, stress| {
+                [xx[row + j], xy[row + j], yy[row + j]] = contract(&stress, scale * source.normals[j]);
+            });
         }
     }
 

@@ -14,4 +14,4 @@ pub(crate) use logarithm::ln;
 pub(crate) use nodes::{Nodes, Vectors};
 pub(crate) use pair::{FreePair, PairKernel, RowPair, Stokeslet};
 pub(crate) use point::{Flow, GreensFunction, Kernels, free, weighted};
-pub(crate) use stress::{Sources, Stress, StressKernel};
+pub(crate) use stress::{Sources, StressKernel};

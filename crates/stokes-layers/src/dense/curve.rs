@@ -68,7 +68,7 @@ impl NodeCurve {
             return Err(LayerError::Clockwise { curve: self.first });
         }
         let Self { positions, sources, .. } = self;
-        matrix.kernel.load(positions.iter().copied(), sources);
+        matrix.kernel.load(positions, sources);
         Ok(())
     }
 

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 
 use num_complex::Complex64;
 
+use super::logarithm::ln;
 use crate::Region;
 
 const I: Complex64 = Complex64::new(0.0, 1.0);
@@ -104,7 +105,7 @@ impl GreensFunction {
         }
     }
 
-    /// All images.
+    /// All images, d being the shortest of the equivalent distances.
     pub(crate) fn at(&self, d: Complex64) -> Kernels {
         self.evaluate(d, false)
     }
@@ -147,23 +148,26 @@ impl GreensFunction {
     }
 
     /// Rows along x, of which the first N functions of each family are computed.
+    #[inline(always)]
     fn lattice<const N: usize>(&self, d: Complex64, regular: bool) -> Kernels {
         let Self::Lattice { k, across, rows, .. } = *self else { return free(d) };
-        let d = Complex64::new(d.re, d.im - across * (d.im / across).round());
-        let (mut log, mut c) = singular_row(d, k, regular);
+        let half = HalfAngle::new(d * (0.5 * k));
+        let (mut log, mut c) = singular_row(d, k, &half, regular);
         let mut moments = c.map(|c| c * d.im);
-        let turn = (I * k * d).exp();
-        let back = turn.inv();
+        let [turn, back] = half.turns();
         let decay = (-k * across).exp();
         let (mut product, mut shrink, mut height) = (1.0, 1.0, 0.0);
         for _ in 0..rows {
             shrink *= decay;
             height += across;
             for (q, y, side) in [(turn * shrink, d.im + height, 1.0), (back * shrink, d.im - height, -1.0)] {
-                let rest = (1.0 - q).inv();
-                product *= rest.norm_sqr();
-                let factor = q * rest;
-                let first = -I * (side * k) * factor;
+                let gap = 1.0 - q;
+                let inverse = 1.0 / gap.norm_sqr();
+                product *= inverse;
+                let rest = gap.conj() * inverse;
+                // q/(1 - q).
+                let factor = (q - q.norm_sqr()) * inverse;
+                let first = Complex64::new(side * k * factor.im, -side * k * factor.re);
                 let second = -k * k * factor * rest;
                 let third = I * (0.5 * side * k * k * k) * factor * rest * rest * (1.0 + q);
                 for (index, term) in [first, second, third].into_iter().enumerate().take(N) {
@@ -172,7 +176,7 @@ impl GreensFunction {
                 }
             }
         }
-        log -= 0.5 * product.ln();
+        log -= 0.5 * ln(product);
         let mean = k * (d.im * d.im / across + across / 6.0);
         let background = 0.5 * k / across;
         c[0] += I * (k * d.im / across);
@@ -187,7 +191,7 @@ impl GreensFunction {
 pub(crate) fn free(d: Complex64) -> Kernels {
     let inverse = d.inv();
     let c = [inverse, inverse * inverse, inverse * inverse * inverse];
-    weighted(0.5 * d.norm_sqr().ln() - 0.5, c, d.conj())
+    weighted(0.5 * ln(d.norm_sqr()) - 0.5, c, d.conj())
 }
 
 /// Free-space kernels from functions that stand for ln|d| and 1/d^k.
@@ -197,26 +201,50 @@ pub(crate) fn weighted(log: f64, c: [Complex64; 3], conjugate: Complex64) -> Ker
 
 /// conj(d) becomes d - 2 i dy, and the sum over images of 1/d^k is a derivative of the cotangent.
 fn row(d: Complex64, k: f64, regular: bool) -> Kernels {
-    let (log, c) = singular_row(d, k, regular);
+    let (log, c) = singular_row(d, k, &HalfAngle::new(d * (0.5 * k)), regular);
     let y = Complex64::new(0.0, -2.0 * d.im);
     let one = if regular { 0.0 } else { 1.0 };
     Kernels { log: log - 0.5 * one, c, e: [one + y * c[0], c[0] + y * c[1], c[1] + y * c[2]], background: 0.0 }
 }
 
-/// `ln|2 sin(k d/2)|` and the sums over a row of 1/d^k; where `regular`, less the functions of d alone.
-fn singular_row(d: Complex64, k: f64, regular: bool) -> (f64, [Complex64; 3]) {
-    let half = 0.5 * k;
-    let x = d * half;
-    if regular && x.norm_sqr() < 0.25 {
-        return near_row(x, k);
+/// Circular functions of a complex number.
+struct HalfAngle {
+    x: Complex64,
+    sin: Complex64,
+    cos: Complex64,
+    /// exp(i x.re), exp(x.im) and exp(-x.im).
+    circle: Complex64,
+    up: f64,
+    down: f64,
+}
+
+impl HalfAngle {
+    fn new(x: Complex64) -> Self {
+        let ((s, c), up) = (x.re.sin_cos(), x.im.exp());
+        let down = 1.0 / up;
+        // Digits of the difference are lost close to zero.
+        let sh = if x.im.abs() < 0.5 { x.im.sinh() } else { 0.5 * (up - down) };
+        let ch = 0.5 * (up + down);
+        let (sin, cos) = (Complex64::new(s * ch, c * sh), Complex64::new(c * ch, -s * sh));
+        Self { x, sin, cos, circle: Complex64::new(c, s), up, down }
     }
-    // One circular and one hyperbolic function serve sine and cosine.
-    let ((s, c), sh) = (x.re.sin_cos(), x.im.sinh());
-    let ch = (1.0 + sh * sh).sqrt();
-    let (sin, cos) = (Complex64::new(s * ch, c * sh), Complex64::new(c * ch, -s * sh));
-    let cosecant = half * sin.inv();
-    let first = cosecant * cos;
-    let (log, c) = (0.5 * (4.0 * sin.norm_sqr()).ln(), [first, cosecant * cosecant, cosecant * cosecant * first]);
+
+    /// exp(2 i x) and exp(-2 i x).
+    fn turns(&self) -> [Complex64; 2] {
+        let turn = self.circle * self.circle;
+        [turn * (self.down * self.down), turn.conj() * (self.up * self.up)]
+    }
+}
+
+/// `ln|2 sin(k d/2)|` and the sums over a row of 1/d^k; where `regular`, less the functions of d alone.
+fn singular_row(d: Complex64, k: f64, half: &HalfAngle, regular: bool) -> (f64, [Complex64; 3]) {
+    if regular && half.x.norm_sqr() < 0.25 {
+        return near_row(half.x, k);
+    }
+    let cosecant = 0.5 * k * half.sin.inv();
+    let first = cosecant * half.cos;
+    let log = 0.5 * ln(4.0 * half.sin.norm_sqr());
+    let c = [first, cosecant * cosecant, cosecant * cosecant * first];
     if regular {
         let own = free(d);
         (log - own.log - 0.5, [c[0] - own.c[0], c[1] - own.c[1], c[2] - own.c[2]])

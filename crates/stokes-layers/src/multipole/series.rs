@@ -112,6 +112,8 @@ pub(crate) struct SeriesFinder {
 #[derive(Debug, Clone)]
 struct Circle {
     transform: Transform,
+    /// Of radius one.
+    points: Vec<Complex64>,
     even: Vec<Complex64>,
     odd: Vec<Complex64>,
 }
@@ -136,31 +138,27 @@ impl SeriesFinder {
 
 impl Circle {
     fn new(len: usize) -> Self {
+        let points = (0..len).map(|j| Complex64::cis(TAU * j as f64 / len as f64)).collect();
         let zeros = vec![Complex64::default(); len];
-        Self { transform: Transform::new(len), even: zeros.clone(), odd: zeros }
-    }
-
-    fn point(&self, j: usize, radius: f64) -> Complex64 {
-        Complex64::from_polar(radius, TAU * j as f64 / self.even.len() as f64)
+        Self { transform: Transform::new(len), points, even: zeros.clone(), odd: zeros }
     }
 
     /// The parts of the flow that go with F and with conj F, on a circle around `centre`.
     fn values(&mut self, greens: &GreensFunction, images: &Images, centre: Complex64, radius: f64) {
-        for j in 0..self.even.len() {
-            let (log, direction) = greens.stokeslet(images.wrap(centre + self.point(j, radius)));
-            self.even[j] = Complex64::new(-log, 0.0);
-            self.odd[j] = 0.5 * direction.conj();
+        for ((point, even), odd) in self.points.iter().zip(&mut self.even).zip(&mut self.odd) {
+            let (log, direction) = greens.stokeslet(images.wrap(centre + point * radius));
+            *even = Complex64::new(-log, 0.0);
+            *odd = 0.5 * direction.conj();
         }
     }
 
     /// Takes off free space around the distances given.
     fn subtract(&mut self, direct: &[Complex64], radius: f64) {
-        for i in 0..self.even.len() {
-            let point = self.point(i, radius);
+        for ((point, even), odd) in self.points.iter().zip(&mut self.even).zip(&mut self.odd) {
             for distance in direct {
-                let d = distance + point;
-                self.even[i] -= 0.5 - 0.5 * ln(d.norm_sqr());
-                self.odd[i] -= 0.5 * d / d.conj();
+                let d = distance + point * radius;
+                *even -= 0.5 - 0.5 * ln(d.norm_sqr());
+                *odd -= 0.5 * d / d.conj();
             }
         }
     }
