@@ -51,8 +51,8 @@ fn coarse() -> Setup {
     Setup { method: Method::Grid(GridMethod::of_spacing(0.25)), ..Setup::default() }
 }
 
-/// Whether a scene can be built. What is built takes a step, which may fail but not panic. What is that fine that it would
-/// take long is only checked.
+/// Whether a scene can be built. What is built takes a step, which may fail but not panic. What is that fine that it
+/// would take long is only checked.
 fn builds(setup: &Setup) -> bool {
     if let Method::Grid(GridMethod { spacing, marker_spacing, .. }) = setup.method {
         let finest =
