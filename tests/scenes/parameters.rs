@@ -51,8 +51,16 @@ fn coarse() -> Setup {
     Setup { method: Method::Grid(GridMethod::of_spacing(0.25)), ..Setup::default() }
 }
 
-/// Whether a scene can be built. What is built takes a step, which may fail but not panic.
+/// Whether a scene can be built. What is built takes a step, which may fail but not panic. What is that fine that it
+/// would take long is only checked.
 fn builds(setup: &Setup) -> bool {
+    if let Method::Grid(GridMethod { spacing, marker_spacing, .. }) = setup.method {
+        let finest =
+            setup.solids.iter().filter_map(|solid| solid.mesh_spacing).chain(marker_spacing).fold(spacing, f64::min);
+        if setup.region.lengths().iter().map(|length| length / finest).product::<f64>() > 2e6 {
+            return setup.check().is_ok();
+        }
+    }
     let Ok(Built { mut scene, .. }) = setup.build() else { return false };
     let _ = scene.step(1e-4);
     true
