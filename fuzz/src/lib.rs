@@ -4,6 +4,7 @@
 use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
 use clap::Parser;
 use elastic_solids::mesh::GmshMesh;
+use motile::{ChannelShape, IntegralMethod, Method, Setup};
 use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
 use stokes_grid::{Grid, PeriodicStokes};
 use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, OutputFlags};
@@ -86,15 +87,31 @@ pub fn flags(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let words = std::iter::once("scene").chain(text.split_whitespace());
     let Ok(Flags { droplet, method, output: _, region }) = Flags::try_parse_from(words) else { return };
+    let Ok(mut setup) = method.setup(&droplet, None) else { return };
     let checked = match &region {
         None => Ok(()),
-        Some(Region::Box(region)) => region.check(&method),
-        Some(Region::Channel(channel)) => channel.check(&method),
-        Some(Region::Elastic(walls)) => walls.channel(&droplet, &method, 0.0).map(|_| ()),
+        Some(Region::Box(region)) => region.apply(&mut setup, &method),
+        Some(Region::Channel(channel)) => channel.apply(&mut setup, &method),
+        Some(Region::Elastic(walls)) => {
+            let shape = ChannelShape::Straight { width: walls.width };
+            walls.setup(&shape, &droplet, &method, 0.0, None).map(|_| ())
+        }
     };
-    let swimmer = droplet.swimmer(&method);
-    if checked.is_ok() && swimmer.spacing > 0.02 {
-        let _ = swimmer.droplet();
+    if checked.is_ok() && method.spacing(&setup) > 0.02 {
+        let _ = setup.droplet(&setup.droplets[0]);
+    }
+}
+
+/// Reads a scene file; what is read is written and read again as it was, and its droplets are made where that is cheap.
+pub fn scene_file(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    let Ok(setup) = Setup::from_toml(text) else { return };
+    let again = setup.to_toml().expect("a description that was read can be written");
+    assert_eq!(Setup::from_toml(&again).expect("what was written can be read"), setup);
+    if matches!(setup.method, Method::Integral(IntegralMethod { cells: 0..=4096, .. })) {
+        for droplet in &setup.droplets {
+            let _ = setup.droplet(droplet);
+        }
     }
 }
 
@@ -114,6 +131,11 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
             let strip = |columns, rows| elastic_solids::mesh::equilateral_block(ib_core::Vec2::zeros(), columns, rows, 0.5);
             [strip(2, 2), strip(4, 3)].into_iter().flatten().flat_map(|mesh| GmshMesh { mesh, groups: Vec::new() }.to_text()).map(String::into_bytes).collect()
         }
+        "scene" => [Setup::default(), Setup::thesis()]
+            .into_iter()
+            .filter_map(|setup| setup.to_toml().ok())
+            .map(String::into_bytes)
+            .collect(),
         _ => [
             "--activity -4 --excluded-volume 8 --viscosity 10 --spacing 0.1 --dt auto --time 250 box --box 12 --offset -0.03,0.01",
             "--kernel gaussian6 --preset thesis --initial perturbed --seed 7 --no-pictures --out somewhere channel --width 2 --length 8",

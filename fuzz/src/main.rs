@@ -1,6 +1,6 @@
 //! Fuzzing without libFuzzer and with a stable compiler: random changes of valid inputs.
 //!
-//! `cargo run --release --bin motile-fuzz -- TARGET SECONDS` in this directory, TARGET being checkpoint, gmsh or flags;
+//! `cargo run --release --bin motile-fuzz -- TARGET SECONDS` in this directory, TARGET being checkpoint, gmsh, scene or flags;
 //! with `corpus` in place of the seconds it writes the valid inputs to `corpus/TARGET/` for `cargo fuzz`. Tells how
 //! many inputs it has tried; a panic ends it, and the input is then in `crash-TARGET`.
 
@@ -75,15 +75,16 @@ fn mutate(input: &mut Vec<u8>, other: &[u8], numbers: &mut Numbers) {
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [target, amount] = arguments.as_slice() else {
-        eprintln!("give a target (checkpoint, gmsh or flags) and a number of seconds or 'corpus'");
+        eprintln!("give a target (checkpoint, gmsh, scene or flags) and a number of seconds or 'corpus'");
         std::process::exit(2);
     };
     let run: fn(&[u8]) = match target.as_str() {
         "checkpoint" => motile_fuzz::checkpoint,
+        "scene" => motile_fuzz::scene_file,
         "gmsh" => motile_fuzz::gmsh,
         "flags" => motile_fuzz::flags,
         _ => {
-            eprintln!("there is no target {target}: give checkpoint, gmsh or flags");
+            eprintln!("there is no target {target}: give checkpoint, gmsh, scene or flags");
             std::process::exit(2);
         }
     };

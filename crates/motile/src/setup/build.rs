@@ -32,6 +32,8 @@ pub struct Built {
 const FILM: f64 = 0.05;
 /// A squeezed droplet's least half height, over its radius.
 const FLATTEST: f64 = 0.1;
+/// Most markers of an interface.
+pub(super) const MOST_MARKERS: f64 = 1e6;
 /// How deep a droplet may start inside a solid, over the grid spacing.
 const OVERLAP: f64 = 0.25;
 
@@ -73,7 +75,16 @@ impl Setup {
         };
         let curve = placed(curve, turned);
         let count = match &self.method {
-            Method::Grid(grid) => fast_count(curve.perimeter() / grid.marker_spacing.unwrap_or(0.5 * grid.spacing)),
+            Method::Grid(grid) => {
+                let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
+                let wanted = curve.perimeter() / spacing;
+                if wanted.is_nan() || wanted > MOST_MARKERS {
+                    let remedy = format!("{} would have {wanted:.1e} markers: give more than that", droplet.name);
+                    let (key, value) = ("method.grid.marker-spacing".to_owned(), spacing.to_string());
+                    return Err(SetupError::Value { key, value, remedy });
+                }
+                fast_count(wanted)
+            }
             Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
         };
         let markers = curve.markers(count)?;
@@ -251,7 +262,7 @@ impl Setup {
 
 /// The even number without prime factors above 5 nearest to `wanted`: transforms of such lengths are fast.
 fn fast_count(wanted: f64) -> usize {
-    let wanted = wanted.round().clamp(8.0, 1e7) as usize;
+    let wanted = wanted.round().clamp(8.0, MOST_MARKERS) as usize;
     let fast = |mut n: usize| {
         for p in [2, 3, 5] {
             while n.is_multiple_of(p) {

@@ -10,11 +10,11 @@ use super::{
 use crate::SetupError;
 
 /// Most cells of a grid in a direction, and in all.
-const MOST_CELLS: [f64; 2] = [16_384.0, 6.7e7];
+const MOST_CELLS: [f64; 2] = [16_384.0, 1.7e7];
 /// Shape nodes of boundary integrals.
 const NODES: [usize; 2] = [16, 4096];
 /// Markers of an interface, and cells of its concentration.
-const MARKERS: [f64; 2] = [8.0, 1e6];
+const MARKERS: [f64; 2] = [8.0, super::build::MOST_MARKERS];
 /// Largest length over the grid spacing that a solid may have.
 const MOST_ACROSS: f64 = 1e5;
 

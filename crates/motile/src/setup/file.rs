@@ -34,7 +34,7 @@ impl Setup {
     /// The description as a TOML text, all entries written out, from which [`Setup::from_toml`] makes it again.
     ///
     /// # Errors
-    /// None for a description that [`Setup::check`] accepts.
+    /// A seed above 2^63 - 1, which TOML has no number for.
     pub fn to_toml(&self) -> Result<String, SetupError> {
         toml::to_string(self).map_err(|error| SetupError::File { problem: error.to_string() })
     }
