@@ -13,4 +13,6 @@ mod documents {
     struct Architecture;
     #[doc = include_str!("../../docs/guide.md")]
     struct Guide;
+    #[doc = include_str!("../../docs/elastic.md")]
+    struct Elastic;
 }
