@@ -4,13 +4,15 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use motile::{
-    SolidGap,
+
     active_interface::{
         ActiveDroplet,
         observables::{ConcentrationProfile, Frame, concentration_profile},
         trajectory::TrajectoryRecord,
     },
-    ib_core::{Every, Handle, Hydrodynamics, Integrator, Observer, Scene, SceneError, StepSize, System, Vec2},
+    ib_core::{
+        Every, Handle, Hydrodynamics, Integrator, Observer, Scene, SceneError, StepSize, System, Vec2, gap::SolidGap,
+    },
 };
 
 use motile::{DropletSetup, Exclusion, Method, Particles, Region, Setup};

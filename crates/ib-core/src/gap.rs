@@ -1,11 +1,15 @@
 //! Gaps between bodies, between bodies and walls, and what keeps them open.
 
+mod between;
 mod boundary;
 mod repulsion;
+mod solid_gap;
 mod wall_gap;
 
+pub(crate) use between::Outline;
 pub use boundary::Boundary;
 pub use repulsion::Repulsion;
+pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use wall_gap::wall_gap;
 
 use crate::{Body, Domain, Markers, Vec2};

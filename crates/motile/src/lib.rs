@@ -52,7 +52,6 @@ pub mod prelude;
 mod recommend;
 mod setup;
 mod setup_error;
-mod solid_gap;
 
 pub use recommend::{Recommendation, SceneKind, recommend};
 pub use setup::{
@@ -61,5 +60,4 @@ pub use setup::{
     SolidOutline, SolidSetup, Squeezed, Start, Surface,
 };
 pub use setup_error::SetupError;
-pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use {active_interface, boundary_integral, elastic_solids, ib_core, stokes_grid};

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, bail};
 use clap::ValueEnum;
-use motile::SolidGap;
+use motile::ib_core::gap::SolidGap;
 use motile::active_interface::{
     ActiveDroplet,
     trajectory::{RegimeCriteria, TrajectoryRecorder},

@@ -1,8 +1,8 @@
 //! How near the bodies come to one another and to walls.
 
 use super::System;
-use crate::gap::Gap;
-use crate::{Hydrodynamics, Medium, Repulsion, SceneError, gap::wall_gap};
+use crate::gap::{Gap, Outline, wall_gap};
+use crate::{Body, Handle, Hydrodynamics, Medium, Repulsion, SceneError};
 
 /// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the
 /// round-off of a grid.
@@ -19,6 +19,38 @@ impl<H: Hydrodynamics> System<H> {
             self.markers.groups().iter().filter(|group| group.kind.is_interface() && !group.range.is_empty());
         let gaps = interfaces.map(|group| wall_gap(&self.markers.positions[group.range.clone()], walls));
         gaps.reduce(|least, gap| if gap < least || gap.is_nan() { gap } else { least })
+    }
+
+    /// The gap between two bodies at the present state (length): the smallest distance of the corners of the boundary
+    /// of each, or of its markers where it has none, from the boundary of the other, over all images. Negative where
+    /// the bodies overlap; for a body inside an interface the distance from within. `None` where neither has a
+    /// boundary. Needs no evaluation, but memory and time.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`].
+    pub fn gap(
+        &self,
+        first: impl Into<Handle<dyn Body>>,
+        second: impl Into<Handle<dyn Body>>,
+    ) -> Result<Option<f64>, SceneError> {
+        let [first, second] = [Outline::of(self.any_body(first)?), Outline::of(self.any_body(second)?)];
+        Ok(first.gap(&second, self.hydrodynamics.medium().domain.periods))
+    }
+
+    /// The smallest [`System::gap`] between a body and all others (length), and the body on its other side; `None`
+    /// where there is none.
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`].
+    pub fn gap_around(
+        &self,
+        body: impl Into<Handle<dyn Body>>,
+    ) -> Result<Option<(f64, Handle<dyn Body>)>, SceneError> {
+        let body = body.into();
+        let (outline, periods) = (Outline::of(self.any_body(body)?), self.hydrodynamics.medium().domain.periods);
+        let others = self.all_bodies().filter(|(handle, _)| *handle != body);
+        let gaps = others.filter_map(|(handle, other)| Some((outline.gap(&Outline::of(other), periods)?, handle)));
+        Ok(gaps.min_by(|a, b| a.0.total_cmp(&b.0)))
     }
 
     /// The smallest [`System::wall_gap`] since the start (length): over the states after each addition of a body and at

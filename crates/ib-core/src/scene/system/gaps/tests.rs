@@ -174,3 +174,29 @@ fn bodies_that_overlap_at_the_start_are_to_be_moved_apart() {
     let gap = nucleus.system().minimum_gap().unwrap();
     assert!((gap - 0.1).abs() < 5e-3, "{gap}");
 }
+
+#[test]
+fn the_gap_between_any_two_bodies() {
+    let mut scene = scene();
+    let cell = scene.add(ring("cell", Vec2::zeros(), 1.0, None, Vec2::zeros()));
+    let nucleus = scene.add(Disc(circle(Vec2::new(0.4, 0.0), 0.5)));
+    let square = [(1.3, 1.3), (1.5, 1.3), (1.5, 1.5), (1.3, 1.5)].map(|(x, y)| Vec2::new(x, y));
+    let island = scene.add(Disc(square.to_vec()));
+    let point = scene.add(MarkerBody::new("point", vec![Vec2::new(1.4, 1.2)], |_, _| {}));
+    let gap = |scene: &Scene<Flow>, other: crate::Handle<dyn Body>| scene.system().gap(cell, other).unwrap().unwrap();
+    // From within, and the corner of a square that stands on no marker's way; a point has no boundary but a place.
+    assert!((gap(&scene, nucleus.into()) - 0.1).abs() < 5e-3);
+    assert!((gap(&scene, island.into()) - (1.3 * 2.0_f64.sqrt() - 1.0)).abs() < 2e-3);
+    assert!((gap(&scene, point.into()) - (1.4_f64.hypot(1.2) - 1.0)).abs() < 2e-3);
+    assert!((scene.system().gap(point, island).unwrap().unwrap() - 0.1).abs() < 1e-12);
+    let (least, other) = scene.system().gap_around(cell).unwrap().unwrap();
+    assert!((least - 0.1).abs() < 5e-3 && other == nucleus.into());
+    assert!(scene.system().gap_around(point).unwrap().unwrap().1 == island.into());
+    // Over the edge of the box, overlapping.
+    scene.body_mut(cell).unwrap().positions_mut().iter_mut().for_each(|marker| marker.x -= 2.3);
+    assert!((scene.system().gap(cell, island).unwrap().unwrap() - (1.3_f64.hypot(0.4) - 1.0)).abs() < 5e-3);
+    let mut other = self::scene();
+    let foreign = other.add(Disc(square.to_vec()));
+    assert!(matches!(scene.system().gap(cell, foreign), Err(SceneError::ForeignHandle)));
+    assert_eq!(other.system().gap_around(foreign).unwrap(), None);
+}

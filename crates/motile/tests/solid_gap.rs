@@ -1,8 +1,10 @@
-use super::*;
-use crate::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
-use elastic_solids::{NeoHookean, Solid, forces::Springs, mesh::equilateral_strip};
-use ib_core::Vec2;
-use stokes_grid::Drive;
+//! Gaps between droplets and elastic walls.
+
+use motile::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
+use motile::elastic_solids::{NeoHookean, Solid, forces::Springs, mesh::equilateral_strip};
+use motile::ib_core::gap::{SolidEntered, SolidGap};
+use motile::ib_core::{Observer, Vec2};
+use motile::stokes_grid::Drive;
 
 #[test]
 fn a_droplet_inside_a_wall_is_an_error() {
@@ -62,9 +64,9 @@ fn the_nearest_of_all_droplets_counts() {
     };
     let Built { scene, droplets, .. } = setup.build().unwrap();
     let place = SolidGap::new(0.0).measure(scene.system()).unwrap();
-    assert!(place.droplet == droplets[0] && (place.gap - 0.1).abs() < 2e-3, "{place:?}");
+    assert!(place.interface == droplets[0].into() && (place.gap - 0.1).abs() < 2e-3, "{place:?}");
     let lower = Setup { droplets: vec![droplet(1.2), droplet(-1.4)], ..setup };
     let Built { scene, droplets, .. } = lower.build().unwrap();
     let place = SolidGap::new(0.0).measure(scene.system()).unwrap();
-    assert!(place.droplet == droplets[1] && (place.gap - 0.1).abs() < 2e-3, "{place:?}");
+    assert!(place.interface == droplets[1].into() && (place.gap - 0.1).abs() < 2e-3, "{place:?}");
 }
