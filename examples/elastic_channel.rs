@@ -8,11 +8,9 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
-use motile::{
-    active_interface::trajectory::{Evidence, RegimeCriteria},
-    ib_core::Body,
-    setup::{Built, ChannelShape},
-};
+use motile::active_interface::trajectory::{Evidence, RegimeCriteria};
+use motile::ib_core::Body;
+use motile::{Built, ChannelShape};
 use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims between elastic walls.
@@ -53,7 +51,7 @@ fn swim(flags: &Flags) -> Result<()> {
     let Evidence { amplitude, .. } = report.evidence;
     summary.put("regime", report.regime.to_string(), "across the channel");
     summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
-    if let Some(last) = run.recorder().last() {
+    if let Some(last) = run.recorder().records().records().last() {
         summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
     }
     summary.write(&run.directory().join("summary.json"))?;

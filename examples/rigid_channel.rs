@@ -8,11 +8,11 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
+use motile::Built;
 use motile::active_interface::{
     observables::net_flux,
     trajectory::{Evidence, RegimeCriteria},
 };
-use motile::setup::Built;
 use motile_examples::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a channel with rigid walls.
@@ -52,7 +52,7 @@ fn swim(flags: &Flags) -> Result<()> {
     summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
     summary.put("period", period.map(|period| period.value), "of the oscillation");
     summary.put("growth_rate", growth_rate.map(|rate| rate.value), "of its amplitude");
-    if let Some(last) = run.recorder().last() {
+    if let Some(last) = run.recorder().records().records().last() {
         summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
         // Far from the interface, where the flow is smooth.
         let flux = net_flux(scene.system_mut(), last.observables.centroid.x + 0.5 * length)?;

@@ -18,11 +18,11 @@ use motile::active_interface::{
     observables::{InterfaceState, centroid_velocity},
 };
 use motile::ib_core::{Every, Handle, Hydrodynamics, SceneError, System, Vec2};
-use motile::setup::{AnyFlow, Built, DropletSetup, Particles, Region, RepulsionSetup};
+use motile::{AnyFlow, Built, DropletSetup, Particles, Region, RepulsionSetup};
 use motile_examples::{
     DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say, settle_contrast,
 };
-use motile_output::{Progress, Trajectory, write_scene_picture};
+use motile_output::{CsvTable, Look, Raster, RunProgress, Snapshot};
 
 /// How the droplets start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -118,17 +118,12 @@ fn meet(flags: &Flags) -> Result<()> {
     flags.output.checkpoints.resume(&mut scene, &description, end)?;
     let directory = flags.output.directory("two_droplets")?;
     let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
-    let mut table = Trajectory::create(&directory.join("trajectory.csv"), &names)?;
-    let mut progress = Progress::new(end, flags.output.quiet);
-    let mut record = |system: &mut System<AnyFlow>| table.push(&look(system, droplets)?);
-    let mut tell = |system: &mut System<AnyFlow>| -> Result<()> {
-        let [_, _, _, speed, ..] = look(system, droplets)?;
-        progress.update(system.time(), system.steps(), speed);
-        Ok(())
-    };
-    let run = scene.run(end).observe(Every::StepAfter(end / ROWS), &mut record).observe(Every::Steps(1), &mut tell);
+    let mut table = CsvTable::create(directory.join("trajectory.csv"), &names)?;
+    let mut progress = RunProgress::new(end, flags.output.quiet);
+    let mut record = |system: &mut System<AnyFlow>| -> Result<()> { Ok(table.push(&look(system, droplets)?)?) };
+    let run = scene.run(end).observe(Every::StepAfter(end / ROWS), &mut record).observe(Every::Steps(1), &mut progress);
     let outcome = flags.output.checkpoints.watch(run, &description)?.go();
-    progress.finish();
+    let seconds = progress.finish();
     flags.output.checkpoints.save(&scene, &description, &outcome)?;
 
     // The results, also of a run that broke off.
@@ -151,15 +146,15 @@ fn meet(flags: &Flags) -> Result<()> {
     }
     summary.put("time", scene.time(), "simulated");
     summary.put("steps", scene.steps(), "");
-    summary.put("seconds", progress.seconds(), "of computation");
+    summary.put("seconds", seconds, "of computation");
     summary.put("failure", outcome.as_ref().err().map(SceneError::explanation), "if the run broke off");
     summary.write(&directory.join("summary.json"))?;
     say(summary.table().trim_end());
     if !flags.output.no_pictures {
-        let title = format!("t = {:.1}", scene.time());
-        let path = directory.join("final.png");
-        let concentration = setup.droplets[0].particles.map_or(0.0, |particles| particles.concentration);
-        write_scene_picture(scene.system_mut(), flags.method.spacing(&setup), concentration, &title, &path)?;
+        let raster = Raster::of(scene.system(), flags.method.spacing(&setup))?;
+        let seen = Snapshot::take(scene.system_mut(), raster)?;
+        let concentration = setup.droplets[0].particles.map(|particles| particles.concentration);
+        Look { concentration, ..Look::default() }.write_picture(&seen, &[], directory.join("final.png"))?;
     }
     say(format_args!("results in {}", directory.display()));
     Ok(outcome?)

@@ -8,17 +8,18 @@ use motile::{
     active_interface::{
         ActiveDroplet,
         observables::{ConcentrationProfile, Frame, concentration_profile},
+        trajectory::TrajectoryRecord,
     },
     ib_core::{Every, Handle, Hydrodynamics, Integrator, Observer, Scene, SceneError, StepSize, System, Vec2},
 };
 
-use motile::setup::{DropletSetup, Exclusion, Method, Particles, Region, Setup};
+use motile::{DropletSetup, Exclusion, Method, Particles, Region, Setup};
 
 use crate::{
     CheckpointFlags, Decided, MethodFlags, OutputFlags, RunCost, Steadiness, Summary, droplet_summary, put_solids,
 };
 use motile_output::{
-    Dial, Film, Look, Raster, Recorder, Snapshot, VtkOutput, concentration_plot, domain_raster, time_series,
+    Film, Look, ParaView, Raster, RunProgress, Snapshot, TrajectoryCsv, concentration_plot, time_series,
 };
 
 /// Rows of the trajectory and files for ParaView in a run.
@@ -74,9 +75,9 @@ pub struct WatchedRun {
     directory: PathBuf,
     raster: Raster,
     start: ConcentrationProfile,
-    recorder: Recorder,
-    dial: Dial,
-    pictures: Option<(Film, VtkOutput)>,
+    recorder: TrajectoryCsv,
+    progress: RunProgress,
+    pictures: Option<(Film, ParaView)>,
     cost: RunCost,
     gap: SolidGap,
     checkpoints: CheckpointFlags,
@@ -112,28 +113,29 @@ impl WatchedRun {
         let body = scene.body(droplet)?;
         let frame = Frame::new(Vec2::new(*x, *y), *angle)?;
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
-        let mut domain = scene.system().hydrodynamics().medium().domain;
-        if setup.region == Region::Plane {
-            // What pictures show of it.
-            domain.origin = [x - 0.5 * VIEW, y - 0.5 * VIEW];
-            domain.periods = [Some(VIEW); 2];
-        }
-        let raster = domain_raster(&domain, spacing, MOST_CELLS)?;
+        let raster = |spacing: f64| match setup.region {
+            Region::Plane => {
+                let cells = (VIEW / spacing).round() as usize;
+                Raster::new([x - 0.5 * VIEW, y - 0.5 * VIEW], [VIEW; 2], [cells.min(MOST_CELLS); 2], [false; 2])
+            }
+            _ => Raster::of(scene.system(), spacing),
+        };
+        let still = raster(spacing)?;
         let watched = match setup.method {
-            Method::Integral(_) => domain_raster(&domain, COARSER * spacing, MOST_CELLS)?,
-            Method::Grid(_) => raster,
+            Method::Integral(_) => raster(COARSER * spacing)?,
+            Method::Grid(_) => still,
         };
 
         let directory = output.directory(name)?;
-        let mut recorder = Recorder::create(&directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
+        let mut recorder = TrajectoryCsv::create(directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
         // Widths and gaps are those between the surfaces where walls stop the fluid.
         recorder.set_back(setup.set_back());
         let pictures = if output.no_pictures {
             None
         } else {
-            let concentration = particles.concentration;
-            let look = Look { caption, concentration, walls: domain.walls, streamline_spacing: STREAMLINES };
-            Some((Film::new(look, &watched)?, VtkOutput::create(&directory.join("vtk"), watched, droplet)?))
+            let concentration = Some(particles.concentration);
+            let look = Look { caption, concentration, streamline_spacing: Some(STREAMLINES) };
+            Some((Film::new(look, watched), ParaView::create(directory.join("vtk"), watched)?))
         };
         Ok(Self {
             droplet,
@@ -142,10 +144,10 @@ impl WatchedRun {
             area: scene.body(droplet)?.initial_area(),
             end,
             directory,
-            raster,
+            raster: still,
             start,
             recorder,
-            dial: Dial::new(end, output.quiet, droplet),
+            progress: RunProgress::new(end, output.quiet),
             pictures,
             cost: RunCost::default(),
             gap: SolidGap::new(SOLID_OVERLAP * spacing).with_set_back(setup.set_back()),
@@ -177,7 +179,7 @@ impl WatchedRun {
             .observe(Every::StepAfter(self.end / ROWS), &mut self.recorder)
             .observe(Every::Steps(1), &mut self.gap)
             .observe(Every::Steps(1), end)
-            .observe(Every::Steps(1), &mut self.dial);
+            .observe(Every::Steps(1), &mut self.progress);
         if let Some((film, vtk)) = &mut self.pictures {
             let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
             run =
@@ -191,7 +193,7 @@ impl WatchedRun {
         self.cost = RunCost {
             time: scene.time(),
             steps: scene.steps(),
-            seconds: self.dial.finish(),
+            seconds: self.progress.finish(),
             work: scene.system().hydrodynamics().work(),
             report: scene.step_report().clone(),
             stages: scene.integrator_work().stages,
@@ -204,7 +206,7 @@ impl WatchedRun {
 
     /// What was measured.
     #[must_use]
-    pub fn recorder(&self) -> &Recorder {
+    pub fn recorder(&self) -> &TrajectoryCsv {
         &self.recorder
     }
 
@@ -219,7 +221,7 @@ impl WatchedRun {
     /// # Errors
     /// A run that has not been.
     pub fn summary(&self) -> Result<Summary> {
-        let (first, last) = self.recorder.first().zip(self.recorder.last()).context("nothing was measured")?;
+        let (first, last) = self.records().first().zip(self.records().last()).context("nothing was measured")?;
         let speeds = self.recorder.table().curve("time", "speed")?;
         let steadiness = Steadiness::of(&speeds, self.particles.diffusion * std::f64::consts::PI / self.area);
         let mut summary = droplet_summary(
@@ -247,20 +249,22 @@ impl WatchedRun {
     /// # Errors
     /// Files that cannot be written.
     pub fn write_pictures<H: Hydrodynamics, I: Integrator>(&self, scene: &mut Scene<H, I>) -> Result<()> {
-        let (Some((film, _)), Some(last)) = (&self.pictures, self.recorder.last()) else { return Ok(()) };
+        let (Some((film, _)), Some(last)) = (&self.pictures, self.records().last()) else { return Ok(()) };
         let (directory, trajectory) = (&self.directory, self.recorder.table());
         time_series(trajectory)?.write(directory, "time_series")?;
         let body = scene.body(self.droplet)?;
         let frame = Frame::of_motion(last.observables.centroid, last.observables.velocity)?;
         let profile = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
-        concentration_plot(&self.start, &profile, self.cost.time, self.particles.concentration)?
+        concentration_plot(&self.start, &profile, self.cost.time, self.particles.concentration)
             .write(directory, "concentration_profile")?;
-        let times = trajectory.column("time")?;
-        let path: Vec<Vec2> = trajectory.curve("x", "y")?.into_iter().map(|(x, y)| Vec2::new(x, y)).collect();
+        let tracks = [self.recorder.track()];
         let seen = Snapshot::take(scene.system_mut(), self.raster)?;
-        film.look().write_picture(&seen, &path, &directory.join("final.png"))?;
-        let track: Vec<(f64, Vec2)> = times.into_iter().zip(path).collect();
-        film.write(&track, &directory.join("swim.gif"))
+        film.look().write_picture(&seen, &tracks, directory.join("final.png"))?;
+        Ok(film.write(&tracks, directory.join("swim.gif"))?)
+    }
+
+    fn records(&self) -> &[TrajectoryRecord] {
+        self.recorder.records().records()
     }
 }
 
@@ -281,3 +285,6 @@ pub fn caption(setup: &Setup) -> String {
     };
     format!("{particles}{viscosities}").replace('-', "−")
 }
+
+#[cfg(test)]
+mod tests;

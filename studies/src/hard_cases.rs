@@ -12,7 +12,7 @@ use crate::results::write_results;
 use anyhow::Result;
 use clap::Args;
 use motile_examples::{Summary, make_directory, say};
-use motile_output::write_scene_picture;
+use motile_output::{Look, Raster, Snapshot};
 use motile_tests::hard_cases::{Extent, Outcome, Trial, cases};
 
 /// Scenes that are hard to compute.
@@ -51,12 +51,15 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         let mut drawn = Ok(());
         let outcome = trial.run(extent, &mut |system| {
             if !flags.no_pictures {
-                let title = format!("{}: {}, t = {:.2}", trial.number, trial.name, system.time());
-                drawn = write_scene_picture(system, SPACING, CONCENTRATION, &title, &flags.out.join(&name));
+                let caption = format!("{}: {}", trial.number, trial.name);
+                let look = Look { caption, concentration: Some(CONCENTRATION), streamline_spacing: None };
+                drawn = Raster::of(system, SPACING)
+                    .and_then(|raster| Snapshot::take(system, raster))
+                    .and_then(|seen| look.write_picture(&seen, &[], flags.out.join(&name)));
             }
         })?;
         if let Err(error) = drawn {
-            say(format_args!("note: no picture of {trial:?}: {error:#}"));
+            say(format_args!("note: no picture of {trial:?}: {error}"));
         }
         let line = row(trial, &outcome);
         say(&line);
@@ -73,9 +76,9 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
 }
 
 fn row(trial: &Trial, outcome: &Outcome) -> String {
-    let Outcome { ending, time, steps, taken_back, drift, seconds, .. } = outcome;
+    let Outcome { ending, time, steps, rejected, drift, seconds, .. } = outcome;
     format!(
-        "| {} | {} | {} | {ending:?} | {time:.4} | {steps} | {taken_back} | {:+.1e} | {:+.1e} | {seconds:.1} |",
+        "| {} | {} | {} | {ending:?} | {time:.4} | {steps} | {rejected} | {:+.1e} | {:+.1e} | {seconds:.1} |",
         trial.number, trial.name, trial.way, drift.area, drift.particles
     )
 }
@@ -89,7 +92,7 @@ fn summary(trial: &Trial, outcome: &Outcome, picture: &str) -> Summary {
     summary.put("error", outcome.explanation.clone(), "");
     summary.put("time", outcome.time, "");
     summary.put("steps", outcome.steps, "");
-    summary.put("taken_back", outcome.taken_back, "");
+    summary.put("taken_back", outcome.rejected, "");
     summary.put("evaluations", outcome.evaluations, "");
     summary.put("area_relative_change", outcome.drift.area, "");
     summary.put("particle_relative_change", outcome.drift.particles, "");

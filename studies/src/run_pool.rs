@@ -45,7 +45,7 @@ impl<'a> RunPool<'a> {
         run: impl Fn(&J) -> Result<Summary> + Sync,
     ) -> Vec<Result<Summary>> {
         let mut results: Vec<Option<Result<Summary>>> = jobs.iter().map(|_| None).collect();
-        let mut progress = Progress::new(jobs.len() as f64, self.hidden);
+        let mut progress = Progress::new(self.hidden);
         let next = AtomicUsize::new(0);
         let (next, name, run) = (&next, &name, &run);
         thread::scope(|scope| {
@@ -63,7 +63,8 @@ impl<'a> RunPool<'a> {
             }
             drop(sender);
             for (done, (k, result)) in receiver.into_iter().enumerate() {
-                progress.update_runs(done + 1, jobs.len(), &name(&jobs[k]));
+                let (done, all) = (done + 1, jobs.len());
+                progress.update(done as f64 / all as f64, || format!("{done} of {all} runs, last {}", name(&jobs[k])));
                 results[k] = Some(result);
             }
         });

@@ -13,11 +13,11 @@ fn run(numbers: &[usize]) {
             Ok(outcome) => {
                 let Trial { name, way, .. } = trial;
                 println!(
-                    "{name} | {way} | {:?} | t = {:.3}, {} steps, {} taken back, {:.2} s | {:e} {:e}",
+                    "{name} | {way} | {:?} | t = {:.3}, {} steps, {} rejected, {:.2} s | {:e} {:e}",
                     outcome.ending,
                     outcome.time,
                     outcome.steps,
-                    outcome.taken_back,
+                    outcome.rejected,
                     outcome.seconds,
                     outcome.drift.area,
                     outcome.drift.particles

@@ -5,7 +5,7 @@ mod width;
 
 use ib_core::Vec2;
 
-use crate::error::finite;
+use crate::error::{finite, within};
 use crate::mesher::segments::Segments;
 use crate::{Mesher, Outline, Region, SolidError, TriangleMesh};
 
@@ -48,6 +48,8 @@ pub struct Walls {
 
 /// Points a period by which it is seen whether lines cross.
 const SAMPLES: f64 = 2000.0;
+/// Most periods that the sides and islands may be long together.
+const LONGEST: f64 = 200.0;
 
 impl Channel {
     /// The channel between two periodic outlines, which may have corners and overhang.
@@ -61,7 +63,8 @@ impl Channel {
     /// The same with closed outlines between them.
     ///
     /// # Errors
-    /// As [`Channel::new`]; an island that is not closed, or not between the lines.
+    /// As [`Channel::new`]; an island that is not closed, or not between the lines; lines more than 200 periods long
+    /// together.
     pub fn with_islands(lower: Outline, upper: Outline, islands: Vec<Outline>) -> Result<Self, SolidError> {
         let Some(period) = lower.period() else {
             return Err(SolidError::Unsupported {
@@ -80,6 +83,8 @@ impl Channel {
             });
         }
         let spacing = period / SAMPLES;
+        let length = [&lower, &upper].into_iter().chain(&islands).map(Outline::length).sum::<f64>();
+        within("the length of all sides and islands over the period", length / period, 0.0, LONGEST)?;
         let lines = [&lower, &upper]
             .into_iter()
             .chain(&islands)

@@ -36,7 +36,7 @@ pub enum SolidError {
         /// What it must be above (force per length).
         minimum: f64,
     },
-    /// A deformation that turns the material inside out, flattens it, or is not finite.
+    /// A deformation that inverts the material, flattens it, or is not finite.
     #[error(
         "the deformation gradient [[{a11}, {a12}], [{a21}, {a22}]] has the determinant {jacobian}: it must be positive"
     )]
@@ -167,14 +167,12 @@ pub enum SolidError {
         gap: f64,
     },
     /// A side or curve of an outline without length.
-    #[error("a side of the outline at ({x}, {y}) has the length {length}: points that follow each other must differ")]
+    #[error("a side of the outline at ({x}, {y}) has no length: points that follow each other must differ")]
     NoLength {
         /// x of its start (length).
         x: f64,
         /// y of its start (length).
         y: f64,
-        /// Its length.
-        length: f64,
     },
     /// Corners of a curve that do not increase.
     #[error("corner at {value}: give increasing numbers above {start} and below {end}")]
@@ -296,9 +294,9 @@ pub enum SolidError {
         /// What is wrong with it.
         what: &'static str,
     },
-    /// A triangle turned inside out.
+    /// An inverted triangle.
     #[error(
-        "triangle {triangle} near ({x}, {y}) is turned inside out (area ratio {jacobian}): use a smaller time step or mesh spacing, or stiffer material"
+        "triangle {triangle} near ({x}, {y}) is inverted (area ratio {jacobian}): use a smaller time step or mesh spacing, or stiffer material"
     )]
     Inverted {
         /// Which triangle.
@@ -307,7 +305,7 @@ pub enum SolidError {
         x: f64,
         /// y of its middle (length).
         y: f64,
-        /// Its deformed over its reference area, negative when turned.
+        /// Its deformed over its reference area, negative.
         jacobian: f64,
     },
     /// Points that found no equilibrium.
@@ -332,6 +330,14 @@ pub(crate) fn within(name: &'static str, value: f64, minimum: f64, maximum: f64)
     } else {
         Err(SolidError::OutOfRange { name, value, minimum, maximum })
     }
+}
+
+/// Most points of a mesh or an outline: sizes are bounded before anything is allocated.
+pub(crate) const MOST_POINTS: f64 = 1e6;
+
+/// `value` if it is a length to compute with: positive, and such that its square is neither zero nor infinite.
+pub(crate) fn length(name: &'static str, value: f64) -> Result<f64, SolidError> {
+    within(name, positive(name, value)?, 1e-100, 1e100)
 }
 
 /// `found` if it is at least `minimum`.

@@ -21,7 +21,7 @@ pub trait ElasticForces: std::fmt::Debug + Send + Sync + 'static {
     /// Adds the elastic forces -dE/dX (force) of the mesh with its points at `positions` (length).
     ///
     /// # Errors
-    /// Lists of the wrong length; a triangle turned inside out where the energy is not defined for it.
+    /// Lists of the wrong length; an inverted triangle where the energy is not defined for it.
     fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError>;
 
     /// The elastic energy E (energy) of the mesh with its points at `positions` (length).

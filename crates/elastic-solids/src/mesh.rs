@@ -162,8 +162,7 @@ impl TriangleMesh {
     }
 
     /// A third of the areas of the triangles around each point, dA_i of thesis (4.2) (area).
-    #[must_use]
-    pub fn point_areas(&self) -> Vec<f64> {
+    pub(crate) fn point_areas(&self) -> Vec<f64> {
         let mut areas = vec![0.0; self.points.len()];
         for (triangle, area) in self.triangles.iter().zip(&self.areas) {
             for &point in triangle {

@@ -7,7 +7,7 @@ mod seeds;
 pub(crate) mod segments;
 mod triangulation;
 
-use crate::error::{finite, positive};
+use crate::error::{finite, length};
 use crate::{Region, SolidError, TriangleMesh};
 use boundary::Boundary;
 use point_set::PointSet;
@@ -59,7 +59,7 @@ impl Mesher {
     /// # Errors
     /// A spacing that is not positive and finite.
     pub fn new(spacing: f64) -> Result<Self, SolidError> {
-        Ok(Self { spacing: positive("the mesh spacing", spacing)?, sweeps: SWEEPS, angle: 0.0 })
+        Ok(Self { spacing: length("the mesh spacing", spacing)?, sweeps: SWEEPS, angle: 0.0 })
     }
 
     /// The same with another number of relaxation sweeps (180 otherwise; 0 to leave the seeds where they are).
@@ -83,7 +83,7 @@ impl Mesher {
     ///
     /// # Errors
     /// Outlines that cross or touch; a hole or part narrower than the spacing; a wall thinner than the spacing; a
-    /// period shorter than six spacings; more than 1e7 points; a triangulation that failed.
+    /// period shorter than six spacings; more than 1e6 points; a triangulation that failed.
     pub fn mesh(&self, region: &Region) -> Result<TriangleMesh, SolidError> {
         self.mesh_counting(region).map(|(mesh, _)| mesh)
     }

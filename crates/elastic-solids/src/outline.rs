@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ib_core::Vec2;
 
 use crate::SolidError;
-use crate::error::{all_points_finite, at_least, finite, positive};
+use crate::error::{MOST_POINTS, all_points_finite, at_least, finite, length, positive, within};
 
 mod fillet;
 mod piece;
@@ -38,9 +38,6 @@ pub struct Outline {
     pieces: Vec<Piece>,
     period: Option<f64>,
 }
-
-/// Most points on an outline: more are a mistake.
-const MOST_POINTS: f64 = 1e7;
 
 impl Outline {
     /// The closed polygon through `corners` (length).
@@ -280,22 +277,15 @@ impl Outline {
     /// three on a closed outline.
     ///
     /// # Errors
-    /// A spacing that is not positive, or so small that there would be more than 1e7 points.
+    /// A spacing that is not positive, or so small that there would be more than 1e6 points.
     pub fn resampled(&self, spacing: f64) -> Result<Vec<Vec2>, SolidError> {
         self.resampled_from(spacing, 0.0)
     }
 
     /// The same, where an outline without corners starts with the fraction `phase` of a spacing.
     pub(crate) fn resampled_from(&self, spacing: f64, phase: f64) -> Result<Vec<Vec2>, SolidError> {
-        positive("the spacing", spacing)?;
-        if self.length() / spacing > MOST_POINTS {
-            return Err(SolidError::OutOfRange {
-                name: "the spacing",
-                value: spacing,
-                minimum: self.length() / MOST_POINTS,
-                maximum: self.length(),
-            });
-        }
+        length("the spacing", spacing)?;
+        within("the length of an outline over the spacing", self.length() / spacing, 0.0, MOST_POINTS)?;
         let track = Track::new(self);
         Ok(track.places(spacing, phase).into_iter().map(|place| track.at(place)).collect())
     }

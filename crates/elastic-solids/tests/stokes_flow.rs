@@ -111,14 +111,14 @@ fn a_corrected_solid_needs_a_grid() {
 fn growth(solid: Solid, h: f64, steps_over_limit: f64, energy: fn(&Solid) -> f64) -> f64 {
     let mut scene = channel(h);
     let handle = scene.add(solid);
-    let limit = scene.body(handle).unwrap().step_limits(&scene.system().hydrodynamics().medium())[0].dt;
-    let start = energy(scene.body(handle).unwrap());
+    let limit = scene.body(handle).expect("a solid").step_limits(&scene.system().hydrodynamics().medium())[0].dt;
+    let start = energy(scene.body(handle).expect("a solid"));
     for _ in 0..60 {
         if scene.step(steps_over_limit * limit).is_err() {
             return f64::INFINITY;
         }
     }
-    energy(scene.body(handle).unwrap()) / start
+    energy(scene.body(handle).expect("a solid")) / start
 }
 
 #[test]
@@ -163,4 +163,18 @@ fn a_step_allocates_nothing() {
     scene.add(Solid::hyperelastic(Outline::circle(Vec2::new(0.5, 0.4), 0.3).unwrap().mesh(0.1).unwrap(), material));
     (0..3).for_each(|_| scene.step(0.01).unwrap());
     assert_eq!(measure(|| (0..5).for_each(|_| scene.step(0.01).unwrap())).count_total, 0);
+}
+
+#[test]
+fn a_scene_tells_what_is_seen_of_a_solid() {
+    let mut scene = channel(0.1);
+    let shear = |s: Vec2| s + Vec2::new(0.1 * (s.y + 0.5 * HEIGHT), 0.0);
+    let handle = scene.add(held(springs(layer(0.5, 0.1))).deformed(shear).expect("positions"));
+    let seen = scene.observe(handle).expect("a solid");
+    assert!((seen.largest_displacement - 0.05).abs() < 1e-12 && seen.largest_normal_displacement < 1e-12);
+    assert!((seen.drift - Vec2::new(0.025, 0.0)).norm() < 1e-12);
+    assert!((seen.smallest_jacobian - 1.0).abs() < 1e-12);
+    // The density of the energy of a simple shear g is mu g^2/2, of springs to third order.
+    let energy = 0.5 * SHEAR * 0.01 * LENGTH * 0.5;
+    assert!((seen.elastic_energy / energy - 1.0).abs() < 0.05, "{} {energy}", seen.elastic_energy);
 }

@@ -2,7 +2,7 @@
 
 use stokes_grid::StokesError;
 
-use crate::CheckpointError;
+use crate::checkpoint::CheckpointError;
 
 /// The flow could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -170,9 +170,46 @@ pub enum SceneError {
         /// Why.
         source: BodyError,
     },
+    /// Bodies that overlap before anything is computed for them.
+    #[error(
+        "at time {time} {body} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move the bodies apart"
+    )]
+    Overlap {
+        /// Time of the state.
+        time: f64,
+        /// The body whose marker or corner is in the other one.
+        body: String,
+        /// x coordinate of where it is deepest (length).
+        x: f64,
+        /// The same, y coordinate (length).
+        y: f64,
+        /// The body that it is in, or its own image; or the interface that it is in and has crossed.
+        other: String,
+        /// How deep (length).
+        depth: f64,
+        /// What is allowed (length).
+        allowed: f64,
+    },
+    /// An interface inside another one whose fluid has another viscosity than the exterior: not solved yet.
+    #[error(
+        "at time {time} {inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has {exterior}: \
+         interfaces inside one another are possible only where the outer one has the exterior's viscosity inside"
+    )]
+    NestedInterfaces {
+        /// Time of the state.
+        time: f64,
+        /// The interface inside.
+        inner: String,
+        /// The one around it.
+        outer: String,
+        /// Viscosity of the fluid inside the outer one (stress times time).
+        interior: f64,
+        /// Viscosity of the exterior fluid (stress times time).
+        exterior: f64,
+    },
     /// Two interfaces, or one and its own image in a periodic domain, have come to overlap.
     #[error(
-        "at time {time} marker {marker} of {body} at ({x:.4}, {y:.4}) is {depth:.3e} inside {other}, more than {allowed:.3e}: use a \
+        "at time {time} marker {marker} of {body} at ({x:.4}, {y:.4}) has crossed {other} by {depth:.3e}, more than {allowed:.3e}: use a \
          smaller time step, a finer grid or a repulsion between the interfaces"
     )]
     Crossing {
@@ -299,6 +336,22 @@ pub enum SceneError {
         /// The body's name.
         body: String,
     },
+    /// A checkpoint of a scene whose fluid or bodies are made of something else.
+    #[error(
+        "the checkpoint is of other physics: for {of}, {property} is {} in it and {} here; resume with what it was saved with",
+        shown(*saved),
+        shown(*present)
+    )]
+    OtherProperty {
+        /// The body, or the scene.
+        of: String,
+        /// What differs.
+        property: String,
+        /// Its value in the checkpoint, if it has one there.
+        saved: Option<f64>,
+        /// Its value in the present scene.
+        present: Option<f64>,
+    },
     /// An observer failed.
     #[error("an observer failed at time {time}")]
     Observer {
@@ -307,6 +360,10 @@ pub enum SceneError {
         /// Why.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+}
+
+fn shown(value: Option<f64>) -> String {
+    value.map_or_else(|| "not given".to_owned(), |value| value.to_string())
 }
 
 impl SceneError {

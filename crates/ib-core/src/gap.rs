@@ -1,4 +1,4 @@
-//! Gaps between bodies, and what keeps them open.
+//! Gaps between bodies, between bodies and walls, and what keeps them open.
 
 mod boundary;
 mod repulsion;
@@ -8,10 +8,12 @@ pub use boundary::Boundary;
 pub use repulsion::Repulsion;
 pub use wall_gap::wall_gap;
 
-use crate::{Body, Domain, MarkerKind, Vec2};
+use crate::{Body, Domain, Markers, Vec2};
 
-/// How far boundaries are looked for, in units of what a contact is measured in.
+/// How far boundaries are looked for during steps, in units of what a contact is measured in.
 const REACH: f64 = 4.0;
+/// Markers of an interface that are asked whether they lie inside another one.
+const ASKED: usize = 16;
 
 /// The narrowest gap between a marker of an interface and the boundary of another body, or of its own image in a
 /// periodic domain.
@@ -23,62 +25,103 @@ pub(crate) struct Gap {
     pub(crate) marker: usize,
     /// Number of the other body.
     pub(crate) other: usize,
-    /// The gap (length); negative where the marker is inside the other body.
+    /// The gap (length); negative where the marker is inside the other body, or outside of the one that its interface
+    /// lies in.
     pub(crate) width: f64,
 }
 
-/// Looks for gaps; keeps its memory.
+/// The boundaries of all bodies; keeps its memory.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct ContactFinder {
+pub(crate) struct Gaps {
     boundaries: Vec<Boundary>,
-    positions: Vec<Vec<Vec2>>,
 }
 
-impl ContactFinder {
-    /// Where a marker of an interface was when gaps were looked for.
-    pub(crate) fn place(&self, body: usize, marker: usize) -> Vec2 {
-        self.positions[body][marker]
+impl Gaps {
+    /// Looks at the bodies where they are now, with their markers.
+    pub(crate) fn update(&mut self, bodies: &[Box<dyn Body>], markers: &Markers) {
+        self.boundaries.resize_with(bodies.len(), Boundary::default);
+        for ((body, boundary), group) in bodies.iter().zip(&mut self.boundaries).zip(markers.groups()) {
+            boundary.clear();
+            body.write_boundary(&markers.positions[group.range.clone()], boundary);
+            boundary.sort();
+        }
+    }
+
+    /// Whether an interface lies inside another one, or inside one of its images: most of its markers do.
+    pub(crate) fn is_nested(&self, markers: &Markers, inner: usize, outer: usize, periods: [Option<f64>; 2]) -> bool {
+        let group = |index: usize| &markers.groups()[index];
+        if inner == outer || !(group(inner).kind.is_interface() && group(outer).kind.is_interface()) {
+            return false;
+        }
+        let [Some(small), Some(large)] = [inner, outer].map(|index| self.boundaries[index].frame()) else {
+            return false;
+        };
+        // A part of the inner one may have crossed.
+        if !small.is_inside(&large, periods, 0.5 * small.size()) {
+            return false;
+        }
+        let positions = &markers.positions[group(inner).range.clone()];
+        let asked = positions.iter().step_by(positions.len().div_ceil(ASKED).max(1));
+        let inside = |point: &&Vec2| self.boundaries[outer].distance(**point, periods) < 0.0;
+        2 * asked.clone().filter(inside).count() > asked.count()
     }
 
     /// The narrowest gap of less than four times `scale` (length), if there is one.
-    pub(crate) fn narrowest(&mut self, bodies: &[Box<dyn Body>], domain: &Domain, scale: f64) -> Option<Gap> {
-        let is_interface = |body: &dyn Body| !matches!(body.kind(), MarkerKind::Points);
-        if !bodies.iter().any(|body| is_interface(body.as_ref())) {
-            return None;
-        }
-        self.boundaries.resize_with(bodies.len(), Boundary::default);
-        self.positions.resize_with(bodies.len(), Vec::new);
-        for ((body, boundary), positions) in bodies.iter().zip(&mut self.boundaries).zip(&mut self.positions) {
-            boundary.clear();
-            positions.resize(body.marker_count(), Vec2::zeros());
-            body.write_markers(positions);
-            body.write_boundary(boundary);
-            boundary.finish();
-        }
+    pub(crate) fn narrowest(&self, markers: &Markers, domain: &Domain, scale: f64) -> Option<Gap> {
         let reach = REACH * scale;
         let mut narrowest: Option<Gap> = None;
-        let mut note = |gap: Gap| {
-            if narrowest.is_none_or(|least| gap.width < least.width) {
-                narrowest = Some(gap);
-            }
-        };
-        for (index, body) in bodies.iter().enumerate().filter(|(_, body)| is_interface(body.as_ref())) {
+        let interfaces = markers.groups().iter().enumerate().filter(|(_, group)| group.kind.is_interface());
+        for (body, group) in interfaces {
+            let Some(frame) = self.boundaries[body].frame() else { continue };
             for (other, boundary) in self.boundaries.iter().enumerate() {
-                let periods = if other == index { [None; 2] } else { domain.periods };
-                for shift in shifts(domain, other == index).into_iter().flatten() {
-                    if !self.boundaries[index].is_near(boundary, shift, periods, reach) {
+                let Some(large) = boundary.frame() else { continue };
+                let periods = if other == body { [None; 2] } else { domain.periods };
+                for shift in shifts(domain, other == body).into_iter().flatten() {
+                    if !frame.moved(shift).is_near(&large, periods, reach) {
                         continue;
                     }
-                    for (marker, place) in self.positions[index].iter().enumerate() {
-                        if let Some(width) = boundary.distance(place + shift, periods, reach) {
-                            note(Gap { body: index, marker, other, width });
+                    let sign = if self.is_nested(markers, body, other, periods) { -1.0 } else { 1.0 };
+                    for (marker, place) in markers.positions[group.range.clone()].iter().enumerate() {
+                        let distance = boundary.distance_within(place + shift, periods, reach);
+                        if let Some(width) = distance.map(|distance| sign * distance)
+                            && narrowest.is_none_or(|least| width < least.width)
+                        {
+                            narrowest = Some(Gap { body, marker, other, width });
                         }
                     }
                 }
             }
-            debug_assert_eq!(body.marker_count(), self.positions[index].len());
         }
         narrowest
+    }
+
+    /// The deepest corner of a body other than an interface inside another such body: the numbers of both, the corner,
+    /// and how deep it is (length). `None` where none is inside.
+    pub(crate) fn deepest_overlap(
+        &self,
+        markers: &Markers,
+        periods: [Option<f64>; 2],
+    ) -> Option<(usize, usize, Vec2, f64)> {
+        let mut deepest: Option<(usize, usize, Vec2, f64)> = None;
+        let solids = || {
+            let boundaries = self.boundaries.iter().enumerate();
+            boundaries.filter(|(index, _)| !markers.groups()[*index].kind.is_interface())
+        };
+        for (body, boundary) in solids() {
+            for (other, around) in solids().filter(|(other, _)| *other != body) {
+                let (Some(frame), Some(large)) = (boundary.frame(), around.frame()) else { continue };
+                if !frame.is_near(&large, periods, 0.0) {
+                    continue;
+                }
+                for corner in boundary.corners() {
+                    let depth = -around.distance(corner, periods);
+                    if depth > deepest.map_or(0.0, |(.., depth)| depth) {
+                        deepest = Some((body, other, corner, depth));
+                    }
+                }
+            }
+        }
+        deepest
     }
 }
 

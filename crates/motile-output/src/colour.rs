@@ -1,7 +1,5 @@
 //! Colours, colour maps and the scales that turn numbers into colours.
 
-use colorous::Gradient;
-
 /// A colour: red, green, blue, each 0 to 255.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Rgb(pub [u8; 3]);
@@ -14,21 +12,20 @@ impl Rgb {
     /// Secondary lines: grids, reference lines.
     pub const GREY: Self = Self([128, 134, 144]);
     /// Grid lines of plots.
-    pub const PALE: Self = Self([226, 229, 234]);
+    pub(crate) const PALE: Self = Self([226, 229, 234]);
 
     /// Mixes linearly: `self` at `t = 0`, `other` at `t = 1`.
-    #[must_use]
-    pub fn mix(self, other: Self, t: f64) -> Self {
+    pub(crate) fn mix(self, other: Self, t: f64) -> Self {
+        let t = t.clamp(0.0, 1.0);
         let channel = |k: usize| {
             let (a, b) = (f64::from(self.0[k]), f64::from(other.0[k]));
-            (a + (b - a) * t.clamp(0.0, 1.0)).round() as u8
+            (a + (b - a) * t).round() as u8
         };
         Self([channel(0), channel(1), channel(2)])
     }
 
     /// The colour as SVG writes it, for instance `#22262e`.
-    #[must_use]
-    pub fn hex(self) -> String {
+    pub(crate) fn hex(self) -> String {
         let [r, g, b] = self.0;
         format!("#{r:02x}{g:02x}{b:02x}")
     }
@@ -53,9 +50,7 @@ pub enum ColourMap {
     Rainbow,
     /// Blue, white, red: diverging, for signed quantities such as the vorticity.
     BlueWhiteRed,
-    /// Nearly white to dark blue: sequential, for the speed.
-    Blues,
-    /// Dark blue, green, yellow: sequential.
+    /// Dark blue, green, yellow: sequential, for instance for the speed.
     Viridis,
     /// Black, purple, pink, pale yellow: sequential, for the concentration on an interface.
     Magma,
@@ -69,25 +64,19 @@ impl ColourMap {
             return Rgb::GREY;
         }
         let t = t.clamp(0.0, 1.0);
-        let eval = |gradient: Gradient, t: f64| {
-            let colour = gradient.eval_continuous(t);
-            Rgb([colour.r, colour.g, colour.b])
+        let (gradient, t) = match self {
+            Self::Rainbow => (colorous::SPECTRAL, 1.0 - t),
+            Self::BlueWhiteRed => (colorous::RED_BLUE, 1.0 - t),
+            Self::Viridis => (colorous::VIRIDIS, t),
+            Self::Magma => (colorous::MAGMA, t),
         };
-        match self {
-            Self::Rainbow => eval(colorous::SPECTRAL, 1.0 - t),
-            Self::BlueWhiteRed => eval(colorous::RED_BLUE, 1.0 - t),
-            Self::Blues => eval(colorous::YELLOW_GREEN_BLUE, 0.85 * t),
-            Self::Viridis => eval(colorous::VIRIDIS, t),
-            Self::Magma => eval(colorous::MAGMA, t),
-        }
+        Rgb(gradient.eval_continuous(t).as_array())
     }
 }
 
 /// How the ends of a colour scale are chosen from the data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Limits {
-    /// Smallest to largest value.
-    Data,
     /// Zero to the largest value.
     FromZero,
     /// Symmetric about zero, so that the middle of a diverging map means zero. The end is the magnitude that all but
@@ -114,27 +103,25 @@ impl ColourScale {
     /// apart, so that a constant gets the colour of the middle (or of the end, for [`Limits::FromZero`]).
     #[must_use]
     pub fn new(map: ColourMap, limits: Limits, values: &[f64]) -> Self {
-        let finite = || values.iter().copied().filter(|v| v.is_finite());
+        let sorted = |value: fn(f64) -> f64| {
+            let mut all: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).map(value).collect();
+            all.sort_unstable_by(f64::total_cmp);
+            all
+        };
+        // The value that a share of the others lies above; zero if there are none.
+        let end = |sorted: &[f64], k: usize| sorted.get(k).copied().unwrap_or(0.0);
         let (low, high) = match limits {
             Limits::Fixed(low, high) => (low, high),
-            Limits::Data => (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)),
-            Limits::FromZero => (0.0, finite().fold(0.0, f64::max)),
+            Limits::FromZero => (0.0, sorted(|v| v).last().map_or(0.0, |v| v.max(0.0))),
             Limits::Most => {
-                let mut sorted: Vec<f64> = finite().collect();
-                sorted.sort_unstable_by(f64::total_cmp);
-                let rank = sorted.len() / 200;
-                let end = |k: usize| sorted.get(k).copied().unwrap_or(0.0);
-                (end(rank), end(sorted.len().saturating_sub(1 + rank)))
+                let all = sorted(|v| v);
+                let rank = all.len() / 200;
+                (end(&all, rank), end(&all, all.len().saturating_sub(1 + rank)))
             }
             Limits::Symmetric => {
-                let mut sizes: Vec<f64> = finite().map(f64::abs).collect();
-                let end = if sizes.is_empty() {
-                    0.0
-                } else {
-                    let rank = (sizes.len() - 1) * 998 / 1000;
-                    *sizes.select_nth_unstable_by(rank, f64::total_cmp).1
-                };
-                (-end, end)
+                let all = sorted(f64::abs);
+                let high = end(&all, all.len().saturating_sub(1) * 998 / 1000);
+                (-high, high)
             }
         };
         let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
@@ -163,9 +150,7 @@ impl ColourScale {
 
     /// The colours of `levels` equal bands from the low to the high end: a table for fast lookup, and, with few
     /// levels, bands whose edges are contour lines.
-    #[must_use]
-    pub fn table(&self, levels: usize) -> Vec<Rgb> {
-        let levels = levels.max(2);
+    pub(crate) fn table(&self, levels: usize) -> Vec<Rgb> {
         (0..levels).map(|k| self.map.at(k as f64 / (levels - 1) as f64)).collect()
     }
 }

@@ -1,61 +1,75 @@
-//! Pictures, plots, animations, CSV and ParaView files of simulations with motile.
+//! Pictures, plots, animations, CSV and ParaView files of simulations with [`motile`].
+//!
+//! Ten lines that run a droplet and leave a trajectory and a picture:
+//!
+//! ```
+//! use motile::prelude::*;
+//! use motile_output::{Look, Raster, Snapshot, TrajectoryCsv};
+//!
+//! let Built { mut scene, droplets, .. } = Setup::default().build()?;
+//! # let directory = std::env::temp_dir().join("motile-output-first-page");
+//! # std::fs::create_dir_all(&directory)?;
+//! let mut rows = TrajectoryCsv::create(directory.join("trajectory.csv"), scene.system_mut(), droplets[0])?;
+//! scene.run(2.0).observe(Every::Time(0.1), &mut rows).go()?;
+//! rows.finish(scene.system_mut())?;
+//! let raster = Raster::of(scene.system(), 0.1)?;
+//! let seen = Snapshot::take(scene.system_mut(), raster)?;
+//! Look::default().write_picture(&seen, &[], directory.join("final.png"))?;
+//! # assert!(directory.join("final.png").metadata()?.len() > 10_000);
+//! # assert_eq!(std::fs::read_to_string(directory.join("trajectory.csv"))?.lines().count(), 22);
+//! # std::fs::remove_dir_all(&directory)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! | for | there are |
 //! |---|---|
-//! | waiting | [`Progress`] |
-//! | pictures of a flow | [`Picture`] of [`ScalarSamples`] and [`VectorSamples`] on a [`Raster`], drawn in a [`Format`] |
-//! | animations | [`Animation`] |
-//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG |
-//! | tables | [`Trajectory`] (CSV) |
+//! | runs, as observers | [`TrajectoryCsv`], [`ParaView`], [`Film`], [`RunProgress`] |
+//! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
+//! | pictures of a flow of your own | [`Picture`] of [`Samples`] on a [`Raster`], drawn in a [`Format`]; [`Animation`]; [`streamlines()`] |
+//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG; [`time_series`] and [`concentration_plot`] of a droplet |
+//! | tables | [`CsvTable`], [`SolidMeter`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
-//! | elastic solids | [`SolidMeter`], [`SolidFiles`], [`solid_shape`] |
-//! | runs with a droplet | the observers [`Dial`], [`Recorder`], [`Film`], [`VtkOutput`] |
+//! | waiting | [`Progress`] |
 //!
-//! Pictures need no fonts of the system and no C libraries: lines, areas and letters are drawn by [`Canvas`] and
-//! [`Svg`], two implementations of [`Surface`].
-//!
-//! ```
-//! use motile_output::{AxisScale, Figure, Plot, Series};
-//!
-//! let decay = (0..100).map(|k| f64::from(k) * 0.1).map(|t| (t, (-t).exp()));
-//! let plot = Plot::new("Decay").x_axis("time t", AxisScale::Linear).series(Series::line("exp(−t)", decay));
-//! let canvas = Figure::new(1).panel(plot).canvas().expect("one panel of usual size");
-//! assert_eq!(canvas.size(), [1080, 680]);
-//! ```
+//! Pictures need no fonts of the system and no C libraries. What cannot be drawn or written ends in an [`Error`].
 
 mod animation;
 mod colour;
 mod drawing;
+mod error;
 mod field;
 mod paraview;
 mod picture;
 mod plot;
 mod progress;
-mod recorder;
 mod snapshot;
 mod solids;
 mod table;
+mod trajectory;
 
-pub use animation::Animation;
-pub use animation::film::{Film, Look};
+pub use animation::{Animation, film::Film};
 pub use colour::{ColourMap, ColourScale, Limits, Rgb, SERIES_COLOURS};
-pub use drawing::axes::AxisScale;
-pub use drawing::canvas::Canvas;
-pub use drawing::surface::{Anchor, Pen, Pixel, Rect, Surface, TextStyle};
-pub use drawing::svg::Svg;
-pub use field::raster::{Raster, ScalarSamples, VectorSamples};
-pub use field::streamlines::streamlines;
-pub use paraview::file::{VtkFile, VtkSeries};
-pub use paraview::observer::VtkOutput;
-pub use picture::scene::{droplets, write_scene_picture};
-pub use picture::{Format, Picture, SolidShape};
-pub use plot::droplet::{concentration_plot, time_series};
-pub use plot::{Figure, Marker, Plot, Series};
-pub use progress::Progress;
-pub use recorder::{Dial, Recorder};
-pub use snapshot::{Snapshot, at_markers, domain_raster};
-pub use solids::{SolidFiles, SolidMeter, solid_shape, solids};
-pub use table::Trajectory;
-
-/// A point or vector in the plane.
-pub type Vec2 = nalgebra::Vector2<f64>;
+pub use drawing::{axes::AxisScale, image::Image};
+pub use error::Error;
+pub use field::{
+    raster::{Raster, Samples},
+    streamlines::streamlines,
+};
+pub use motile::ib_core::Vec2;
+pub use paraview::{
+    ParaView,
+    file::{VtkFile, VtkSeries},
+};
+pub use picture::{
+    Format, Picture, SolidShape,
+    look::{Look, Track},
+};
+pub use plot::{
+    Figure, Marker, Plot, Series,
+    droplet::{concentration_plot, time_series},
+};
+pub use progress::{Progress, RunProgress};
+pub use snapshot::{DropletShape, Snapshot};
+pub use solids::SolidMeter;
+pub use table::CsvTable;
+pub use trajectory::TrajectoryCsv;

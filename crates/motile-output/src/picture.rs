@@ -1,24 +1,23 @@
 //! The picture of a flow: what is in it.
 
 mod colour_bar;
+pub(crate) mod look;
 mod paint;
-pub(crate) mod scene;
 
-use anyhow::{Result, ensure};
-
-use crate::{Canvas, ColourScale, ScalarSamples, Vec2, VectorSamples};
 use colour_bar::Legend;
+
+use crate::{ColourScale, Error, Samples, Vec2, drawing::image::Image};
 
 /// Size and detail of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Format {
-    /// Width of the image (pixels); its height follows from the shape of the region.
+    /// Width of the image (pixels, 160 to 8000); its height follows from the shape of the region.
     pub width: usize,
-    /// Number of colours of the field: few show contour bands, and make animations small.
+    /// Number of colours of the field, at least two: few show contour bands, and make animations small.
     pub levels: usize,
     /// Factor on the distance between streamlines.
     pub streamline_spacing: f64,
-    /// Width of the image relative to the size of the type.
+    /// Width of the image relative to the size of the type, at least 20.
     pub type_sizes: f64,
 }
 
@@ -34,60 +33,13 @@ impl Format {
     pub fn frame() -> Self {
         Self { width: 440, levels: 20, streamline_spacing: 2.0, type_sizes: 37.0 }
     }
-
-    /// The same with another width (pixels).
-    #[must_use]
-    pub fn width(self, width: usize) -> Self {
-        Self { width, ..self }
-    }
 }
 
 /// A closed curve of the plane with a value at each point.
 #[derive(Debug, Clone)]
-pub(crate) struct ColouredCurve {
-    pub(crate) points: Vec<Vec2>,
-    pub(crate) values: Vec<f64>,
-}
-
-/// The picture of a flow: a field in colour, streamlines, interfaces coloured by a value on them, walls, solids,
-/// tracks. Described by what is given to it, drawn by [`Picture::draw`].
-///
-/// Positions are lengths in the units of the axes. In the periodic directions of the fields everything is drawn with
-/// its periodic images, so positions need not be wrapped.
-///
-/// ```
-/// use motile_output::{ColourMap, ColourScale, Format, Limits, Picture, Raster, ScalarSamples, Vec2};
-///
-/// # fn main() -> anyhow::Result<()> {
-/// let raster = Raster::new([-3.0, -3.0], [6.0, 6.0], [60, 60], [true, true])?;
-/// let pressure: Vec<f64> = raster.points().iter().map(|p| p.x.sin() * p.y.cos()).collect();
-/// let scale = ColourScale::new(ColourMap::Rainbow, Limits::Symmetric, &pressure);
-/// let circle: Vec<Vec2> = (0..90).map(|k| f64::from(k) * 4f64.to_radians()).map(|t| Vec2::new(t.cos(), t.sin())).collect();
-/// let concentration: Vec<f64> = circle.iter().map(|p| 1.0 - p.x).collect();
-/// let over_interface = ColourScale::new(ColourMap::Magma, Limits::FromZero, &concentration);
-/// let picture = Picture::new(ScalarSamples::new(raster, pressure)?, scale, "pressure p R_{0}/γ_{0}")
-///     .title("t = 12.5")
-///     .interface_scale(over_interface, "concentration c/c_{0}")
-///     .interface(&circle, &concentration)?;
-/// let canvas = picture.draw(&Format::frame())?;
-/// assert_eq!(canvas.size()[0], 440);
-/// # Ok(())
-/// # }
-/// ```
-#[derive(Debug, Clone)]
-pub struct Picture {
-    pub(crate) title: String,
-    pub(crate) field: ScalarSamples,
-    pub(crate) field_legend: Legend,
-    pub(crate) flow: Option<Flow>,
-    pub(crate) view: [[f64; 2]; 2],
-    pub(crate) walls: Option<[f64; 2]>,
-    pub(crate) solids: Vec<SolidShape>,
-    pub(crate) tracks: Vec<Vec<Vec2>>,
-    pub(crate) arrows: Vec<[Vec2; 2]>,
-    pub(crate) interfaces: Vec<ColouredCurve>,
-    pub(crate) interface_legend: Option<Legend>,
-    pub(crate) length_unit: String,
+struct ColouredCurve {
+    points: Vec<Vec2>,
+    values: Vec<f64>,
 }
 
 /// A solid as it is drawn.
@@ -101,28 +53,65 @@ pub struct SolidShape {
 
 /// The velocity whose streamlines are drawn.
 #[derive(Debug, Clone)]
-pub(crate) struct Flow {
-    pub(crate) velocity: VectorSamples,
-    pub(crate) spacing: f64,
-    pub(crate) anchor: Vec2,
+struct Flow {
+    velocity: Samples<Vec2>,
+    spacing: f64,
+    anchor: Vec2,
+}
+
+/// The picture of a flow: a field in colour, streamlines, interfaces coloured by a value on them, walls, solids,
+/// tracks. Described by what is given to it, drawn by [`Picture::draw`].
+///
+/// Positions are lengths in the units of the axes. In the periodic directions of the fields everything is drawn with
+/// its periodic images, so positions need not be wrapped.
+///
+/// ```
+/// use motile_output::{ColourMap, ColourScale, Format, Limits, Picture, Raster, Samples, Vec2};
+///
+/// let raster = Raster::new([-3.0, -3.0], [6.0, 6.0], [60, 60], [true, true])?;
+/// let pressure: Vec<f64> = raster.points().iter().map(|p| p.x.sin() * p.y.cos()).collect();
+/// let scale = ColourScale::new(ColourMap::Rainbow, Limits::Symmetric, &pressure);
+/// let circle: Vec<Vec2> = (0..90).map(|k| f64::from(k) * 4f64.to_radians()).map(|t| Vec2::new(t.cos(), t.sin())).collect();
+/// let concentration: Vec<f64> = circle.iter().map(|p| 1.0 - p.x).collect();
+/// let over_interface = ColourScale::new(ColourMap::Magma, Limits::FromZero, &concentration);
+/// let picture = Picture::new(Samples::new(raster, pressure)?, scale, "pressure p R_{0}/γ_{0}")
+///     .title("t = 12.5")
+///     .interface_scale(over_interface, "concentration c/c_{0}")
+///     .interface(&circle, &concentration)?;
+/// let image = picture.draw(&Format::frame())?;
+/// assert_eq!(image.size()[0], 440);
+/// # Ok::<(), motile_output::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Picture {
+    title: String,
+    field: Samples<f64>,
+    field_legend: Legend,
+    flow: Option<Flow>,
+    view: [Vec2; 2],
+    walls: Option<[f64; 2]>,
+    solids: Vec<SolidShape>,
+    tracks: Vec<Vec<Vec2>>,
+    interfaces: Vec<ColouredCurve>,
+    interface_legend: Option<Legend>,
+    length_unit: String,
 }
 
 impl Picture {
     /// A picture of `field` in the colours of `scale`, over the rectangle of its raster; `label` names the field with
     /// its unit.
     #[must_use]
-    pub fn new(field: ScalarSamples, scale: ColourScale, label: &str) -> Self {
-        let (low, size) = (field.raster().origin(), field.raster().size());
+    pub fn new(field: Samples<f64>, scale: ColourScale, label: &str) -> Self {
+        let (low, size) = (Vec2::from(field.raster().origin()), Vec2::from(field.raster().size()));
         Self {
             title: String::new(),
             field,
             field_legend: Legend { scale, label: label.to_string() },
             flow: None,
-            view: [low, [low[0] + size[0], low[1] + size[1]]],
+            view: [low, low + size],
             walls: None,
             solids: Vec::new(),
             tracks: Vec::new(),
-            arrows: Vec::new(),
             interfaces: Vec::new(),
             interface_legend: None,
             length_unit: "R_{0}".to_string(),
@@ -146,19 +135,13 @@ impl Picture {
     /// Shows the rectangle between two corners instead of that of the raster.
     ///
     /// # Errors
-    /// A rectangle that is empty, not finite, or more than 20 times as long as wide.
-    pub fn view(mut self, low: Vec2, high: Vec2) -> Result<Self> {
+    /// [`Error::Rectangle`]: one that is empty, not finite, or more than 20 times as long as wide.
+    pub fn view(mut self, low: Vec2, high: Vec2) -> Result<Self, Error> {
         let size = high - low;
-        let finite = low.iter().chain(high.iter()).all(|v| v.is_finite());
-        ensure!(
-            finite && size.min() > 0.0 && size.max() < 20.0 * size.min(),
-            "the rectangle from ({}, {}) to ({}, {}) cannot be shown: it is empty or too narrow",
-            low.x,
-            low.y,
-            high.x,
-            high.y
-        );
-        self.view = [low.into(), high.into()];
+        if !(low.iter().chain(&size).all(|v| v.is_finite()) && size.min() > 0.0 && size.max() < 20.0 * size.min()) {
+            return Err(Error::Rectangle { corner: low.into(), size: size.into() });
+        }
+        self.view = [low, high];
         Ok(self)
     }
 
@@ -166,7 +149,7 @@ impl Picture {
     ///
     /// # Errors
     /// As [`Picture::view`].
-    pub fn centred_on(self, centre: Vec2) -> Result<Self> {
+    pub fn centred_on(self, centre: Vec2) -> Result<Self, Error> {
         let half = Vec2::from(self.field.raster().size()) * 0.5;
         self.view(centre - half, centre + half)
     }
@@ -174,7 +157,7 @@ impl Picture {
     /// Draws streamlines of `velocity`, about `spacing` (length) apart, the first of them through `anchor`: with an
     /// anchor that moves along with what moves, the lines do not flicker in animations.
     #[must_use]
-    pub fn streamlines(mut self, velocity: VectorSamples, spacing: f64, anchor: Vec2) -> Self {
+    pub fn streamlines(mut self, velocity: Samples<Vec2>, spacing: f64, anchor: Vec2) -> Self {
         self.flow = Some(Flow { velocity, spacing, anchor });
         self
     }
@@ -190,14 +173,12 @@ impl Picture {
     /// [`Picture::interface_scale`] says; black without one.
     ///
     /// # Errors
-    /// Numbers of points and values that differ, or fewer than three.
-    pub fn interface(mut self, points: &[Vec2], values: &[f64]) -> Result<Self> {
-        ensure!(
-            points.len() == values.len() && points.len() > 2,
-            "an interface of {} points with {} values cannot be drawn",
-            points.len(),
-            values.len()
-        );
+    /// [`Error::Count`]: numbers of points and values that differ. [`Error::Empty`]: none.
+    pub fn interface(mut self, points: &[Vec2], values: &[f64]) -> Result<Self, Error> {
+        Error::check_count("values at the points of an interface", values.len(), points.len())?;
+        if points.is_empty() {
+            return Err(Error::Empty("an interface without points"));
+        }
         self.interfaces.push(ColouredCurve { points: points.to_vec(), values: values.to_vec() });
         Ok(self)
     }
@@ -209,16 +190,9 @@ impl Picture {
         self
     }
 
-    /// Draws a solid: closed outlines, of which one within another is a hole.
+    /// Draws a solid.
     #[must_use]
-    pub fn solid(self, outlines: &[Vec<Vec2>]) -> Self {
-        let closed = |ring: &Vec<Vec2>| ring.iter().chain(ring.first()).copied().collect();
-        self.solid_shape(&SolidShape { area: outlines.to_vec(), edges: outlines.iter().map(closed).collect() })
-    }
-
-    /// Draws a solid whose edges are not all of its outline, such as one period of a wall.
-    #[must_use]
-    pub fn solid_shape(mut self, shape: &SolidShape) -> Self {
+    pub fn solid(mut self, shape: &SolidShape) -> Self {
         self.solids.push(shape.clone());
         self
     }
@@ -230,18 +204,11 @@ impl Picture {
         self
     }
 
-    /// Draws an arrow from `foot`, `along` long (length).
-    #[must_use]
-    pub fn arrow(mut self, foot: Vec2, along: Vec2) -> Self {
-        self.arrows.push([foot, along]);
-        self
-    }
-
     /// Draws the picture.
     ///
     /// # Errors
-    /// An image too small or too large, or streamlines too dense.
-    pub fn draw(&self, format: &Format) -> Result<Canvas> {
+    /// [`Error::Size`]: an image too small or too large. [`Error::Streamlines`]: streamlines too dense.
+    pub fn draw(&self, format: &Format) -> Result<Image, Error> {
         paint::paint(self, format)
     }
 }

@@ -5,9 +5,12 @@ mod paint;
 
 use std::{fs, path::Path};
 
-use anyhow::{Context, Result, ensure};
+use paint::Sheet;
 
-use crate::{AxisScale, Canvas, Rgb, Svg, plot::paint::Sheet};
+use crate::{
+    AxisScale, Error, Rgb,
+    drawing::{canvas::Canvas, image::Image, svg::Svg},
+};
 
 /// The shape of the points of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,19 +25,17 @@ pub enum Marker {
     Triangle,
     /// A diamond.
     Diamond,
-    /// A cross.
-    Cross,
 }
 
 /// A series of points with its looks and the label by which the legend names it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    pub(crate) label: String,
-    pub(crate) points: Vec<(f64, f64)>,
-    pub(crate) line: bool,
-    pub(crate) dashed: bool,
-    pub(crate) marker: Option<Marker>,
-    pub(crate) colour: Option<Rgb>,
+    label: String,
+    points: Vec<(f64, f64)>,
+    line: bool,
+    dashed: bool,
+    marker: Option<Marker>,
+    colour: Option<Rgb>,
 }
 
 impl Series {
@@ -50,15 +51,6 @@ impl Series {
     #[must_use]
     pub fn points(label: &str, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self { line: false, marker: Some(Marker::Disc), ..Self::line(label, points) }
-    }
-
-    /// The line `y = y0 (x / x0)^exponent` from `x` = `from` to `to`, dashed and grey: an order of convergence to
-    /// compare with.
-    #[must_use]
-    pub fn power_law(label: &str, exponent: f64, (x0, y0): (f64, f64), [from, to]: [f64; 2]) -> Self {
-        let at = |t: f64| from * (to / from).powf(t);
-        let points = (0..=40).map(|k| at(f64::from(k) / 40.0)).map(|x| (x, y0 * (x / x0).powf(exponent)));
-        Self::line(label, points).dashed().colour(Rgb::GREY)
     }
 
     /// The same with its line dashed.
@@ -80,40 +72,30 @@ impl Series {
     }
 }
 
-/// A line across a plot at a value of one of its axes.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Reference {
-    pub(crate) value: f64,
-    pub(crate) vertical: bool,
-    pub(crate) label: String,
-}
-
 /// A plot: axes, series, reference lines.
 ///
 /// ```
 /// use motile_output::{AxisScale, Figure, Marker, Plot, Series};
 ///
-/// # fn main() -> anyhow::Result<()> {
 /// let errors = [(0.2, 2.4e-2), (0.1, 6.1e-3), (0.05, 1.5e-3)];
 /// let plot = Plot::new("Error of the speed")
 ///     .x_axis("spacing h (R_{0})", AxisScale::Logarithmic)
 ///     .y_axis("relative error", AxisScale::Logarithmic)
 ///     .series(Series::line("ζΔμ = −2", errors).marker(Marker::Disc))
-///     .series(Series::power_law("order 2", 2.0, (0.2, 3e-2), [0.05, 0.2]))
+///     .series(Series::line("order 2", [(0.05, 1.5e-3), (0.2, 2.4e-2)]).dashed())
 ///     .horizontal(1e-2, "1 %");
-/// let svg = Figure::new(1).panel(plot).svg()?.document();
+/// let svg = Figure::new(1).panel(plot).svg()?;
 /// assert!(svg.starts_with("<svg") && svg.contains("order 2"));
-/// # Ok(())
-/// # }
+/// # Ok::<(), motile_output::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Plot {
-    pub(crate) title: String,
-    pub(crate) labels: [String; 2],
-    pub(crate) scales: [AxisScale; 2],
-    pub(crate) ranges: [Option<[f64; 2]>; 2],
-    pub(crate) series: Vec<Series>,
-    pub(crate) references: Vec<Reference>,
+    title: String,
+    labels: [String; 2],
+    scales: [AxisScale; 2],
+    x_range: Option<[f64; 2]>,
+    series: Vec<Series>,
+    references: Vec<(f64, String)>,
 }
 
 impl Plot {
@@ -126,31 +108,21 @@ impl Plot {
     /// Label and scale of the horizontal axis.
     #[must_use]
     pub fn x_axis(mut self, label: &str, scale: AxisScale) -> Self {
-        self.labels[0] = label.to_string();
-        self.scales[0] = scale;
+        (self.labels[0], self.scales[0]) = (label.to_string(), scale);
         self
     }
 
     /// Label and scale of the vertical axis.
     #[must_use]
     pub fn y_axis(mut self, label: &str, scale: AxisScale) -> Self {
-        self.labels[1] = label.to_string();
-        self.scales[1] = scale;
+        (self.labels[1], self.scales[1]) = (label.to_string(), scale);
         self
     }
 
     /// Ends of the horizontal axis, which otherwise follow from the data.
     #[must_use]
-    pub fn x_range(mut self, low: f64, high: f64) -> Self {
-        self.ranges[0] = Some([low, high]);
-        self
-    }
-
-    /// Ends of the vertical axis, which otherwise follow from the data.
-    #[must_use]
-    pub fn y_range(mut self, low: f64, high: f64) -> Self {
-        self.ranges[1] = Some([low, high]);
-        self
+    pub fn x_range(self, low: f64, high: f64) -> Self {
+        Self { x_range: Some([low, high]), ..self }
     }
 
     /// Adds a series.
@@ -163,14 +135,7 @@ impl Plot {
     /// Adds a horizontal line at `value`.
     #[must_use]
     pub fn horizontal(mut self, value: f64, label: &str) -> Self {
-        self.references.push(Reference { value, vertical: false, label: label.to_string() });
-        self
-    }
-
-    /// Adds a vertical line at `value`.
-    #[must_use]
-    pub fn vertical(mut self, value: f64, label: &str) -> Self {
-        self.references.push(Reference { value, vertical: true, label: label.to_string() });
+        self.references.push((value, label.to_string()));
         self
     }
 }
@@ -178,9 +143,9 @@ impl Plot {
 /// One or more plots side by side and below each other.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Figure {
-    pub(crate) columns: usize,
-    pub(crate) panels: Vec<Plot>,
-    pub(crate) panel_size: [f64; 2],
+    columns: usize,
+    panels: Vec<Plot>,
+    panel_size: [f64; 2],
 }
 
 impl Figure {
@@ -204,38 +169,38 @@ impl Figure {
         self
     }
 
-    /// The figure as vectors.
+    /// The figure as vectors: the text of an SVG file.
     ///
     /// # Errors
-    /// No panels, or panels too small or too large.
-    pub fn svg(&self) -> Result<Svg> {
+    /// [`Error::Empty`] without panels, [`Error::Size`] with panels too small or too large.
+    pub fn svg(&self) -> Result<String, Error> {
         let sheet = Sheet::new(self, 1.0)?;
-        let [width, height] = sheet.size();
-        let mut svg = Svg::new(width, height);
+        let mut svg = Svg::new(sheet.size());
         sheet.paint(&mut svg);
-        Ok(svg)
+        Ok(svg.document())
     }
 
     /// The figure as pixels, two a pixel of the SVG in each direction.
     ///
     /// # Errors
     /// As [`Figure::svg`].
-    pub fn canvas(&self) -> Result<Canvas> {
+    pub fn image(&self) -> Result<Image, Error> {
         let sheet = Sheet::new(self, 2.0)?;
-        let [width, height] = sheet.size();
-        let mut canvas = Canvas::new(width.round() as usize, height.round() as usize)?;
+        let [width, height] = sheet.size().map(|side| side.round() as usize);
+        let mut canvas = Canvas::new(width, height)?;
         sheet.paint(&mut canvas);
-        Ok(canvas)
+        Ok(canvas.into_image())
     }
 
     /// Writes the figure as `<name>.svg` and `<name>.png` into `directory`, which is made if it is not there.
     ///
     /// # Errors
-    /// As [`Figure::svg`], and files that cannot be written.
-    pub fn write(&self, directory: &Path, name: &str) -> Result<()> {
-        ensure!(!name.is_empty(), "a figure without a name cannot be written");
-        fs::create_dir_all(directory).with_context(|| format!("making {}", directory.display()))?;
-        self.svg()?.write(&directory.join(format!("{name}.svg")))?;
-        self.canvas()?.write_png(&directory.join(format!("{name}.png")))
+    /// As [`Figure::svg`], and [`Error::Write`].
+    pub fn write(&self, directory: impl AsRef<Path>, name: &str) -> Result<(), Error> {
+        let directory = directory.as_ref();
+        fs::create_dir_all(directory).map_err(Error::writing(directory))?;
+        let path = directory.join(format!("{name}.svg"));
+        fs::write(&path, self.svg()?).map_err(Error::writing(&path))?;
+        self.image()?.write_png(directory.join(format!("{name}.png")))
     }
 }

@@ -2,10 +2,18 @@
 
 use std::{
     io::IsTerminal,
+    mem::discriminant,
     time::{Duration, Instant},
 };
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use motile::{
+    active_interface::{
+        ActiveDroplet, DropletWarning,
+        observables::{InterfaceState, centroid_velocity},
+    },
+    ib_core::{Hydrodynamics, Observer, System},
+};
 
 /// Least time between two updates of the bar, and between two lines where there is no terminal.
 const BAR_INTERVAL: Duration = Duration::from_millis(80);
@@ -13,124 +21,126 @@ const LINE_INTERVAL: Duration = Duration::from_secs(15);
 /// Divisions of the bar.
 const DIVISIONS: u64 = 1000;
 
-/// A progress bar on the error output with the state of the run, its pace and the time left. Where the output is not
-/// a terminal, a line now and then; hidden, nothing.
+/// A progress bar on the error output with what is said of the work and the time left. Where the output is not a
+/// terminal, a line now and then; hidden, nothing.
 #[derive(Debug)]
 pub struct Progress {
-    end: f64,
     started: Instant,
     shown: Option<Instant>,
-    display: Display,
-}
-
-#[derive(Debug)]
-enum Display {
-    Bar(ProgressBar),
-    Lines,
-    Nothing,
+    hidden: bool,
+    bar: Option<ProgressBar>,
 }
 
 impl Progress {
-    /// A run from time 0 to `end`.
+    /// A bar of work that starts now.
     #[must_use]
-    pub fn new(end: f64, hidden: bool) -> Self {
-        let display = match (hidden, std::io::stderr().is_terminal()) {
-            (true, _) => Display::Nothing,
-            (false, false) => Display::Lines,
-            (false, true) => {
-                let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
-                if let Ok(style) = ProgressStyle::with_template("[{bar:30}] {percent:>3} %  {msg}") {
-                    bar.set_style(style.progress_chars("=> "));
-                }
-                Display::Bar(bar)
+    pub fn new(hidden: bool) -> Self {
+        let bar = (!hidden && std::io::stderr().is_terminal()).then(|| {
+            let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
+            if let Ok(style) = ProgressStyle::with_template("[{bar:30}] {percent:>3} %  {msg}") {
+                bar.set_style(style.progress_chars("=> "));
             }
-        };
+            bar
+        });
         let started = Instant::now();
-        // A bar appears at once, the first line when a run takes long.
-        let shown = matches!(display, Display::Lines).then_some(started);
-        Self { end, started, shown, display }
+        // A bar appears at once, the first line when the work takes long.
+        let shown = bar.is_none().then_some(started);
+        Self { started, shown, hidden, bar }
     }
 
-    /// Tells where the run is: its time, the number of steps so far, and the speed of what moves (length per time).
-    /// To be called after every step: it mostly returns at once.
-    pub fn update(&mut self, time: f64, steps: usize, speed: f64) {
-        if self.due() {
-            let state = state(time, self.end, steps, speed, self.seconds());
-            self.show(time / self.end, &state);
+    /// Tells which part of the work is done (0 to 1), and what `state` says of it. To be called often: mostly it
+    /// returns at once.
+    pub fn update(&mut self, done: f64, state: impl FnOnce() -> String) {
+        let interval = if self.bar.is_some() { BAR_INTERVAL } else { LINE_INTERVAL };
+        if self.hidden || self.shown.is_some_and(|shown| shown.elapsed() < interval) {
+            return;
         }
-    }
-
-    /// The same for a study: tells how many of its runs are done, and which was the last one.
-    pub fn update_runs(&mut self, done: usize, total: usize, last: &str) {
-        if self.due() {
-            let left = left(self.seconds(), done as f64, total as f64);
-            self.show(done as f64 / total as f64, &format!("{done} of {total} runs  {left} left  {last}"));
-        }
-    }
-
-    /// Whether it is time for an update.
-    fn due(&mut self) -> bool {
-        let interval = match self.display {
-            Display::Bar(_) => BAR_INTERVAL,
-            Display::Lines => LINE_INTERVAL,
-            Display::Nothing => return false,
-        };
-        let due = self.shown.is_none_or(|shown| shown.elapsed() >= interval);
-        if due {
-            self.shown = Some(Instant::now());
-        }
-        due
-    }
-
-    fn show(&self, fraction: f64, state: &str) {
-        let fraction = fraction.clamp(0.0, 1.0);
-        match &self.display {
-            Display::Bar(bar) => {
-                bar.set_position((fraction * DIVISIONS as f64) as u64);
-                bar.set_message(state.to_string());
+        self.shown = Some(Instant::now());
+        let text = format!("{}  {} left", state(), left(self.seconds(), done));
+        match &self.bar {
+            Some(bar) => {
+                bar.set_position((done.clamp(0.0, 1.0) * DIVISIONS as f64) as u64);
+                bar.set_message(text);
             }
-            Display::Lines => eprintln!("{:>3.0} %  {state}", 100.0 * fraction),
-            Display::Nothing => {}
+            None => eprintln!("{:>3.0} %  {text}", 100.0 * done),
         }
     }
 
     /// Writes a line to the error output, above the bar.
     pub fn note(&self, line: &str) {
-        match &self.display {
-            Display::Bar(bar) => bar.suspend(|| eprintln!("{line}")),
-            Display::Lines | Display::Nothing => eprintln!("{line}"),
+        match &self.bar {
+            Some(bar) => bar.suspend(|| eprintln!("{line}")),
+            None => eprintln!("{line}"),
         }
     }
 
-    /// Wall clock time since the start (seconds).
-    #[must_use]
-    pub fn seconds(&self) -> f64 {
-        self.started.elapsed().as_secs_f64()
-    }
-
-    /// Takes the bar away.
-    pub fn finish(&self) {
-        if let Display::Bar(bar) = &self.display {
+    /// Takes the bar away; gives the wall clock time since the start (seconds).
+    pub fn finish(&self) -> f64 {
+        if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+        self.seconds()
+    }
+
+    fn seconds(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
     }
 }
 
-/// The state of a run in words.
-fn state(time: f64, end: f64, steps: usize, speed: f64, seconds: f64) -> String {
-    let pace = if seconds > 0.0 { steps as f64 / seconds } else { 0.0 };
-    let left = left(seconds, time, end);
-    format!("t = {time:.2} of {end}  speed {speed:.4}  {pace:.0} steps/s  {left} left")
+/// Shows the progress of a run: time, speed of the first droplet, pace; and once what its user should know of any
+/// droplet ([`DropletWarning`]). To be called after every step.
+#[derive(Debug)]
+pub struct RunProgress {
+    end: f64,
+    progress: Progress,
+    warned: Vec<DropletWarning>,
 }
 
-/// The time that is left when `done` of `all` took some seconds.
-fn left(seconds: f64, done: f64, all: f64) -> String {
-    if done > 0.0 { clock(seconds * (all - done).max(0.0) / done) } else { "?".into() }
+impl RunProgress {
+    /// A run to time `end`.
+    #[must_use]
+    pub fn new(end: f64, hidden: bool) -> Self {
+        Self { end, progress: Progress::new(hidden), warned: Vec::new() }
+    }
+
+    /// Takes the progress bar away; gives the wall clock time since the start (seconds).
+    pub fn finish(&self) -> f64 {
+        self.progress.finish()
+    }
 }
 
-/// Seconds as minutes and seconds, or hours, minutes and seconds.
-fn clock(seconds: f64) -> String {
-    let whole = seconds.round().clamp(0.0, 359_999.0) as u64;
+impl<H: Hydrodynamics> Observer<H> for RunProgress {
+    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        // The flow at the end of a step is that at the start of the next, so that this costs nothing.
+        system.evaluate()?;
+        let mut speed = None;
+        for (handle, droplet) in system.bodies::<ActiveDroplet>() {
+            for warning in droplet.warnings() {
+                if !self.warned.iter().any(|known| discriminant(known) == discriminant(&warning)) {
+                    self.progress.note(&format!("warning: at t = {:.3}, {warning}", system.time()));
+                    self.warned.push(warning);
+                }
+            }
+            let state = InterfaceState::of(system, handle)?;
+            speed = speed.or(Some(centroid_velocity(state.markers, state.velocities)?.norm()));
+        }
+        let (time, end, steps, seconds) = (system.time(), self.end, system.steps(), self.progress.seconds());
+        self.progress.update(time / end, || {
+            let pace = steps as f64 / seconds.max(1e-9);
+            let speed = speed.map_or(String::new(), |speed| format!("speed {speed:.4}  "));
+            format!("t = {time:.2} of {end}  {speed}{pace:.0} steps/s")
+        });
+        Ok(())
+    }
+}
+
+/// The time that is left when a part of the work took some seconds, as minutes and seconds, or hours, minutes and
+/// seconds.
+fn left(seconds: f64, done: f64) -> String {
+    if done.is_nan() || done <= 0.0 {
+        return "?".into();
+    }
+    let whole = (seconds * (1.0 - done).max(0.0) / done).round().clamp(0.0, 359_999.0) as u64;
     let (h, m, s) = (whole / 3600, whole / 60 % 60, whole % 60);
     if h > 0 { format!("{h}:{m:02}:{s:02}") } else { format!("{m}:{s:02}") }
 }

@@ -1,38 +1,24 @@
-//! A droplet and the flow around it at one time.
+//! All droplets, solids and the flow around them at one time.
 
-use anyhow::{Context, Result};
 use motile::{
     active_interface::{ActiveDroplet, curve::polygon_moments},
-    ib_core::{Domain, FlowSample, Hydrodynamics, System},
+    ib_core::{FlowSample, Hydrodynamics, System},
 };
 
-use crate::{Raster, SolidShape, Vec2, solid_shape, solids};
+use crate::{Error, Raster, SolidShape, Vec2, solids::solid_shape};
 
-/// The cells of a domain that is bounded by walls or periodic, those of a grid of spacing `spacing` (length) if they
-/// are no more than `most` in a direction, and larger ones otherwise.
-///
-/// # Errors
-/// A domain without end.
-pub fn domain_raster(domain: &Domain, spacing: f64, most: usize) -> Result<Raster> {
-    let [x, y] = domain.origin;
-    let periodic = domain.periods.map(|period| period.is_some());
-    let width = domain.periods[0].context("a domain without end in x cannot be drawn")?;
-    let height = domain.periods[1].or(domain.walls.map(|[below, above]| above - below));
-    let height = height.context("a domain without end in y cannot be drawn")?;
-    let origin = [x, domain.walls.map_or(y, |[below, _]| below)];
-    let coarsening = (width.max(height) / spacing / most as f64).max(1.0);
-    let cells = [width, height].map(|side| ((side / (spacing * coarsening)).round() as usize).max(1));
-    Raster::new(origin, [width, height], cells, periodic)
+/// A droplet at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DropletShape {
+    /// The interface (length).
+    pub markers: Vec<Vec2>,
+    /// Concentration at the markers (particles per length), the mean of that in the segments on both sides.
+    pub concentration: Vec<f64>,
+    /// Centroid (length).
+    pub centroid: Vec2,
 }
 
-/// The mean of the values of the two segments that meet at each marker.
-#[must_use]
-pub fn at_markers(segments: &[f64]) -> Vec<f64> {
-    let before = segments.iter().cycle().skip(segments.len().saturating_sub(1));
-    segments.iter().zip(before).map(|(here, before)| 0.5 * (here + before)).collect()
-}
-
-/// The droplet of a scene and the flow on a raster, at one time.
+/// All droplets and solids of a scene and the flow on a raster, at one time.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
     /// When.
@@ -41,34 +27,35 @@ pub struct Snapshot {
     pub raster: Raster,
     /// The flow at them.
     pub flow: Vec<FlowSample>,
-    /// The interface (length).
-    pub markers: Vec<Vec2>,
-    /// Concentration at the markers (particles per length).
-    pub concentration: Vec<f64>,
-    /// Centroid (length).
-    pub centroid: Vec2,
-    /// Elastic solids.
+    /// The droplets, in the order of addition.
+    pub droplets: Vec<DropletShape>,
+    /// The elastic solids, in the order of addition.
     pub solids: Vec<SolidShape>,
+    /// Heights of rigid walls (length).
+    pub walls: Option<[f64; 2]>,
 }
 
 impl Snapshot {
-    /// The first droplet of a system at its present state.
+    /// The present state of a system, with the flow on a raster.
     ///
     /// # Errors
-    /// No droplet, or a flow that cannot be computed.
-    pub fn take<H: Hydrodynamics>(system: &mut System<H>, raster: Raster) -> Result<Self> {
-        let mut flow = vec![FlowSample::default(); raster.len()];
-        system.sample(&raster.points(), &mut flow)?;
-        let droplets = system.bodies::<ActiveDroplet>().next();
-        let (_, droplet) = droplets.context("a scene without a droplet cannot be drawn")?;
+    /// [`Error::Scene`]: a flow that cannot be computed.
+    pub fn take<H: Hydrodynamics>(system: &mut System<H>, raster: Raster) -> Result<Self, Error> {
+        let points = raster.points();
+        let mut flow = vec![FlowSample::default(); points.len()];
+        system.sample(&points, &mut flow)?;
+        let shape = |(_, droplet): (_, &ActiveDroplet)| {
+            let markers = droplet.markers().to_vec();
+            let concentration = at_markers(droplet.concentrations());
+            Ok(DropletShape { concentration, centroid: polygon_moments(&markers)?.centroid, markers })
+        };
         Ok(Self {
             time: system.time(),
             raster,
             flow,
-            markers: droplet.markers().to_vec(),
-            concentration: at_markers(droplet.concentrations()),
-            centroid: polygon_moments(droplet.markers())?.centroid,
-            solids: solids(system).map(solid_shape).collect(),
+            droplets: system.bodies().map(shape).collect::<Result<_, Error>>()?,
+            solids: system.bodies().map(|(_, solid)| solid_shape(solid)).collect(),
+            walls: system.hydrodynamics().medium().domain.walls,
         })
     }
 
@@ -83,12 +70,12 @@ impl Snapshot {
     pub fn velocity(&self) -> Vec<Vec2> {
         self.flow.iter().map(|sample| sample.velocity).collect()
     }
+}
 
-    /// Vorticities dv/dx - du/dy at the sample points (1/time).
-    #[must_use]
-    pub fn vorticity(&self) -> Vec<f64> {
-        self.flow.iter().map(|sample| sample.gradient[1][0] - sample.gradient[0][1]).collect()
-    }
+/// The mean of the values of the two segments that meet at each marker.
+pub(crate) fn at_markers(segments: &[f64]) -> Vec<f64> {
+    let before = segments.iter().cycle().skip(segments.len().saturating_sub(1));
+    segments.iter().zip(before).map(|(here, before)| 0.5 * (here + before)).collect()
 }
 
 #[cfg(test)]

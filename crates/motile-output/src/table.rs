@@ -1,63 +1,81 @@
 //! What was measured over time, as a table in memory and as a CSV file.
 
-use std::{fs::File, path::Path};
+use std::{
+    fs::File,
+    io::{self, BufWriter, Write as _},
+    path::{Path, PathBuf},
+};
 
-use anyhow::{Context, Result, ensure};
+use crate::Error;
 
 /// Rows of named numbers, written to a CSV file as they come and kept for plots.
+///
+/// ```
+/// use motile_output::CsvTable;
+///
+/// let path = std::env::temp_dir().join("decay.csv");
+/// let mut table = CsvTable::create(&path, &["time", "value"])?;
+/// table.push(&[0.0, 1.0])?;
+/// table.push(&[1.0, f64::NAN])?;
+/// table.flush()?;
+/// assert_eq!(std::fs::read_to_string(&path).unwrap(), "time,value\n0,1\n1,\n");
+/// # std::fs::remove_file(&path).unwrap();
+/// # Ok::<(), motile_output::Error>(())
+/// ```
 #[derive(Debug)]
-pub struct Trajectory {
+pub struct CsvTable {
     names: Vec<String>,
     rows: Vec<Vec<f64>>,
-    file: csv::Writer<File>,
+    file: BufWriter<File>,
+    path: PathBuf,
 }
 
-impl Trajectory {
+impl CsvTable {
     /// Opens the file and writes its header.
     ///
     /// # Errors
-    /// No names, the same name twice, or a file that cannot be written.
-    pub fn create(path: &Path, names: &[&str]) -> Result<Self> {
-        let different = names.iter().enumerate().all(|(k, name)| !names[..k].contains(name));
-        ensure!(!names.is_empty() && different, "columns {names:?} are not distinct names");
-        let open = || -> Result<csv::Writer<File>> {
-            let mut file = csv::Writer::from_path(path)?;
-            file.write_record(names)?;
+    /// [`Error::Name`]: an empty name, one given twice, or one with a comma, a quotation mark or the end of a line.
+    /// [`Error::Write`].
+    pub fn create(path: impl AsRef<Path>, names: &[&str]) -> Result<Self, Error> {
+        for (k, name) in names.iter().enumerate() {
+            if name.is_empty() || name.contains([',', '"', '\n', '\r']) || names[..k].contains(name) {
+                return Err(Error::Name { name: (*name).to_string(), what: "a column" });
+            }
+        }
+        let path = path.as_ref().to_path_buf();
+        let open = || -> io::Result<BufWriter<File>> {
+            let mut file = BufWriter::new(File::create(&path)?);
+            writeln!(file, "{}", names.join(","))?;
             Ok(file)
         };
-        let file = open().with_context(|| format!("writing {}", path.display()))?;
-        Ok(Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new(), file })
+        let file = open().map_err(Error::writing(&path))?;
+        Ok(Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new(), file, path })
     }
 
     /// Adds a row, in the order of the names. Numbers that are not finite become empty fields of the file.
     ///
     /// # Errors
-    /// The wrong number of values, or a file that cannot be written.
-    pub fn push(&mut self, row: &[f64]) -> Result<()> {
-        ensure!(row.len() == self.names.len(), "{} values for {} columns", row.len(), self.names.len());
+    /// [`Error::Count`], [`Error::Write`].
+    pub fn push(&mut self, row: &[f64]) -> Result<(), Error> {
+        Error::check_count("values of a row", row.len(), self.names.len())?;
         let field = |v: &f64| if v.is_finite() { v.to_string() } else { String::new() };
-        self.file.write_record(row.iter().map(field)).context("writing a row of the trajectory")?;
+        let fields: Vec<String> = row.iter().map(field).collect();
+        writeln!(self.file, "{}", fields.join(",")).map_err(Error::writing(&self.path))?;
         self.rows.push(row.to_vec());
         Ok(())
     }
 
-    /// Number of rows.
+    /// The rows so far.
     #[must_use]
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    /// Whether there are no rows yet.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.rows.is_empty()
+    pub fn rows(&self) -> &[Vec<f64>] {
+        &self.rows
     }
 
     /// The points of column `y` over column `x`, for plots.
     ///
     /// # Errors
-    /// A name that is not among the columns.
-    pub fn curve(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>> {
+    /// [`Error::Column`].
+    pub fn curve(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Error> {
         let (x, y) = (self.index(x)?, self.index(y)?);
         Ok(self.rows.iter().map(|row| (row[x], row[y])).collect())
     }
@@ -65,23 +83,23 @@ impl Trajectory {
     /// The values of a column.
     ///
     /// # Errors
-    /// A name that is not among the columns.
-    pub fn column(&self, name: &str) -> Result<Vec<f64>> {
+    /// [`Error::Column`].
+    pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
         let index = self.index(name)?;
         Ok(self.rows.iter().map(|row| row[index]).collect())
     }
 
-    fn index(&self, name: &str) -> Result<usize> {
-        let found = self.names.iter().position(|n| n == name);
-        found.with_context(|| format!("no column {name:?} among {:?}", self.names))
+    fn index(&self, name: &str) -> Result<usize, Error> {
+        let missing = || Error::Column { name: name.to_string(), known: self.names.clone() };
+        self.names.iter().position(|n| n == name).ok_or_else(missing)
     }
 
     /// Makes sure that all rows are in the file.
     ///
     /// # Errors
-    /// A file that cannot be written.
-    pub fn flush(&mut self) -> Result<()> {
-        self.file.flush().context("writing the trajectory")
+    /// [`Error::Write`].
+    pub fn flush(&mut self) -> Result<(), Error> {
+        self.file.flush().map_err(Error::writing(&self.path))
     }
 }
 

@@ -10,13 +10,14 @@ use motile::active_interface::{
 use motile::elastic_solids::{
     Moduli, Solid,
     channel::{Constriction, width_between},
+    solid::Observables,
 };
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
-use motile::setup::{
+use motile::stokes_grid::Drive;
+use motile::{
     Built, ChannelShape, DropletSetup, Exclusion, GridMethod, MarkerMotion, Material, MeshKind, Method, Particles,
     Region, Setup, SolidSetup, Surface,
 };
-use motile::stokes_grid::Drive;
 use motile_examples::{Decided, Passage, Steadiness, Summary};
 
 use crate::stiffness::history::History;
@@ -300,11 +301,11 @@ impl Job {
         let width = width_between(lower, upper)?;
         summary.put("channel_width_min", width.minimum - 2.0 * set_back, "");
         summary.put("channel_width_max", width.maximum - 2.0 * set_back, "");
-        let largest = [lower, upper].map(Solid::largest_displacement);
-        summary.put("largest_displacement", largest[0].total.max(largest[1].total), "");
-        summary.put("largest_normal_displacement", largest[0].normal.max(largest[1].normal), "");
-        let jacobian = [lower, upper].map(|wall| wall.smallest_jacobian().0);
-        summary.put("smallest_jacobian", jacobian[0].min(jacobian[1]), "");
+        let seen = [lower, upper].map(Observables::of);
+        let largest = |of: fn(&Observables) -> f64| of(&seen[0]).max(of(&seen[1]));
+        summary.put("largest_displacement", largest(|wall| wall.largest_displacement), "");
+        summary.put("largest_normal_displacement", largest(|wall| wall.largest_normal_displacement), "");
+        summary.put("smallest_jacobian", seen[0].smallest_jacobian.min(seen[1].smallest_jacobian), "");
         Ok(())
     }
 }

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use motile::active_interface::{ActiveDroplet, curve::polygon_area};
+use motile::active_interface::{ActiveDroplet, Flux, curve::polygon_area};
 use motile::ib_core::{Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, StepSize, System, Vec2};
-use motile::{AnyFlow, Method, Swimmer};
+use motile::{AnyFlow, GridMethod, IntegralMethod, MarkerMotion, Method, Particles, Setup};
 
 use crate::hard_cases::{CaseError, Ending, Look, Outcome, Way};
 
@@ -86,7 +86,7 @@ pub(crate) fn measured<I: Integrator>(
         explanation: outcome.err().map(|error| error.explanation()),
         time: scene.time(),
         steps: scene.steps(),
-        taken_back: report.rejections + report.failures,
+        rejected: report.rejections + report.failures,
         evaluations: scene.system().hydrodynamics().work().evaluations,
         drift: drift(scene.system(), &start),
         seconds,
@@ -99,18 +99,23 @@ pub(crate) const AUTO: StepSize = StepSize::OfLimit(0.5);
 /// The steps of the adaptive runs.
 pub(crate) const ADAPTIVE: StepSize = StepSize::Adaptive { tolerance: 1e-5 };
 
-/// The swimmer by one of the ways.
-pub(crate) fn swimmer(way: Way, base: &Swimmer) -> Swimmer {
-    match way {
-        Way::Grid | Way::Chebyshev => Swimmer { method: Method::ImmersedBoundary, ..base.clone() },
-        Way::Integral => {
-            Swimmer { method: Method::BoundaryIntegral, nodes: 64, concentration_cells: 256, ..base.clone() }
+/// A scene that is described on a grid by one of the ways.
+pub(crate) fn by(way: Way, base: &Setup) -> Setup {
+    let mut setup = base.clone();
+    match (way, &mut setup.method) {
+        (Way::Integral, method) => *method = Method::Integral(IntegralMethod { nodes: 64, cells: 256 }),
+        (Way::Thesis, Method::Grid(grid)) => {
+            let GridMethod { spacing, marker_spacing, .. } = *grid;
+            *grid = GridMethod { spacing, marker_spacing, ..GridMethod::thesis() };
+            for droplet in &mut setup.droplets {
+                droplet.motion = MarkerMotion::WithFluid;
+                droplet.area_constraint = true;
+                droplet.particles = droplet.particles.map(|particles| Particles { flux: Flux::Upwind, ..particles });
+            }
         }
-        Way::Thesis => {
-            let Swimmer { method, contrast, kernel, corrected, motion, flux, area_constraint, .. } = Swimmer::thesis();
-            Swimmer { method, contrast, kernel, corrected, motion, flux, area_constraint, ..base.clone() }
-        }
+        _ => {}
     }
+    setup
 }
 
 /// Runs a scene by one of the ways.

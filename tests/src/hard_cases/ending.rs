@@ -19,6 +19,8 @@ pub enum CaseError {
     Flow(#[from] FlowError),
     /// The grid.
     Stokes(#[from] motile::stokes_grid::StokesError),
+    /// A body's state.
+    Body(#[from] BodyError),
     /// The scene.
     Scene(#[from] SceneError),
 }
@@ -44,7 +46,7 @@ pub enum Ending {
     BeyondWall,
     /// Area or particles changed too much.
     NotConserved,
-    /// A triangle turned inside out.
+    /// An inverted triangle.
     Inverted,
     /// Values that are not finite.
     NonFinite,

@@ -76,8 +76,8 @@ pub struct Outcome {
     pub time: f64,
     /// Steps.
     pub steps: usize,
-    /// Steps taken back.
-    pub taken_back: usize,
+    /// Steps rejected and retried.
+    pub rejected: usize,
     /// Evaluations of the flow.
     pub evaluations: usize,
     /// What changed.

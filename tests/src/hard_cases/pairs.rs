@@ -1,11 +1,9 @@
 //! Two droplets.
 
-use motile::Swimmer;
-use motile::active_interface::{ActiveDroplet, Curve};
-use motile::ib_core::Vec2;
 use motile::stokes_grid::Drive;
+use motile::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
 
-use crate::hard_cases::drive::{run_way, swimmer};
+use crate::hard_cases::drive::{by, run_way};
 use crate::hard_cases::{Ending, Recipe, Trial, Way, expand};
 
 pub(crate) fn trials() -> Vec<Trial> {
@@ -15,19 +13,22 @@ pub(crate) fn trials() -> Vec<Trial> {
             "two swimmers head-on",
             &[Way::Grid, Way::Integral, Way::Thesis, Way::Chebyshev],
             |way, extent, look| {
-                let base = Swimmer {
-                    activity: -4.0,
-                    spacing: 0.1,
-                    lengths: [8.0, 4.0],
-                    offset: [-1.3, 0.0],
-                    ..Swimmer::default()
+                let droplet = |name: &str, x: f64, angle: f64| DropletSetup {
+                    name: name.to_owned(),
+                    centre: [x, 0.0],
+                    angle,
+                    ..DropletSetup::active(-4.0)
                 };
-                let first = swimmer(way, &base);
-                let second = Swimmer { offset: [1.3, 0.0], angle: std::f64::consts::PI, ..first.clone() };
-                let mut scene = first.empty_box()?;
-                for (name, swimmer) in [("first droplet", &first), ("second droplet", &second)] {
-                    scene.add(swimmer.droplet_for_method()?.with_name(name));
-                }
+                let setup = Setup {
+                    region: Region::Box { lengths: [8.0, 4.0] },
+                    method: Method::Grid(GridMethod::of_spacing(0.1)),
+                    droplets: vec![
+                        droplet("first droplet", -1.3, 0.0),
+                        droplet("second droplet", 1.3, std::f64::consts::PI),
+                    ],
+                    ..Setup::default()
+                };
+                let scene = by(way, &setup).build()?.scene;
                 run_way(way, scene, extent.pick(6.0, 60.0), look)
             },
         )
@@ -37,19 +38,18 @@ pub(crate) fn trials() -> Vec<Trial> {
         .area_within(2e-3),
         Recipe::new(13, "a passive droplet overtakes another", &[Way::Grid, Way::Integral], |way, extent, look| {
             // At the centre line the flow is faster than beside it.
-            let base = Swimmer {
-                activity: 0.0,
-                excluded_volume: 0.0,
+            let particles = Particles { activity: 0.0, excluded_volume: Exclusion::Step(0.0), ..Particles::default() };
+            let first = DropletSetup { centre: [-1.6, 0.4], particles: Some(particles), ..DropletSetup::default() };
+            let name = "second droplet".to_owned();
+            let second = DropletSetup { name, centre: [1.0, -1.3], ..DropletSetup::passive(10.0) };
+            let setup = Setup {
+                region: Region::Channel { length: 10.0, width: 5.0, drive: Drive::Gradient(-2.0) },
+                method: Method::Grid(GridMethod::of_spacing(0.1)),
                 viscosity: 10.0,
-                spacing: 0.1,
-                lengths: [10.0, 5.0],
-                offset: [-1.6, 0.4],
-                ..Swimmer::default()
+                droplets: vec![first, second],
+                ..Setup::default()
             };
-            let (mut scene, _) = swimmer(way, &base).build_in_channel(Drive::Gradient(-2.0))?;
-            let curve = Curve::circle(1.0)?.translated(Vec2::new(1.0, -1.3));
-            let markers = curve.markers(if way == Way::Integral { 256 } else { 128 })?;
-            scene.add(ActiveDroplet::passive(&markers, 10.0)?.with_name("second droplet"));
+            let scene = by(way, &setup).build()?.scene;
             run_way(way, scene, extent.pick(6.0, 40.0), look)
         })
         .area_within(2e-3),

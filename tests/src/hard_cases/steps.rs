@@ -1,22 +1,28 @@
 //! Time steps that are far too large.
 
-use motile::Swimmer;
-use motile::ib_core::StepSize;
+use motile::ib_core::{Scene, StepSize};
+use motile::{AnyFlow, GridMethod, Method, Setup};
 
-use crate::hard_cases::drive::{measured, run, swimmer};
+use crate::hard_cases::drive::{by, measured, run};
 use crate::hard_cases::{CaseError, Ending, Look, Outcome, Recipe, Trial, Way, expand};
+
+/// A scene and its longest stable step.
+fn scene(way: Way) -> Result<(Scene<AnyFlow>, f64), CaseError> {
+    let setup = Setup { method: Method::Grid(GridMethod::of_spacing(0.1)), ..Setup::default() };
+    let scene = by(way, &setup).build()?.scene;
+    let limit = scene.step_limit().map_or(1.0, |(limit, ..)| limit);
+    Ok((scene, limit))
+}
 
 /// A run with steps of that many times the stable one: refused before it starts.
 fn refused(times: f64, way: Way, look: Look<'_>) -> Result<Outcome, CaseError> {
-    let (scene, _) = swimmer(way, &Swimmer { spacing: 0.1, ..Swimmer::default() }).build()?;
-    let limit = scene.step_limit().map_or(1.0, |(limit, ..)| limit);
+    let (scene, limit) = scene(way)?;
     Ok(run(scene, 1000.0 * limit, StepSize::Fixed(times * limit), look))
 }
 
 /// The same steps taken by hand, where nothing refuses them.
 fn forced(times: f64, way: Way, look: Look<'_>) -> Result<Outcome, CaseError> {
-    let (mut scene, _) = swimmer(way, &Swimmer { spacing: 0.1, ..Swimmer::default() }).build()?;
-    let limit = scene.step_limit().map_or(1.0, |(limit, ..)| limit);
+    let (mut scene, limit) = scene(way)?;
     Ok(measured(&mut scene, look, |scene| (0..200).try_for_each(|_| scene.step(times * limit))))
 }
 

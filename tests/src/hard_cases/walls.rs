@@ -1,20 +1,28 @@
 //! Elastic walls: stiff, narrow, badly meshed.
 
-use motile::elastic_solids::{
-    Mesher, Moduli, Solid, TriangleMesh,
-    channel::{Constriction, StraightChannel},
-    forces::Springs,
-};
+use motile::elastic_solids::{Mesher, Moduli, Solid, TriangleMesh, channel::StraightChannel, forces::Springs};
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid};
-use motile::{AnyFlow, ElasticChannel, Swimmer, WallSurface};
+use motile::{AnyFlow, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup, Surface};
 
-use crate::hard_cases::drive::{run_way, swimmer};
+use crate::hard_cases::drive::{by, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
 
-/// Walls that give way around a throat far narrower than the droplet fold at its corners: where a triangle has turned
-/// inside out, adaptive steps shorten before the run ends.
+/// Walls that give way around a throat far narrower than the droplet fold at its corners: where a triangle is
+/// inverted, adaptive steps shorten before the run ends.
 const SQUEEZED: &[Ending] = &[Ending::Finished, Ending::Inverted, Ending::Stagnated];
+
+/// A scene on a grid of spacing h between walls of the thesis' spring constant k, 1.5 thick, along a channel of width
+/// 2.
+fn between_walls(k: f64, shape: &ChannelShape, h: f64, length: f64) -> Result<Setup, CaseError> {
+    let shear = Moduli::from_thesis_spring_constant(k)?.shear();
+    Ok(Setup {
+        region: Region::Channel { length, width: 5.0, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(h)),
+        solids: SolidSetup::walls(shape, &Material::Springs { shear }),
+        ..Setup::default()
+    })
+}
 
 /// A swimmer of activity -2 in a channel as wide as it, between walls of the thesis' spring constant k.
 fn stiff(
@@ -25,9 +33,8 @@ fn stiff(
     extent: Extent,
     look: Look<'_>,
 ) -> Result<Outcome, CaseError> {
-    let base = Swimmer { viscosity, spacing: 0.1, lengths: [6.0, 2.0], ..Swimmer::default() };
-    let channel = ElasticChannel::new(swimmer(way, &base), Moduli::from_thesis_spring_constant(k)?);
-    run_way(way, channel.build()?.0, extent.pick(quick, long), look)
+    let setup = Setup { viscosity, ..between_walls(k, &ChannelShape::Straight { width: 2.0 }, 0.1, 6.0)? };
+    run_way(way, by(way, &setup).build()?.scene, extent.pick(quick, long), look)
 }
 
 /// A lower wall made from `mesh`, in shear flow.
@@ -36,8 +43,8 @@ fn sheared(mesh: TriangleMesh, way: Way, until: f64, look: Look<'_>) -> Result<O
     solver.set_drive(Drive::Gradient(-10.0))?;
     let flow: AnyFlow = Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
     let mut scene = Scene::new(flow);
-    let droplet = Swimmer { spacing: 0.1, offset: [0.0, 0.3], ..Swimmer::default() }.droplet()?;
-    scene.add(droplet);
+    let setup = Setup { method: Method::Grid(GridMethod::of_spacing(0.1)), ..Setup::default() };
+    scene.add(setup.droplet(&DropletSetup { centre: [0.0, 0.3], ..DropletSetup::default() })?);
     let law = Springs::graded(&mesh, |_| 1000.0)?;
     scene.add(Solid::with_forces(mesh, law)?.named("wall").pinned(|s| s.y < -2.0 + 1e-9)?);
     run_way(way, scene, until, look)
@@ -75,19 +82,12 @@ pub(crate) fn trials() -> Vec<Trial> {
             stiff(1e7, 10.0, [0.003, 0.2], way, extent, look)
         }),
         Recipe::new(8, "a throat of R0/4", both, |way, extent, look| {
-            let base = Swimmer {
-                activity: -5.0,
-                spacing: 0.125,
-                lengths: [8.0, 2.0],
-                offset: [-2.2, 0.0],
-                ..Swimmer::default()
-            };
-            let moduli = Moduli::from_thesis_spring_constant(1e4)?;
-            let channel =
-                ElasticChannel { surface: WallSurface::SetBack, ..ElasticChannel::new(swimmer(way, &base), moduli) };
             let shape =
-                Constriction { period: 8.0, width: 2.0, throat: 0.25, throat_length: 1.0, ramp: 1.0, centre: 0.0 };
-            run_way(way, channel.build_in(&shape.channel()?)?.0, extent.pick(1.0, 40.0), look)
+                ChannelShape::Constriction { width: 2.0, throat: 0.25, throat_length: 1.0, ramp: 1.0, centre: 0.0 };
+            let mut setup = between_walls(1e4, &shape, 0.125, 8.0)?;
+            setup.droplets = vec![DropletSetup { centre: [-2.2, 0.0], ..DropletSetup::active(-5.0) }];
+            setup.solids.iter_mut().for_each(|wall| wall.surface = Surface::SetBack);
+            run_way(way, by(way, &setup).build()?.scene, extent.pick(1.0, 40.0), look)
         })
         .ending_in(SQUEEZED)
         .area_within(5e-3),

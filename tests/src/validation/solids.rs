@@ -80,7 +80,7 @@ pub fn meshes() -> Result<[TriangleMesh; 2], SolidError> {
 /// The balance of the forces under a large deformation that is not smooth on the scale of the mesh.
 ///
 /// # Errors
-/// A triangle turned inside out.
+/// An inverted triangle.
 pub fn balance(mesh: &TriangleMesh, law: &dyn ElasticForces) -> Result<ForceBalance, SolidError> {
     let rough = |s: Vec2| 0.01 * Vec2::new((91.0 * s.x + 37.0 * s.y).sin(), (53.0 * s.x - 71.0 * s.y).sin());
     let smooth = |s: Vec2| 0.1 * Vec2::new((2.1 * s.x + s.y).sin(), (4.2 * s.x).cos() * s.y);

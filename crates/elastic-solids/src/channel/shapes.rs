@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use ib_core::Vec2;
 
-use crate::error::{at_least, finite, positive, within};
+use crate::error::{finite, positive, within};
 use crate::{Channel, Outline, SolidError};
 
 /// A straight channel. All channels here are centred on the origin.
@@ -169,14 +169,14 @@ impl Ratchet {
     /// The channel.
     ///
     /// # Errors
-    /// Lengths that are not positive, a throat not below the width, no teeth, a rise not between 0 and 1.
+    /// Lengths that are not positive, a throat not below the width, no teeth or more than 200, a rise not between 0 and 1.
     pub fn channel(&self) -> Result<Channel, SolidError> {
         let Self { period, width, throat, teeth, rise, sharp } = *self;
         positive("the width of the channel", width)?;
         positive("the width of the throat", throat)?;
         positive("the width beside the throat", width - throat)?;
         positive("the period", period)?;
-        at_least("teeth", teeth, 1)?;
+        within("the number of teeth", teeth as f64, 1.0, MOST_WAVES)?;
         within("the rising part of a tooth", rise, f64::EPSILON, 1.0 - f64::EPSILON)?;
         let (start, tooth) = (-0.5 * period, period / teeth as f64);
         let feet = (0..teeth).map(|k| start + tooth * k as f64);
@@ -198,14 +198,14 @@ impl SinusoidalChannel {
     /// The channel.
     ///
     /// # Errors
-    /// Lengths that are not positive, no wave, an amplitude or phase that is not finite, sides that touch.
+    /// Lengths that are not positive, no wave or more than 200, an amplitude or phase that is not finite, sides that touch.
     pub fn channel(&self) -> Result<Channel, SolidError> {
         let Self { period, width, amplitude, waves, phase } = *self;
         positive("the period", period)?;
         positive("the mean width of the channel", width)?;
         finite("the amplitude of the sides", amplitude)?;
         finite("the phase of the upper side", phase)?;
-        at_least("waves", waves, 1)?;
+        within("the number of waves", waves as f64, 1.0, MOST_WAVES)?;
         let number = TAU * waves as f64 / period;
         Channel::between(
             -0.5 * period,
@@ -248,6 +248,9 @@ impl BranchingChannel {
         )
     }
 }
+
+/// Most waves or teeth in a period.
+const MOST_WAVES: f64 = 200.0;
 
 /// From 0 for s <= 0 to 1 for s >= 1 along a cosine.
 fn cosine_step(s: f64) -> f64 {

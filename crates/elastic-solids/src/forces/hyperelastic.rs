@@ -141,7 +141,7 @@ impl Element {
         (sum + Vec2::new(self.shifts[0] + self.shifts[1], 0.0)) / 3.0
     }
 
-    /// The triangle is turned inside out, flat, or not finite.
+    /// The triangle is inverted, flat, or not finite.
     fn inverted(&self, triangle: usize, positions: &[Vec2]) -> SolidError {
         let place = self.place(positions);
         let jacobian = self.gradient(positions).determinant();

@@ -6,7 +6,7 @@ use crate::SolidError;
 pub type Mat2 = nalgebra::Matrix2<f64>;
 
 /// A deformation gradient `A_ij = dX_i / ds_j` (4.5), X the deformed and s the reference position, with a positive
-/// determinant: material that is not turned inside out. Dimensionless.
+/// determinant: material that is not inverted. Dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DeformationGradient {
     matrix: Mat2,

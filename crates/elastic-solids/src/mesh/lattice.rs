@@ -2,7 +2,7 @@
 
 use ib_core::Vec2;
 
-use crate::error::{all_points_finite, at_least, positive};
+use crate::error::{MOST_POINTS, all_points_finite, at_least, length, within};
 use crate::{SolidError, TriangleMesh};
 
 /// Height of an equilateral triangle over its side.
@@ -15,9 +15,10 @@ pub(crate) const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
 /// Points are numbered row by row from below.
 ///
 /// # Errors
-/// A spacing that is not positive, a corner that is not finite, fewer than three columns or one row.
+/// A spacing that is not positive, a corner that is not finite, fewer than three columns or one row, more than 1e6
+/// columns times rows.
 pub fn equilateral_strip(corner: Vec2, columns: usize, rows: usize, spacing: f64) -> Result<TriangleMesh, SolidError> {
-    strip(corner, columns, rows, [positive("the lattice spacing", spacing)?, ROW_HEIGHT * spacing])
+    strip(corner, columns, rows, [length("the lattice spacing", spacing)?, ROW_HEIGHT * spacing])
 }
 
 /// A strip of almost equilateral triangles, periodic in x, that fills a rectangle of `size` = period and thickness
@@ -25,11 +26,12 @@ pub fn equilateral_strip(corner: Vec2, columns: usize, rows: usize, spacing: f64
 /// (length), the number of columns that which stretches the triangles least.
 ///
 /// # Errors
-/// Sizes or a spacing that are not positive, a corner that is not finite, fewer than three columns or one row.
+/// Sizes or a spacing that are not positive, a corner that is not finite, fewer than three columns or one row, more than 1e6
+/// columns times rows.
 pub fn fitted_strip(corner: Vec2, size: [f64; 2], spacing: f64) -> Result<TriangleMesh, SolidError> {
-    positive("the lattice spacing", spacing)?;
-    positive("the period", size[0])?;
-    let rows = count("rows of the strip", positive("the thickness", size[1])? / (ROW_HEIGHT * spacing), 1)?;
+    length("the lattice spacing", spacing)?;
+    length("the period", size[0])?;
+    let rows = count("rows of the strip", length("the thickness", size[1])? / (ROW_HEIGHT * spacing), 1)?;
     let height = size[1] / rows as f64;
     let columns = count("columns of the strip", size[0] / (height / ROW_HEIGHT), 3)?;
     strip(corner, columns, rows, [size[0] / columns as f64, height])
@@ -42,13 +44,14 @@ pub fn fitted_strip(corner: Vec2, size: [f64; 2], spacing: f64) -> Result<Triang
 /// Points are numbered row by row from below.
 ///
 /// # Errors
-/// A spacing that is not positive, a corner that is not finite, no column or no row.
+/// A spacing that is not positive, a corner that is not finite, no column or no row, more than 1e6 columns times rows.
 pub fn equilateral_block(corner: Vec2, columns: usize, rows: usize, spacing: f64) -> Result<TriangleMesh, SolidError> {
-    positive("the lattice spacing", spacing)?;
+    length("the lattice spacing", spacing)?;
     all_points_finite("the corner of the block", &[corner])?;
     at_least("rows of the block", rows, 1)?;
     // A single column of several rows would hang together by points.
     at_least("columns of the block", columns, rows.min(2))?;
+    check_size(columns, rows)?;
     let mut points = Vec::new();
     let mut starts = Vec::with_capacity(rows + 2);
     for row in 0..=rows {
@@ -71,6 +74,7 @@ fn strip(corner: Vec2, columns: usize, rows: usize, [dx, dy]: [f64; 2]) -> Resul
     all_points_finite("the corner of the strip", &[corner])?;
     at_least("columns of the strip", columns, 3)?;
     at_least("rows of the strip", rows, 1)?;
+    check_size(columns, rows)?;
     let points = (0..=rows)
         .flat_map(|row| {
             let first = corner + Vec2::new(0.5 * dx * (row % 2) as f64, dy * row as f64);
@@ -93,12 +97,11 @@ fn strip(corner: Vec2, columns: usize, rows: usize, [dx, dy]: [f64; 2]) -> Resul
 }
 
 fn count(name: &'static str, exact: f64, minimum: usize) -> Result<usize, SolidError> {
-    /// More points than fit into memory.
-    const MOST: f64 = 1e9;
-    if exact > MOST {
-        return Err(SolidError::OutOfRange { name, value: exact, minimum: minimum as f64, maximum: MOST });
-    }
-    at_least(name, exact.round() as usize, minimum)
+    at_least(name, within(name, exact, 0.0, MOST_POINTS)?.round() as usize, minimum)
+}
+
+fn check_size(columns: usize, rows: usize) -> Result<(), SolidError> {
+    within("the number of columns times that of rows", columns as f64 * rows as f64, 1.0, MOST_POINTS).map(drop)
 }
 
 #[cfg(test)]

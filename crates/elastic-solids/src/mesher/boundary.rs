@@ -2,21 +2,18 @@
 
 use ib_core::Vec2;
 
-use crate::error::within;
+use crate::error::{MOST_POINTS, within};
 use crate::mesh::lattice::ROW_HEIGHT;
 use crate::mesher::point_set::PointSet;
 use crate::mesher::segments::Segments;
 use crate::outline::{Place, Track};
-use crate::{Region, SolidError};
+use crate::{Outline, Region, SolidError};
 
 /// Length of boundary, in spacings, beyond which two nearby parts of it are the two sides of a wall, not of a corner.
 const ACROSS: usize = 6;
 
 /// Largest change of the spacing, over itself, that makes rows of triangles fit a wall.
 const LARGEST_FIT: f64 = 0.05;
-
-/// Most points of a mesh.
-pub(crate) const MOST_POINTS: f64 = 1e7;
 
 /// Points on the outlines of a region, where they make a boundary that can be meshed.
 #[derive(Debug)]
@@ -41,15 +38,9 @@ impl<'a> Boundary<'a> {
         if let Some(period) = region.period() {
             within("the period over the mesh spacing", period / spacing, 6.0, MOST_POINTS)?;
         }
-        for outline in region.outlines() {
-            // Finer samples are taken below, and the inside has many more points.
-            within(
-                "the length of an outline over the mesh spacing",
-                outline.length() / spacing,
-                0.0,
-                0.1 * MOST_POINTS,
-            )?;
-        }
+        // Finer samples are taken below, and the inside has many more points.
+        let length: f64 = region.outlines().iter().map(Outline::length).sum();
+        within("the length of the outlines over the mesh spacing", length / spacing, 0.0, 0.1 * MOST_POINTS)?;
         let tracks: Vec<Track<'a>> = region.outlines().iter().map(Track::new).collect();
         let places = |spacing: f64| tracks.iter().map(|track| track.places(spacing, 0.0)).collect::<Vec<_>>();
         let points = |places: &[Vec<Place>]| {

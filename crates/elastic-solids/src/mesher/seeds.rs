@@ -3,9 +3,9 @@
 use ib_core::Vec2;
 
 use crate::SolidError;
-use crate::error::within;
+use crate::error::{MOST_POINTS, within};
 use crate::mesh::lattice::ROW_HEIGHT;
-use crate::mesher::boundary::{Boundary, MOST_POINTS, rows};
+use crate::mesher::boundary::{Boundary, rows};
 
 /// How a lattice is laid inside a boundary.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,6 +47,8 @@ impl Boundary<'_> {
             let reach = 0.5 * width.hypot(size.y);
             first = centre - Vec2::repeat(reach);
             (columns, rows) = ((2.0 * reach / step.x).ceil(), (2.0 * reach / step.y).ceil());
+            let most = 100.0 * MOST_POINTS;
+            within("the number of points in the square about the bounding box", columns * rows, 1.0, most)?;
         }
         first += Vec2::new(lay.offset[0] * step.x, lay.offset[1] * step.y);
         let mut seeds = Vec::new();

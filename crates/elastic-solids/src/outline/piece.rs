@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ib_core::Vec2;
 
 use crate::SolidError;
-use crate::error::all_points_finite;
+use crate::error::{all_points_finite, length};
 
 pub(super) type Curve = Arc<dyn Fn(f64) -> Vec2 + Send + Sync>;
 
@@ -63,9 +63,10 @@ impl Piece {
                 total
             })
             .collect();
-        if !(total > 0.0 && total.is_finite()) {
-            return Err(SolidError::NoLength { x: points[0].x, y: points[0].y, length: total });
+        if total == 0.0 {
+            return Err(SolidError::NoLength { x: points[0].x, y: points[0].y });
         }
+        length("the length of a side or curve of an outline", total)?;
         Ok(Self { curve, range, straight, lengths })
     }
 

@@ -1,19 +1,58 @@
 //! What to look at in a deformed solid.
 
-use ib_core::Vec2;
+use ib_core::{BodyError, Medium, Observe, Vec2, scene::BodyFlow};
 
 use crate::material::Mat2;
 use crate::{Solid, SolidError};
 
-/// The largest displacements of a solid from its reference state.
+/// What is seen of a solid at one time (`scene.observe(solid)?`). Displacements are those from the reference state.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LargestDisplacement {
-    /// Of all points, in any direction (length).
-    pub total: f64,
-    /// The point where that is.
-    pub point: usize,
-    /// Of the points of the surface, along the normal of the reference state, outwards or inwards (length).
-    pub normal: f64,
+pub struct Observables {
+    /// Largest displacement of a point, in any direction (length).
+    pub largest_displacement: f64,
+    /// Largest displacement of a point of the surface along the normal of the reference state, outwards or inwards
+    /// (length). Walls move mostly along their surface, so that this is much the smaller.
+    pub largest_normal_displacement: f64,
+    /// Mean displacement, weighted by reference area (length): the drift of a solid that nothing holds.
+    pub drift: Vec2,
+    /// Mean position, weighted by reference area (length): the centre of mass.
+    pub centroid: Vec2,
+    /// Elastic energy (energy), without that of the tethers; infinite where a triangle is inverted and the energy is not
+    /// defined for it.
+    pub elastic_energy: f64,
+    /// Energy of the tethers (energy).
+    pub tether_energy: f64,
+    /// Smallest ratio J of the deformed to the reference area of a triangle; negative where one is inverted.
+    pub smallest_jacobian: f64,
+}
+
+impl Observables {
+    /// Those of a solid where it is now.
+    #[must_use]
+    pub fn of(solid: &Solid) -> Self {
+        let mesh = &solid.mesh;
+        let weights = mesh.point_areas();
+        let mean = |places: &mut dyn Iterator<Item = Vec2>| -> Vec2 {
+            places.zip(&weights).map(|(place, &weight)| place * weight).sum::<Vec2>() / mesh.area()
+        };
+        Self {
+            largest_displacement: solid.displacements().map(|displacement| displacement.norm()).fold(0.0, f64::max),
+            largest_normal_displacement: solid.largest_normal_displacement(),
+            drift: mean(&mut solid.displacements()),
+            centroid: mean(&mut solid.positions.iter().copied()),
+            elastic_energy: solid.elastic_energy().unwrap_or(f64::INFINITY),
+            tether_energy: solid.tether_energy(),
+            smallest_jacobian: solid.smallest_jacobian().0,
+        }
+    }
+}
+
+impl Observe for Solid {
+    type Observables = Observables;
+
+    fn observables(&self, _medium: &Medium, _flow: &BodyFlow<'_>) -> Result<Observables, BodyError> {
+        Ok(Observables::of(self))
+    }
 }
 
 impl Solid {
@@ -22,15 +61,8 @@ impl Solid {
         self.positions.iter().zip(self.mesh.points()).map(|(now, reference)| now - reference)
     }
 
-    /// The largest displacements; walls move mostly along their surface, so that the normal one is much the smaller.
-    #[must_use]
-    pub fn largest_displacement(&self) -> LargestDisplacement {
-        let mut largest = LargestDisplacement { total: 0.0, point: 0, normal: 0.0 };
-        for (point, displacement) in self.displacements().enumerate() {
-            if displacement.norm() > largest.total {
-                (largest.total, largest.point) = (displacement.norm(), point);
-            }
-        }
+    fn largest_normal_displacement(&self) -> f64 {
+        let mut largest = 0.0_f64;
         for boundary in self.mesh.boundary_loops() {
             let polygon = self.mesh.boundary_polygon(boundary, self.mesh.points());
             let count = polygon.len();
@@ -40,24 +72,16 @@ impl Solid {
                 let after = if k + 1 == count { polygon[0] + advance } else { polygon[k + 1] };
                 let along = (after - before).try_normalize(0.0).unwrap_or_else(Vec2::zeros);
                 let displacement = self.positions[point] - self.mesh.points()[point];
-                largest.normal = largest.normal.max(along.perp(&displacement).abs());
+                largest = largest.max(along.perp(&displacement).abs());
             }
         }
         largest
     }
 
-    /// Mean displacement of the solid, weighted by area (length): its drift, where nothing holds it.
-    #[must_use]
-    pub fn drift(&self) -> Vec2 {
-        let weights = self.mesh.point_areas();
-        let sum: Vec2 = self.displacements().zip(&weights).map(|(displacement, &weight)| displacement * weight).sum();
-        sum / self.mesh.area()
-    }
-
     /// Elastic energy (energy), without that of the tethers.
     ///
     /// # Errors
-    /// A triangle turned inside out where the energy is not defined for it.
+    /// An inverted triangle where the energy is not defined for it.
     pub fn elastic_energy(&self) -> Result<f64, SolidError> {
         self.law.energy(&self.positions)
     }
@@ -69,7 +93,7 @@ impl Solid {
         self.tethers.iter().map(|tether| 0.5 * tether.stiffness * stretch(tether.point, tether.anchor)).sum()
     }
 
-    /// J of each triangle, its deformed over its reference area; negative where it is turned inside out.
+    /// J of each triangle, its deformed over its reference area; negative where it is inverted.
     pub fn jacobians(&self) -> impl Iterator<Item = f64> {
         self.mesh.areas().iter().enumerate().map(|(triangle, area)| {
             let [a, b, c] = self.mesh.corners(triangle, &self.positions);
@@ -87,8 +111,8 @@ impl Solid {
     /// Whether every triangle is the right way round.
     ///
     /// # Errors
-    /// [`SolidError::Inverted`] with the triangle that is turned inside out the most.
-    pub fn check_inversion(&self) -> Result<(), SolidError> {
+    /// [`SolidError::Inverted`] with the triangle that is inverted the most.
+    pub(crate) fn check_inversion(&self) -> Result<(), SolidError> {
         // Mostly none is; the sign alone takes no division and no search.
         let upright = |triangle: usize| {
             let [a, b, c] = self.mesh.corners(triangle, &self.positions);
@@ -105,7 +129,7 @@ impl Solid {
     /// Cauchy stress `P A^T / J` of each triangle (force per deformed length).
     ///
     /// # Errors
-    /// A triangle turned inside out.
+    /// An inverted triangle.
     pub fn stresses(&self) -> Result<Vec<Mat2>, SolidError> {
         self.check_inversion()?;
         let stress = |triangle: usize, jacobian: f64| {
@@ -134,14 +158,12 @@ impl Solid {
     }
 
     /// The surface of a periodic wall that faces up, from right to left (length); `None` where there is none.
-    #[must_use]
-    pub fn upper_surface(&self) -> Option<Vec<Vec2>> {
+    pub(crate) fn upper_surface(&self) -> Option<Vec<Vec2>> {
         self.surface(-1)
     }
 
     /// The surface of a periodic wall that faces down, from left to right (length); `None` where there is none.
-    #[must_use]
-    pub fn lower_surface(&self) -> Option<Vec<Vec2>> {
+    pub(crate) fn lower_surface(&self) -> Option<Vec<Vec2>> {
         self.surface(1)
     }
 

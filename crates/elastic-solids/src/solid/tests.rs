@@ -1,6 +1,6 @@
 //! The solid as a body, and what is measured on it.
 
-use ib_core::{Body, BodyError, Domain, MarkerKind, Medium};
+use ib_core::{Body, BodyError, Boundary, Domain, MarkerKind, Medium};
 
 use super::*;
 use crate::channel::{Constriction, width_between};
@@ -84,7 +84,7 @@ fn a_deformed_solid_relaxes() {
         energy = now;
     }
     assert!(energy < 1e-6 * start, "{start} {energy}");
-    assert!(solid.largest_displacement().total < 1e-3);
+    assert!(Observables::of(&solid).largest_displacement < 1e-3);
 }
 
 #[test]
@@ -167,20 +167,26 @@ fn observables_of_a_uniform_deformation() {
     let centre: Vec2 =
         (0..solid.mesh().triangles().len()).map(|t| solid.mesh().centroid(t) * solid.mesh().areas()[t]).sum::<Vec2>()
             / solid.mesh().area();
-    assert!((solid.drift() - (a * centre + shift - centre)).norm() < 1e-13);
+    let seen = Observables::of(&solid);
+    assert!((seen.drift - (a * centre + shift - centre)).norm() < 1e-13);
+    assert!((seen.centroid - (a * centre + shift)).norm() < 1e-13);
+    assert!((seen.smallest_jacobian - 0.99).abs() < 1e-12 && (seen.elastic_energy - energy).abs() < 1e-12);
+    let flat = solid.deformed(|s| Vec2::new(s.x, 0.0)).unwrap();
+    assert_eq!(Observables::of(&flat).elastic_energy, f64::INFINITY);
 }
 
 #[test]
 fn displacements_along_and_across_a_surface() {
     let strip = equilateral_strip(Vec2::zeros(), 20, 5, 0.1).unwrap();
     let slid = Solid::springs(strip.clone(), 1.0).unwrap().deformed(|s| s + Vec2::new(0.4, 0.0)).unwrap();
-    let largest = slid.largest_displacement();
-    assert!((largest.total - 0.4).abs() < 1e-14 && largest.normal < 1e-14);
+    let seen = Observables::of(&slid);
+    assert!((seen.largest_displacement - 0.4).abs() < 1e-14 && seen.largest_normal_displacement < 1e-14);
     let top = 5.0 * 0.1 * 0.75_f64.sqrt();
     // The top row is an odd one, half a spacing off.
     let bulged = |s: Vec2| s + Vec2::new(0.4, if (s.x - 0.55).abs() < 1e-9 { 0.05 * s.y / top } else { 0.0 });
-    let largest = Solid::springs(strip, 1.0).unwrap().deformed(bulged).unwrap().largest_displacement();
-    assert!((largest.normal - 0.05).abs() < 1e-12 && (largest.total - 0.4_f64.hypot(0.05)).abs() < 1e-12);
+    let seen = Observables::of(&Solid::springs(strip, 1.0).unwrap().deformed(bulged).unwrap());
+    assert!((seen.largest_normal_displacement - 0.05).abs() < 1e-12);
+    assert!((seen.largest_displacement - 0.4_f64.hypot(0.05)).abs() < 1e-12);
 }
 
 #[test]
@@ -207,4 +213,23 @@ fn the_width_of_a_channel_between_deformed_walls() {
         width_between(&moved, &Solid::springs(block(), 1.0).unwrap()),
         Err(SolidError::DifferentPeriods { .. })
     ));
+}
+
+#[test]
+fn distances_from_a_wall_over_its_seam() {
+    let wall = Solid::springs(equilateral_strip(Vec2::zeros(), 20, 10, 0.1).unwrap(), 1.0).unwrap();
+    let periods = [Some(2.0), None];
+    let boundary = Boundary::of(&wall);
+    let top = 0.75_f64.sqrt();
+    for k in 0..200 {
+        let x = -7.0 + 0.07 * f64::from(k);
+        for height in [0.3, 0.01, -0.01, -0.3] {
+            let [above, below] = [Vec2::new(x, top + height), Vec2::new(x, -height)];
+            assert!((boundary.distance(above, periods) - height).abs() < 1e-12, "{x} {height}");
+            assert!((boundary.distance(below, periods) - height).abs() < 1e-12, "{x} {height}");
+        }
+    }
+    // Where the wall is now.
+    let moved = Boundary::of(&wall.deformed(|s| Vec2::new(s.x + 3.3, 2.0 * s.y)).unwrap());
+    assert!((moved.distance(Vec2::new(0.4, 2.0 * top + 0.05), periods) - 0.05).abs() < 1e-12);
 }

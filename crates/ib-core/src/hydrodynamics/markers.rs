@@ -23,6 +23,23 @@ pub enum MarkerKind {
     Points,
 }
 
+impl MarkerKind {
+    /// Whether the markers are those of a closed curve.
+    #[must_use]
+    pub fn is_interface(&self) -> bool {
+        *self != Self::Points
+    }
+
+    /// Viscosity of the fluid inside (stress times time), where it is another one than outside.
+    #[must_use]
+    pub fn viscosity_inside(&self) -> Option<f64> {
+        match self {
+            Self::Interface { viscosity_inside } | Self::UnevenInterface { viscosity_inside } => *viscosity_inside,
+            Self::Points => None,
+        }
+    }
+}
+
 /// The markers of one body within [`Markers`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerGroup {

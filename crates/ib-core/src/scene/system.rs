@@ -8,10 +8,12 @@ mod state;
 pub use bodies::BodyFlow;
 
 use super::SceneId;
-use crate::gap::{ContactFinder, Gap};
+use crate::gap::{Gap, Gaps};
 use crate::{
-    Body, BodyError, FlowReport, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SavedState, SceneError,
-    StepInfo, StepLimit, Vec2,
+    Body, BodyError, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SceneError, Vec2,
+    body::{StepInfo, StepLimit},
+    checkpoint::SavedState,
+    hydrodynamics::FlowReport,
 };
 use forces::write_forces;
 
@@ -29,11 +31,13 @@ pub struct System<H> {
     report: FlowReport,
     /// Whether the markers hold the flow of the bodies' present state.
     current: bool,
-    /// Marker positions of the present state, for the gap to the walls.
-    positions: Vec<Vec2>,
+    /// Whether the markers are where the bodies have them in their present state.
+    placed: bool,
+    /// Whether the bodies are known to lie as they may.
+    apart: bool,
     minimum_wall_gap: Option<f64>,
     minimum_gap: Option<f64>,
-    contacts: ContactFinder,
+    gaps: Gaps,
     /// The narrowest gap of the present state.
     narrowest: Option<Gap>,
     pub(crate) least_gap: Option<f64>,
@@ -51,10 +55,11 @@ impl<H: Hydrodynamics> System<H> {
             steps: 0,
             report: FlowReport::default(),
             current: false,
-            positions: Vec::new(),
+            placed: false,
+            apart: false,
             minimum_wall_gap: None,
             minimum_gap: None,
-            contacts: ContactFinder::default(),
+            gaps: Gaps::default(),
             narrowest: None,
             least_gap: None,
             repulsion: None,
@@ -64,7 +69,8 @@ impl<H: Hydrodynamics> System<H> {
     pub(crate) fn push<B: Body>(&mut self, body: B) -> Handle<B> {
         self.markers.push_group(body.marker_count(), body.kind());
         self.bodies.push(Box::new(body));
-        self.current = false;
+        self.forget_flow();
+        self.apart = false;
         self.record_wall_gap();
         Handle::new(self.id, self.bodies.len() - 1)
     }
@@ -116,6 +122,16 @@ impl<H: Hydrodynamics> System<H> {
         &self.report
     }
 
+    /// What the scene is made of, besides its bodies and its domain.
+    pub(crate) fn properties(&self) -> Vec<(String, f64)> {
+        let mut properties = vec![("the exterior viscosity".to_owned(), self.hydrodynamics.medium().viscosity)];
+        if let Some(repulsion) = &self.repulsion {
+            properties.push(("the strength of the repulsion".to_owned(), repulsion.strength()));
+            properties.push(("the range of the repulsion".to_owned(), repulsion.range()));
+        }
+        properties
+    }
+
     /// Whether [`System::markers`] holds the flow of the present state.
     #[must_use]
     pub fn is_evaluated(&self) -> bool {
@@ -131,7 +147,8 @@ impl<H: Hydrodynamics> System<H> {
         steps: usize,
         [minimum_wall_gap, minimum_gap]: [Option<f64>; 2],
     ) -> Result<(), SceneError> {
-        self.current = false;
+        self.forget_flow();
+        self.apart = false;
         self.hydrodynamics.load(flow);
         let medium = self.hydrodynamics.medium();
         for (body, saved) in self.bodies.iter_mut().zip(bodies) {
@@ -139,7 +156,7 @@ impl<H: Hydrodynamics> System<H> {
         }
         (self.time, self.steps) = (time, steps);
         (self.minimum_wall_gap, self.minimum_gap) = (minimum_wall_gap, minimum_gap);
-        self.fit_markers();
+        self.place_markers();
         Ok(())
     }
 
@@ -172,7 +189,7 @@ impl<H: Hydrodynamics> System<H> {
     /// Those of the bodies' forces and of the flow.
     pub fn evaluate(&mut self) -> Result<&Markers, SceneError> {
         if !self.current {
-            self.fit_markers();
+            self.check_bodies()?;
             self.compute_flow()?;
             self.current = true;
         }
@@ -227,10 +244,31 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
+    /// What is known of the flow is not of the bodies' present state any more.
+    fn forget_flow(&mut self) {
+        self.current = false;
+        self.placed = false;
+    }
+
+    /// Puts the markers where the bodies have them.
+    fn place_markers(&mut self) {
+        if self.placed {
+            return;
+        }
+        self.fit_markers();
+        let mut start = 0;
+        for body in &self.bodies {
+            let end = start + body.marker_count();
+            body.write_markers(&mut self.markers.positions[start..end]);
+            start = end;
+        }
+        self.placed = true;
+    }
+
     fn compute_flow(&mut self) -> Result<(), SceneError> {
         let (medium, time) = (self.hydrodynamics.medium(), self.time);
-        let (positions, forces) = (&mut self.markers.positions[..], &mut self.markers.forces[..]);
-        if let Some((index, source)) = write_forces(0, &mut self.bodies, positions, forces, &medium) {
+        self.place_markers();
+        if let Some((index, source)) = write_forces(0, &mut self.bodies, &mut self.markers.forces, &medium) {
             return Err(body_error(time, self.bodies[index].as_ref(), source));
         }
         if let Some(repulsion) = &self.repulsion {
@@ -251,7 +289,8 @@ impl<H: Hydrodynamics> System<H> {
 
     pub(crate) fn end_step(&mut self, dt: f64) -> Result<(), SceneError> {
         let (medium, time) = (self.hydrodynamics.medium(), self.time);
-        self.current = false;
+        self.forget_flow();
+        self.apart = false;
         for body in &mut self.bodies {
             body.end_step(&medium, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
         }

@@ -1,19 +1,22 @@
 use super::*;
-use crate::{Rgb, Surface};
+use crate::{
+    Rgb,
+    drawing::{Surface, canvas::Canvas},
+};
 
 #[test]
 fn frames_come_back_from_the_file() {
     let path = std::env::temp_dir().join(format!("motile-animation-{}.gif", std::process::id()));
-    let mut animation = Animation::new(&path, 20.0);
+    let mut animation = Animation::new(20.0);
     let colours = [Rgb([250, 10, 10]), Rgb([10, 10, 250]), Rgb([10, 10, 250])];
     for (k, colour) in colours.into_iter().enumerate() {
         let mut canvas = Canvas::new(40, 30).unwrap();
         let x = 5.0 + 10.0 * k.min(1) as f64;
         canvas.fill(&[vec![[x, 5.0], [x + 10.0, 5.0], [x + 10.0, 15.0], [x, 15.0]]], colour, 1.0);
-        animation.push(&canvas).unwrap();
+        animation.push(&canvas.into_image()).unwrap();
     }
-    assert!(animation.push(&Canvas::new(10, 10).unwrap()).is_err());
-    animation.finish().unwrap();
+    assert!(animation.push(&Image::new(10, 10).unwrap()).is_err());
+    animation.write(&path).unwrap();
 
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
@@ -35,5 +38,5 @@ fn frames_come_back_from_the_file() {
 
 #[test]
 fn an_animation_without_frames_is_refused() {
-    assert!(Animation::new(Path::new("/nowhere/none.gif"), 10.0).finish().is_err());
+    assert!(matches!(Animation::new(10.0).write("/nowhere/none.gif"), Err(Error::Empty(_))));
 }

@@ -2,9 +2,7 @@
 
 use crate::{
     Rgb,
-    drawing::font::text_width,
-    drawing::surface::{Anchor, Pen, Pixel, Rect, Surface, TextStyle},
-    drawing::ticks::Ticks,
+    drawing::{Anchor, Pen, Pixel, Rect, Surface, TextStyle, font::text_width, ticks::Ticks},
 };
 
 /// Whether an axis is linear or logarithmic.
@@ -102,13 +100,14 @@ impl Frame {
     /// Draws pale lines at the labelled ticks.
     pub(crate) fn draw_grid(&self, surface: &mut impl Surface) {
         let pen = Pen::new(Rgb::PALE, (0.055 * self.em).max(0.8));
-        for tick in self.x.ticks.ticks.iter().filter(|t| t.label.is_some()) {
-            let x = self.place(tick.value, self.y.low)[0];
-            surface.stroke(&[[x, self.area.top], [x, self.area.bottom()]], &pen);
+        let area = self.area;
+        for tick in self.x.ticks.labelled() {
+            let x = self.place(tick, self.y.low)[0];
+            surface.stroke(&[[x, area.top], [x, area.bottom()]], &pen);
         }
-        for tick in self.y.ticks.ticks.iter().filter(|t| t.label.is_some()) {
-            let y = self.place(self.x.low, tick.value)[1];
-            surface.stroke(&[[self.area.left, y], [self.area.right(), y]], &pen);
+        for tick in self.y.ticks.labelled() {
+            let y = self.place(self.x.low, tick)[1];
+            surface.stroke(&[[area.left, y], [area.right(), y]], &pen);
         }
     }
 
@@ -117,26 +116,25 @@ impl Frame {
         let (em, area) = (self.em, self.area);
         let pen = Pen::new(Rgb::INK, (0.07 * em).max(1.0));
         surface.stroke(&area.outline(), &pen);
-        let small = TextStyle::new(TICK_SIZE * em, Anchor::Middle);
-        for tick in &self.x.ticks.ticks {
-            let [x, y] = [self.place(tick.value, self.y.low)[0], area.bottom()];
-            let length = if tick.label.is_some() { 0.4 } else { 0.22 } * em;
-            surface.stroke(&[[x, y], [x, y + length]], &pen);
-            if let Some(label) = &tick.label {
-                surface.text([x, y + 1.15 * em], label, &small);
-            }
-        }
-        let right = TextStyle { anchor: Anchor::End, ..small };
-        for tick in &self.y.ticks.ticks {
-            let [x, y] = [area.left, self.place(self.x.low, tick.value)[1]];
-            let length = if tick.label.is_some() { 0.4 } else { 0.22 } * em;
-            surface.stroke(&[[x, y], [x - length, y]], &pen);
-            if let Some(label) = &tick.label {
-                surface.text([x - 0.7 * em, y], label, &right);
+        let middle = TextStyle::new(TICK_SIZE * em, Anchor::Middle);
+        let [left, right] = [Anchor::Start, Anchor::End].map(|anchor| TextStyle { anchor, ..middle });
+        for (axis, downwards) in [(&self.x, true), (&self.y, false)] {
+            for tick in &axis.ticks.ticks {
+                let length = if tick.label.is_some() { 0.4 } else { 0.22 } * em;
+                let label = tick.label.as_deref().unwrap_or_default();
+                if downwards {
+                    let [x, y] = [self.place(tick.value, self.y.low)[0], area.bottom()];
+                    surface.stroke(&[[x, y], [x, y + length]], &pen);
+                    surface.text([x, y + 1.15 * em], label, &middle);
+                } else {
+                    let [x, y] = [area.left, self.place(self.x.low, tick.value)[1]];
+                    surface.stroke(&[[x, y], [x - length, y]], &pen);
+                    surface.text([x - 0.7 * em, y], label, &right);
+                }
             }
         }
         surface.text([area.right(), area.bottom() + 2.5 * em], &self.x.factor(), &right);
-        surface.text([area.left, area.top - 0.8 * em], &self.y.factor(), &TextStyle { anchor: Anchor::Start, ..small });
+        surface.text([area.left, area.top - 0.8 * em], &self.y.factor(), &left);
         let style = TextStyle::new(em, Anchor::Middle);
         surface.text([area.left + 0.5 * area.width, area.bottom() + 2.65 * em], &self.x.label, &style);
         let beside = self.y.label_width(TICK_SIZE * em) + 1.75 * em;

@@ -1,24 +1,18 @@
-//! An RGB image with anti-aliased lines, areas and text, written as PNG.
-
-use std::{fs::File, io::BufWriter, path::Path};
-
-use anyhow::{Context, Result, ensure};
+//! Drawing with anti-aliased lines, areas and text on an image.
 
 use crate::{
-    Rgb,
-    drawing::font,
-    drawing::surface::{Pen, Pixel, Rect, Surface, TextStyle, dashes},
+    Error, Rgb,
+    drawing::{Pen, Pixel, Rect, Surface, TextStyle, dashes, font, image::Image},
 };
 
-/// An image of 8-bit RGB pixels, white at first.
+/// An image to draw on, white at first.
 ///
 /// A shape is first collected in a coverage mask (the largest coverage of its parts), then blended once, so that the
 /// overlapping parts of a line do not add up to spots.
 #[derive(Debug, Clone)]
-pub struct Canvas {
+pub(crate) struct Canvas {
     width: usize,
-    height: usize,
-    pixels: Vec<Rgb>,
+    image: Image,
     coverage: Vec<f32>,
     tint: Vec<Rgb>,
     clip: Span,
@@ -54,45 +48,20 @@ impl Span {
 }
 
 impl Canvas {
-    /// Largest width and height (pixels).
-    pub const LARGEST: usize = 16_384;
-
     /// A white image.
-    ///
-    /// # Errors
-    /// No pixels, or more than [`Canvas::LARGEST`] in a direction.
-    pub fn new(width: usize, height: usize) -> Result<Self> {
-        let sizes = 1..=Self::LARGEST;
-        ensure!(
-            sizes.contains(&width) && sizes.contains(&height),
-            "an image of {width} x {height} pixels cannot be drawn: each side must be 1 to {} pixels",
-            Self::LARGEST
-        );
-        let count = width * height;
-        Ok(Self {
-            width,
-            height,
-            pixels: vec![Rgb::WHITE; count],
-            coverage: vec![0.0; count],
-            tint: vec![Rgb::WHITE; count],
-            clip: Span { x: [0, width], y: [0, height] },
-        })
+    pub(crate) fn new(width: usize, height: usize) -> Result<Self, Error> {
+        let (image, count) = (Image::new(width, height)?, width * height);
+        let clip = Span { x: [0, width], y: [0, height] };
+        Ok(Self { width, image, coverage: vec![0.0; count], tint: vec![Rgb::WHITE; count], clip })
     }
 
-    /// Width and height (pixels).
-    #[must_use]
-    pub fn size(&self) -> [usize; 2] {
-        [self.width, self.height]
-    }
-
-    /// The pixels, row after row from the top.
-    #[must_use]
-    pub fn pixels(&self) -> &[Rgb] {
-        &self.pixels
+    /// What was drawn.
+    pub(crate) fn into_image(self) -> Image {
+        self.image
     }
 
     /// Colours each pixel whose centre lies in `area` by `colour(x, y)` of that centre (pixels); `None` leaves it.
-    pub fn shade(&mut self, area: Rect, mut colour: impl FnMut(f64, f64) -> Option<Rgb>) {
+    pub(crate) fn shade(&mut self, area: Rect, mut colour: impl FnMut(f64, f64) -> Option<Rgb>) {
         let span = Span::around([area.left, area.top], [area.right(), area.bottom()], &self.clip);
         for row in span.y[0]..span.y[1] {
             let y = row as f64 + 0.5;
@@ -100,28 +69,18 @@ impl Canvas {
                 let x = column as f64 + 0.5;
                 let inside = x >= area.left && x < area.right() && y >= area.top && y < area.bottom();
                 if inside && let Some(c) = colour(x, y) {
-                    self.pixels[row * self.width + column] = c;
+                    self.image.pixels[row * self.width + column] = c;
                 }
             }
         }
     }
 
     /// A solid line whose colour runs linearly from vertex to vertex; `colours` has as many entries as `path`.
-    ///
-    /// # Panics
-    /// If the lengths differ.
-    pub fn stroke_coloured(&mut self, path: &[Pixel], colours: &[Rgb], width: f64) {
-        assert_eq!(path.len(), colours.len(), "one colour a vertex");
+    pub(crate) fn stroke_coloured(&mut self, path: &[Pixel], colours: &[Rgb], width: f64) {
         let mut touched = Span::EMPTY;
         for (ends, tints) in path.windows(2).zip(colours.windows(2)) {
             touched = touched.join(self.cover(ends[0], ends[1], width, [tints[0], tints[1]]));
         }
-        self.blend(touched, 1.0);
-    }
-
-    /// A filled disc.
-    pub fn disc(&mut self, centre: Pixel, radius: f64, colour: Rgb) {
-        let touched = self.cover(centre, centre, 2.0 * radius, [colour, colour]);
         self.blend(touched, 1.0);
     }
 
@@ -172,27 +131,10 @@ impl Canvas {
                 let coverage = std::mem::take(&mut self.coverage[index]);
                 if coverage > 0.0 {
                     let t = f64::from(coverage.min(1.0)) * opacity;
-                    self.pixels[index] = self.pixels[index].mix(self.tint[index], t);
+                    self.image.pixels[index] = self.image.pixels[index].mix(self.tint[index], t);
                 }
             }
         }
-    }
-
-    /// Writes the image as PNG.
-    ///
-    /// # Errors
-    /// The file cannot be written.
-    pub fn write_png(&self, path: &Path) -> Result<()> {
-        let write = || -> Result<()> {
-            let file = BufWriter::new(File::create(path)?);
-            let mut encoder = png::Encoder::new(file, u32::try_from(self.width)?, u32::try_from(self.height)?);
-            encoder.set_color(png::ColorType::Rgb);
-            encoder.set_depth(png::BitDepth::Eight);
-            let bytes: Vec<u8> = self.pixels.iter().flat_map(|p| p.0).collect();
-            encoder.write_header()?.write_image_data(&bytes)?;
-            Ok(())
-        };
-        write().with_context(|| format!("writing {}", path.display()))
     }
 }
 
@@ -265,12 +207,15 @@ impl Surface for Canvas {
     }
 
     fn clip(&mut self, to: Option<Rect>) {
-        let all = Span { x: [0, self.width], y: [0, self.height] };
+        let all = Span { x: [0, self.width], y: [0, self.image.size[1]] };
         self.clip = to.map_or(all, |r| {
             let round = |v: f64, end: usize| (v.round().max(0.0) as usize).min(end);
             let x0 = round(r.left, self.width);
-            let y0 = round(r.top, self.height);
-            Span { x: [x0, round(r.right(), self.width).max(x0)], y: [y0, round(r.bottom(), self.height).max(y0)] }
+            let y0 = round(r.top, self.image.size[1]);
+            Span {
+                x: [x0, round(r.right(), self.width).max(x0)],
+                y: [y0, round(r.bottom(), self.image.size[1]).max(y0)],
+            }
         });
     }
 }

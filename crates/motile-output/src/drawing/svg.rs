@@ -3,20 +3,17 @@
 //! Written by hand: lines, areas and text are three elements, and their coordinates keep fractions of a pixel, which
 //! drawing libraries with integer coordinates round away.
 
-use std::{fmt::Write as _, fs, path::Path};
-
-use anyhow::{Context, Result};
+use std::fmt::Write as _;
 
 use crate::{
     Rgb,
-    drawing::font,
-    drawing::surface::{Pen, Pixel, Rect, Surface, TextStyle},
+    drawing::{Pen, Pixel, Rect, Surface, TextStyle, font},
 };
 
 /// A drawing that is written as SVG. Its text is drawn, so that it looks the same everywhere; what it says is in the
 /// `aria-label` attributes, for search and screen readers.
 #[derive(Debug, Clone)]
-pub struct Svg {
+pub(crate) struct Svg {
     size: [f64; 2],
     body: String,
     clips: usize,
@@ -25,14 +22,12 @@ pub struct Svg {
 
 impl Svg {
     /// A white drawing of the given width and height (pixels).
-    #[must_use]
-    pub fn new(width: f64, height: f64) -> Self {
-        Self { size: [width, height], body: String::new(), clips: 0, clipped: false }
+    pub(crate) fn new(size: [f64; 2]) -> Self {
+        Self { size, body: String::new(), clips: 0, clipped: false }
     }
 
     /// The drawing as the text of an SVG file.
-    #[must_use]
-    pub fn document(&self) -> String {
+    pub(crate) fn document(&self) -> String {
         let [width, height] = self.size.map(short);
         let close = if self.clipped { "</g>\n" } else { "" };
         format!(
@@ -41,14 +36,6 @@ impl Svg {
              <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}{close}</svg>\n",
             self.body
         )
-    }
-
-    /// Writes the file.
-    ///
-    /// # Errors
-    /// The file cannot be written.
-    pub fn write(&self, path: &Path) -> Result<()> {
-        fs::write(path, self.document()).with_context(|| format!("writing {}", path.display()))
     }
 
     fn push(&mut self, element: &str) {

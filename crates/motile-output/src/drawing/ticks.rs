@@ -16,6 +16,11 @@ pub(crate) struct Ticks {
 }
 
 impl Ticks {
+    /// Values of the ticks that have a label.
+    pub(crate) fn labelled(&self) -> impl Iterator<Item = f64> + '_ {
+        self.ticks.iter().filter(|tick| tick.label.is_some()).map(|tick| tick.value)
+    }
+
     /// About `target` ticks at multiples of 1, 2 or 5 times a power of ten within `low..=high`.
     pub(crate) fn linear(low: f64, high: f64, target: usize) -> Self {
         let span = high - low;

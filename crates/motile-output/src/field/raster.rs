@@ -1,11 +1,17 @@
 //! Sampled fields: values at the centres of the cells of a rectangle.
 
-use anyhow::{Result, ensure};
+use std::ops::{Add, Mul};
 
-use crate::Vec2;
+use motile::ib_core::{Hydrodynamics, System};
 
-/// A rectangle cut into `nx` x `ny` cells, at whose centres fields are sampled: the pressure points of a grid, or any
-/// other set of sample points for a flow known everywhere.
+use crate::{Error, Vec2};
+
+/// Most cells in a direction.
+const MOST_CELLS: usize = 4096;
+/// The same of a raster that is made to fit a scene.
+const MOST_OF_SCENE: f64 = 512.0;
+
+/// A rectangle cut into `nx` x `ny` cells, at whose centres fields are sampled.
 ///
 /// Entry (i, j) is number `j * nx + i` and lies at `origin + ((i + 1/2) dx, (j + 1/2) dy)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,17 +27,38 @@ impl Raster {
     /// periodic in the directions marked.
     ///
     /// # Errors
-    /// No cells, more than 4096 in a direction, or a rectangle that is empty or not finite.
-    pub fn new(origin: [f64; 2], size: [f64; 2], cells: [usize; 2], periodic: [bool; 2]) -> Result<Self> {
-        ensure!(
-            cells.iter().all(|n| (1..=4096).contains(n)),
-            "a raster of {} x {} cells cannot be drawn: 1 to 4096 in each direction",
-            cells[0],
-            cells[1]
-        );
+    /// [`Error::Size`] with no cells or more than 4096 in a direction, [`Error::Rectangle`] with one that is empty or
+    /// not finite.
+    pub fn new(origin: [f64; 2], size: [f64; 2], cells: [usize; 2], periodic: [bool; 2]) -> Result<Self, Error> {
+        for count in cells {
+            Error::check_size("a raster with a side (cells)", count as f64, 1.0, MOST_CELLS as f64)?;
+        }
         let finite = origin.iter().all(|v| v.is_finite()) && size.iter().all(|v| v.is_finite() && *v > 0.0);
-        ensure!(finite, "a raster of size {size:?} at {origin:?} is empty or not finite");
-        Ok(Self { origin, size, cells, periodic })
+        if finite { Ok(Self { origin, size, cells, periodic }) } else { Err(Error::Rectangle { corner: origin, size }) }
+    }
+
+    /// The cells of a scene that is bounded by walls or periodic, `spacing` (length) wide if they are then no more than
+    /// 512 in a direction, and wider otherwise.
+    ///
+    /// # Errors
+    /// [`Error::Unbounded`]; a spacing that is not positive, as [`Raster::new`].
+    pub fn of<H: Hydrodynamics>(system: &System<H>, spacing: f64) -> Result<Self, Error> {
+        let domain = system.hydrodynamics().medium().domain;
+        let [x, y] = domain.origin;
+        let walls = domain.walls.map(|[below, above]| above - below);
+        let (Some(width), Some(height)) = (domain.periods[0], domain.periods[1].or(walls)) else {
+            return Err(Error::Unbounded);
+        };
+        let origin = [x, domain.walls.map_or(y, |[below, _]| below)];
+        let coarsening = (width.max(height) / spacing / MOST_OF_SCENE).max(1.0);
+        let cells = [width, height].map(|side| ((side / (spacing * coarsening)).round() as usize).max(1));
+        Self::new(origin, [width, height], cells, domain.periods.map(|period| period.is_some()))
+    }
+
+    /// The same rectangle with at most this many cells in a direction.
+    pub(crate) fn coarsened(self, most: usize) -> Self {
+        let longest = self.cells[0].max(self.cells[1]);
+        Self { cells: self.cells.map(|n| (n * most.min(longest) / longest).max(1)), ..self }
     }
 
     /// Lower left corner (length).
@@ -58,18 +85,6 @@ impl Raster {
         self.periodic
     }
 
-    /// Number of samples.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.cells[0] * self.cells[1]
-    }
-
-    /// Never: a raster has at least one cell.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        false
-    }
-
     /// The sample points (length), in the order of the samples.
     #[must_use]
     pub fn points(&self) -> Vec<Vec2> {
@@ -92,46 +107,27 @@ impl Raster {
     fn neighbours(&self, coordinate: f64, axis: usize) -> (usize, usize, f64) {
         let n = self.cells[axis];
         let t = (coordinate - self.origin[axis]) / self.size[axis] * n as f64 - 0.5;
-        if self.periodic[axis] {
-            let t = t.rem_euclid(n as f64);
-            let first = (t as usize).min(n - 1);
-            (first, if first + 1 == n { 0 } else { first + 1 }, t - first as f64)
-        } else {
-            let t = t.clamp(0.0, (n - 1) as f64);
-            let first = (t as usize).min(n - 1);
-            (first, (first + 1).min(n - 1), t - first as f64)
-        }
-    }
-
-    /// The four entries around `point` and their bilinear weights; beyond a border that is not periodic, those of the
-    /// nearest point.
-    fn corners(&self, point: Vec2) -> [(usize, f64); 4] {
-        let (i0, i1, s) = self.neighbours(point.x, 0);
-        let (j0, j1, t) = self.neighbours(point.y, 1);
-        let nx = self.cells[0];
-        [
-            (j0 * nx + i0, (1.0 - s) * (1.0 - t)),
-            (j0 * nx + i1, s * (1.0 - t)),
-            (j1 * nx + i0, (1.0 - s) * t),
-            (j1 * nx + i1, s * t),
-        ]
+        let t = if self.periodic[axis] { t.rem_euclid(n as f64) } else { t.clamp(0.0, (n - 1) as f64) };
+        let first = (t as usize).min(n - 1);
+        let second = if self.periodic[axis] { (first + 1) % n } else { (first + 1).min(n - 1) };
+        (first, second, t - first as f64)
     }
 }
 
-/// A scalar sampled on a raster.
+/// A scalar (`f64`) or vector ([`Vec2`]) field sampled on a raster.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ScalarSamples {
+pub struct Samples<T> {
     raster: Raster,
-    values: Vec<f64>,
+    values: Vec<T>,
 }
 
-impl ScalarSamples {
+impl<T: Copy + Mul<f64, Output = T> + Add<Output = T>> Samples<T> {
     /// Samples in the order of [`Raster::points`].
     ///
     /// # Errors
-    /// The wrong number of values.
-    pub fn new(raster: Raster, values: Vec<f64>) -> Result<Self> {
-        ensure!(values.len() == raster.len(), "{} values for a raster of {}", values.len(), raster.len());
+    /// [`Error::Count`].
+    pub fn new(raster: Raster, values: Vec<T>) -> Result<Self, Error> {
+        Error::check_count("samples on a raster", values.len(), raster.cells[0] * raster.cells[1])?;
         Ok(Self { raster, values })
     }
 
@@ -143,83 +139,20 @@ impl ScalarSamples {
 
     /// The values.
     #[must_use]
-    pub fn values(&self) -> &[f64] {
+    pub fn values(&self) -> &[T] {
         &self.values
     }
 
-    /// The bilinear interpolant at `point` (length).
+    /// The bilinear interpolant at `point` (length); beyond a border that is not periodic, that at the nearest point.
     #[must_use]
-    pub fn at(&self, point: Vec2) -> f64 {
-        self.raster.corners(point).iter().map(|&(k, w)| w * self.values[k]).sum()
-    }
-}
-
-/// A vector field sampled on a raster.
-#[derive(Debug, Clone, PartialEq)]
-pub struct VectorSamples {
-    raster: Raster,
-    values: Vec<Vec2>,
-}
-
-impl VectorSamples {
-    /// Samples in the order of [`Raster::points`].
-    ///
-    /// # Errors
-    /// The wrong number of values.
-    pub fn new(raster: Raster, values: Vec<Vec2>) -> Result<Self> {
-        ensure!(values.len() == raster.len(), "{} vectors for a raster of {}", values.len(), raster.len());
-        Ok(Self { raster, values })
-    }
-
-    /// From the components on the faces of the cells, as a staggered grid has them: `x` at the left and `y` at the
-    /// lower faces, the means of opposite faces are the samples. In a direction that is not periodic the components
-    /// normal to it have one more row (`y`) or column (`x`).
-    ///
-    /// # Errors
-    /// The wrong number of values.
-    pub fn from_faces(raster: Raster, x: &[f64], y: &[f64]) -> Result<Self> {
-        let [nx, ny] = raster.cells;
-        let columns = if raster.periodic[0] { nx } else { nx + 1 };
-        let rows = if raster.periodic[1] { ny } else { ny + 1 };
-        ensure!(x.len() == columns * ny, "{} x components where {} are expected", x.len(), columns * ny);
-        ensure!(y.len() == nx * rows, "{} y components where {} are expected", y.len(), nx * rows);
-        let centre = |j: usize, i: usize| {
-            let right = if i + 1 == columns { 0 } else { i + 1 };
-            let above = if j + 1 == rows { 0 } else { j + 1 };
-            Vec2::new(0.5 * (x[j * columns + i] + x[j * columns + right]), 0.5 * (y[j * nx + i] + y[above * nx + i]))
+    pub fn at(&self, point: Vec2) -> T {
+        let (i0, i1, s) = self.raster.neighbours(point.x, 0);
+        let (j0, j1, t) = self.raster.neighbours(point.y, 1);
+        let row = |j: usize| {
+            let value = |i: usize| self.values[j * self.raster.cells[0] + i];
+            value(i0) * (1.0 - s) + value(i1) * s
         };
-        let values = (0..ny).flat_map(|j| (0..nx).map(move |i| (j, i))).map(|(j, i)| centre(j, i)).collect();
-        Ok(Self { raster, values })
-    }
-
-    /// The raster.
-    #[must_use]
-    pub fn raster(&self) -> &Raster {
-        &self.raster
-    }
-
-    /// The vectors.
-    #[must_use]
-    pub fn values(&self) -> &[Vec2] {
-        &self.values
-    }
-
-    /// The field as seen by an observer who moves at `velocity`.
-    #[must_use]
-    pub fn seen_from(&self, velocity: Vec2) -> Self {
-        Self { raster: self.raster, values: self.values.iter().map(|v| v - velocity).collect() }
-    }
-
-    /// The magnitudes.
-    #[must_use]
-    pub fn magnitude(&self) -> ScalarSamples {
-        ScalarSamples { raster: self.raster, values: self.values.iter().map(Vec2::norm).collect() }
-    }
-
-    /// The bilinear interpolant at `point` (length).
-    #[must_use]
-    pub fn at(&self, point: Vec2) -> Vec2 {
-        self.raster.corners(point).iter().map(|&(k, w)| self.values[k] * w).sum()
+        row(j0) * (1.0 - t) + row(j1) * t
     }
 }
 

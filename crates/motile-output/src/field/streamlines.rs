@@ -5,9 +5,7 @@
 
 use std::collections::VecDeque;
 
-use anyhow::{Result, ensure};
-
-use crate::{Raster, Vec2, VectorSamples};
+use crate::{Error, Raster, Samples, Vec2};
 
 /// Ends of a line: how near, in units of the spacing, it may come to others and to an earlier part of itself.
 const NEAREST_OTHER: f64 = 0.35;
@@ -26,39 +24,30 @@ const STAGNANT: f64 = 1e-4;
 /// the flow the lines move along. In periodic directions lines run on beyond the borders, unwrapped.
 ///
 /// # Errors
-/// A spacing that is not positive and finite, or so small that there would be more than a million cells of it.
-pub fn streamlines(field: &VectorSamples, spacing: f64, anchor: Vec2) -> Result<Vec<Vec<Vec2>>> {
+/// [`Error::Streamlines`]: a spacing that is not positive and finite, or so small that there would be more than a million
+/// cells of it.
+pub fn streamlines(field: &Samples<Vec2>, spacing: f64, anchor: Vec2) -> Result<Vec<Vec<Vec2>>, Error> {
     let raster = field.raster();
-    let area = raster.size()[0] * raster.size()[1];
-    ensure!(
-        spacing.is_finite() && spacing > 0.0 && area / (spacing * spacing) < 1e6,
-        "streamlines cannot be {spacing} apart in a rectangle of {:?}",
-        raster.size()
-    );
+    let size = raster.size();
+    if !(spacing.is_finite() && spacing > 0.0 && size[0] * size[1] / (spacing * spacing) < 1e6) {
+        return Err(Error::Streamlines { spacing, size });
+    }
     let fastest = field.values().iter().map(Vec2::norm).filter(|v| v.is_finite()).fold(0.0, f64::max);
     if fastest == 0.0 {
         return Ok(Vec::new());
     }
     let mut tracer = Tracer { field, spacing, slowest: STAGNANT * fastest, near: Neighbourhood::new(raster, spacing) };
     let mut lines: Vec<Vec<Vec2>> = Vec::new();
-    let mut parents: VecDeque<usize> = VecDeque::new();
     // Seeds beside the lines, and, when those are used up, wherever there is room left.
+    let mut beside: VecDeque<Vec2> = VecDeque::new();
     let mut spare = spare_seeds(raster, spacing, anchor).into_iter();
-    loop {
-        while let Some(parent) = parents.pop_front() {
-            for seed in seeds_beside(&lines[parent], spacing) {
-                if let Some(line) = tracer.line(seed) {
-                    parents.push_back(lines.len());
-                    lines.push(line);
-                }
-            }
-        }
-        let Some(seed) = spare.next() else { return Ok(lines) };
+    while let Some(seed) = beside.pop_front().or_else(|| spare.next()) {
         if let Some(line) = tracer.line(seed) {
-            parents.push_back(lines.len());
+            beside.extend(seeds_beside(&line, spacing));
             lines.push(line);
         }
     }
+    Ok(lines)
 }
 
 /// Points at both sides of a line, one a spacing.
@@ -92,7 +81,7 @@ fn spare_seeds(raster: &Raster, spacing: f64, anchor: Vec2) -> Vec<Vec2> {
 
 /// Follows the field and keeps lines apart.
 struct Tracer<'a> {
-    field: &'a VectorSamples,
+    field: &'a Samples<Vec2>,
     spacing: f64,
     slowest: f64,
     near: Neighbourhood,

@@ -10,32 +10,32 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use anyhow::{Context, Result, ensure};
-
 use super::base64::encode;
-use crate::{Raster, Vec2};
+use crate::{Error, Raster, Vec2};
 
 /// The points and cells of a file.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Geometry<'a> {
+#[derive(Debug, Clone, PartialEq)]
+enum Geometry {
     Image(Raster),
-    ClosedLine(&'a [Vec2]),
-    Triangles(&'a [Vec2], &'a [[usize; 3]]),
+    ClosedLines(Vec<Vec<Vec2>>),
+    Triangles(Vec<Vec2>, Vec<[usize; 3]>),
 }
 
-/// The values of a named array, one a point or one a cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Values<'a> {
-    Scalars(&'a [f64]),
-    Vectors(&'a [Vec2]),
+/// The values of a named array, one a point or one a cell, as they are stored.
+#[derive(Debug, Clone, PartialEq)]
+struct Array {
+    name: String,
+    vectors: bool,
+    values: Vec<f32>,
 }
 
-impl Values<'_> {
-    fn len(&self) -> usize {
-        match self {
-            Self::Scalars(values) => values.len(),
-            Self::Vectors(values) => values.len(),
-        }
+impl Array {
+    fn scalars(name: &str, values: impl IntoIterator<Item = f64>) -> Self {
+        Self { name: name.to_string(), vectors: false, values: values.into_iter().map(|v| v as f32).collect() }
+    }
+
+    fn vectors(name: &str, values: impl IntoIterator<Item = Vec2>) -> Self {
+        Self { vectors: true, ..Self::scalars(name, values.into_iter().flat_map(|v| [v.x, v.y, 0.0])) }
     }
 }
 
@@ -45,20 +45,21 @@ impl Values<'_> {
 /// ```
 /// use motile_output::{Vec2, VtkFile};
 ///
-/// let points = [Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
-/// let file = VtkFile::closed_line(&points).point_scalars("concentration", &[1.0, 2.0, 0.5]);
-/// assert!(file.document().unwrap().contains("NumberOfPoints=\"3\""));
-/// assert!(VtkFile::closed_line(&points).point_scalars("tension", &[1.0]).document().is_err());
+/// let line = vec![Vec2::new(0.0, 0.0), Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0)];
+/// let file = VtkFile::closed_lines(&[line.clone()]).point_scalars("concentration", [1.0, 2.0, 0.5]);
+/// assert!(file.document()?.contains("NumberOfPoints=\"3\""));
+/// assert!(VtkFile::closed_lines(&[line]).point_scalars("tension", [1.0]).document().is_err());
+/// # Ok::<(), motile_output::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct VtkFile<'a> {
-    geometry: Geometry<'a>,
-    point_data: Vec<(String, Values<'a>)>,
-    cell_data: Vec<(String, Values<'a>)>,
+pub struct VtkFile {
+    geometry: Geometry,
+    point_data: Vec<Array>,
+    cell_data: Vec<Array>,
 }
 
-impl<'a> VtkFile<'a> {
-    fn new(geometry: Geometry<'a>) -> Self {
+impl VtkFile {
+    fn new(geometry: Geometry) -> Self {
         Self { geometry, point_data: Vec::new(), cell_data: Vec::new() }
     }
 
@@ -68,43 +69,43 @@ impl<'a> VtkFile<'a> {
         Self::new(Geometry::Image(raster))
     }
 
-    /// A closed polyline (PolyData, `.vtp`), one cell.
+    /// Closed polylines (PolyData, `.vtp`), each one cell; values at their points are given line after line.
     #[must_use]
-    pub fn closed_line(points: &'a [Vec2]) -> Self {
-        Self::new(Geometry::ClosedLine(points))
+    pub fn closed_lines(lines: &[Vec<Vec2>]) -> Self {
+        Self::new(Geometry::ClosedLines(lines.to_vec()))
     }
 
     /// Triangles of points (UnstructuredGrid, `.vtu`).
     #[must_use]
-    pub fn triangles(points: &'a [Vec2], triangles: &'a [[usize; 3]]) -> Self {
-        Self::new(Geometry::Triangles(points, triangles))
+    pub fn triangles(points: &[Vec2], triangles: &[[usize; 3]]) -> Self {
+        Self::new(Geometry::Triangles(points.to_vec(), triangles.to_vec()))
     }
 
     /// Adds a scalar at each point.
     #[must_use]
-    pub fn point_scalars(mut self, name: &str, values: &'a [f64]) -> Self {
-        self.point_data.push((name.to_string(), Values::Scalars(values)));
+    pub fn point_scalars(mut self, name: &str, values: impl IntoIterator<Item = f64>) -> Self {
+        self.point_data.push(Array::scalars(name, values));
         self
     }
 
     /// Adds a vector at each point.
     #[must_use]
-    pub fn point_vectors(mut self, name: &str, values: &'a [Vec2]) -> Self {
-        self.point_data.push((name.to_string(), Values::Vectors(values)));
+    pub fn point_vectors(mut self, name: &str, values: impl IntoIterator<Item = Vec2>) -> Self {
+        self.point_data.push(Array::vectors(name, values));
         self
     }
 
     /// Adds a scalar in each cell.
     #[must_use]
-    pub fn cell_scalars(mut self, name: &str, values: &'a [f64]) -> Self {
-        self.cell_data.push((name.to_string(), Values::Scalars(values)));
+    pub fn cell_scalars(mut self, name: &str, values: impl IntoIterator<Item = f64>) -> Self {
+        self.cell_data.push(Array::scalars(name, values));
         self
     }
 
     /// Adds a vector in each cell.
     #[must_use]
-    pub fn cell_vectors(mut self, name: &str, values: &'a [Vec2]) -> Self {
-        self.cell_data.push((name.to_string(), Values::Vectors(values)));
+    pub fn cell_vectors(mut self, name: &str, values: impl IntoIterator<Item = Vec2>) -> Self {
+        self.cell_data.push(Array::vectors(name, values));
         self
     }
 
@@ -113,56 +114,55 @@ impl<'a> VtkFile<'a> {
     pub fn extension(&self) -> &'static str {
         match self.geometry {
             Geometry::Image(_) => "vti",
-            Geometry::ClosedLine(_) => "vtp",
+            Geometry::ClosedLines(_) => "vtp",
             Geometry::Triangles(..) => "vtu",
-        }
-    }
-
-    /// Numbers of points and of cells.
-    fn counts(&self) -> [usize; 2] {
-        match self.geometry {
-            Geometry::Image(raster) => [(raster.cells()[0] + 1) * (raster.cells()[1] + 1), raster.len()],
-            Geometry::ClosedLine(points) => [points.len(), 1],
-            Geometry::Triangles(points, triangles) => [points.len(), triangles.len()],
         }
     }
 
     /// The text of the file.
     ///
     /// # Errors
-    /// Arrays of the wrong length, names with other characters than letters, digits, `_`, `-` and space, corners of
-    /// triangles that are not points.
-    pub fn document(&self) -> Result<String> {
-        let [points, cells] = self.counts();
-        for (data, count, what) in [(&self.point_data, points, "points"), (&self.cell_data, cells, "cells")] {
-            for (name, values) in data {
-                let plain = name.chars().all(|c| c.is_alphanumeric() || "_- ".contains(c)) && !name.is_empty();
-                ensure!(plain, "an array named {name:?} cannot be written");
-                ensure!(values.len() == count, "array {name} has {} values for {count} {what}", values.len());
-            }
-        }
-        let data = attributes("PointData", &self.point_data) + &attributes("CellData", &self.cell_data);
-        Ok(match self.geometry {
+    /// [`Error::Count`]: arrays of the wrong length, corners of triangles that are not points. [`Error::Name`]: names
+    /// with other characters than letters, digits, `_`, `-` and space.
+    pub fn document(&self) -> Result<String, Error> {
+        let [points, cells] = match &self.geometry {
             Geometry::Image(raster) => {
                 let [nx, ny] = raster.cells();
-                let [x, y] = raster.origin();
-                let (dx, dy) = (raster.size()[0] / nx as f64, raster.size()[1] / ny as f64);
+                [(nx + 1) * (ny + 1), nx * ny]
+            }
+            Geometry::ClosedLines(lines) => [lines.iter().map(Vec::len).sum(), lines.len()],
+            Geometry::Triangles(points, triangles) => [points.len(), triangles.len()],
+        };
+        let data =
+            attributes("PointData", &self.point_data, points)? + &attributes("CellData", &self.cell_data, cells)?;
+        Ok(match &self.geometry {
+            Geometry::Image(raster) => {
+                let ([nx, ny], [x, y], [width, height]) = (raster.cells(), raster.origin(), raster.size());
+                let (dx, dy) = (width / nx as f64, height / ny as f64);
                 let extent = format!("0 {nx} 0 {ny} 0 0");
                 let attributes = format!("WholeExtent=\"{extent}\" Origin=\"{x} {y} 0\" Spacing=\"{dx} {dy} 1\"");
                 wrap("ImageData", &attributes, &format!("Extent=\"{extent}\""), &data)
             }
-            Geometry::ClosedLine(line) => {
-                let corners: Vec<i64> = (0..points).chain([0]).take(points + points.min(1)).map(|k| k as i64).collect();
-                let lines = format!("<Lines>\n{}</Lines>\n", connectivity(&corners, &[corners.len() as i64]));
+            Geometry::ClosedLines(lines) => {
+                let (mut corners, mut ends): (Vec<i64>, Vec<i64>) = Default::default();
+                let mut first = 0;
+                for line in lines {
+                    let next = first + line.len() as i64;
+                    corners.extend((first..next).chain((first < next).then_some(first)));
+                    ends.push(corners.len() as i64);
+                    first = next;
+                }
+                let cell_text = format!("<Lines>\n{}</Lines>\n", connectivity(&corners, &ends));
                 let counts = format!(
-                    "NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"1\" NumberOfStrips=\"0\" \
+                    "NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"{cells}\" NumberOfStrips=\"0\" \
                      NumberOfPolys=\"0\""
                 );
-                wrap("PolyData", "", &counts, &(data + &positions(line) + &lines))
+                wrap("PolyData", "", &counts, &(data + &positions(lines.iter().flatten()) + &cell_text))
             }
             Geometry::Triangles(vertices, triangles) => {
-                let beyond = triangles.iter().flatten().find(|&&k| k >= points);
-                ensure!(beyond.is_none(), "a triangle has corner {beyond:?} of {points} points");
+                if let Some(&beyond) = triangles.iter().flatten().find(|&&k| k >= points) {
+                    Error::check_count("points of triangles", points, beyond + 1)?;
+                }
                 let corners: Vec<i64> = triangles.iter().flatten().map(|&k| k as i64).collect();
                 let ends: Vec<i64> = (1..=cells).map(|k| 3 * k as i64).collect();
                 let types = array("UInt8", "types", "", &vec![5; cells]);
@@ -176,10 +176,9 @@ impl<'a> VtkFile<'a> {
     /// Writes the file.
     ///
     /// # Errors
-    /// As [`VtkFile::document`], and a file that cannot be written.
-    pub fn write(&self, path: &Path) -> Result<()> {
-        let document = self.document()?;
-        fs::write(path, document).with_context(|| format!("writing {}", path.display()))
+    /// As [`VtkFile::document`], and [`Error::Write`].
+    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        fs::write(path.as_ref(), self.document()?).map_err(Error::writing(path.as_ref()))
     }
 }
 
@@ -200,26 +199,22 @@ fn array(kind: &str, name: &str, attributes: &str, bytes: &[u8]) -> String {
     )
 }
 
-fn attributes(tag: &str, data: &[(String, Values<'_>)]) -> String {
+fn attributes(tag: &str, data: &[Array], count: usize) -> Result<String, Error> {
     let mut text = format!("<{tag}>\n");
-    for (name, values) in data {
-        let single = |v: f64| (v as f32).to_le_bytes();
-        text += &match values {
-            Values::Scalars(values) => {
-                let bytes: Vec<u8> = values.iter().flat_map(|&v| single(v)).collect();
-                array("Float32", name, "", &bytes)
-            }
-            Values::Vectors(values) => {
-                let bytes: Vec<u8> = values.iter().flat_map(|v| [v.x, v.y, 0.0]).flat_map(single).collect();
-                array("Float32", name, "NumberOfComponents=\"3\"", &bytes)
-            }
-        };
+    for Array { name, vectors, values } in data {
+        if name.is_empty() || !name.chars().all(|c| c.is_alphanumeric() || "_- ".contains(c)) {
+            return Err(Error::Name { name: name.clone(), what: "an array" });
+        }
+        let components = if *vectors { 3 } else { 1 };
+        Error::check_count(&format!("values of array {name}"), values.len() / components, count)?;
+        let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+        text += &array("Float32", name, &format!("NumberOfComponents=\"{components}\""), &bytes);
     }
-    text + &format!("</{tag}>\n")
+    Ok(text + &format!("</{tag}>\n"))
 }
 
-fn positions(points: &[Vec2]) -> String {
-    let bytes: Vec<u8> = points.iter().flat_map(|p| [p.x, p.y, 0.0]).flat_map(f64::to_le_bytes).collect();
+fn positions<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> String {
+    let bytes: Vec<u8> = points.into_iter().flat_map(|p| [p.x, p.y, 0.0]).flat_map(f64::to_le_bytes).collect();
     format!("<Points>\n{}</Points>\n", array("Float64", "Points", "NumberOfComponents=\"3\"", &bytes))
 }
 
@@ -244,19 +239,20 @@ impl VtkSeries {
     /// An empty series in `directory`, which is made if it is not there.
     ///
     /// # Errors
-    /// A directory that cannot be made.
-    pub fn new(directory: &Path, name: &str) -> Result<Self> {
-        fs::create_dir_all(directory).with_context(|| format!("making {}", directory.display()))?;
-        Ok(Self { directory: directory.to_path_buf(), name: name.to_string(), entries: String::new(), count: 0 })
+    /// [`Error::Write`]: a directory that cannot be made.
+    pub fn create(directory: impl AsRef<Path>, name: &str) -> Result<Self, Error> {
+        let directory = directory.as_ref().to_path_buf();
+        fs::create_dir_all(&directory).map_err(Error::writing(&directory))?;
+        Ok(Self { directory, name: name.to_string(), entries: String::new(), count: 0 })
     }
 
     /// Writes a file and the list with it, so that the series can be opened while a run goes on, or after it broke off.
     ///
     /// # Errors
     /// As [`VtkFile::write`].
-    pub fn push(&mut self, time: f64, file: &VtkFile<'_>) -> Result<()> {
+    pub fn push(&mut self, time: f64, file: &VtkFile) -> Result<(), Error> {
         let name = format!("{}_{:04}.{}", self.name, self.count, file.extension());
-        file.write(&self.directory.join(&name))?;
+        file.write(self.directory.join(&name))?;
         self.count += 1;
         // Writing to a string cannot fail.
         let _ = writeln!(self.entries, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>");
@@ -266,7 +262,7 @@ impl VtkSeries {
             self.entries
         );
         let path = self.directory.join(format!("{}.pvd", self.name));
-        fs::write(&path, list).with_context(|| format!("writing {}", path.display()))
+        fs::write(&path, list).map_err(Error::writing(&path))
     }
 }
 

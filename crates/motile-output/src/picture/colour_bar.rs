@@ -1,10 +1,8 @@
 //! Bars that explain the colours of a picture.
 
 use crate::{
-    Canvas, ColourScale, Rgb,
-    drawing::axes::TICK_SIZE,
-    drawing::surface::{Anchor, Pen, Rect, Surface, TextStyle},
-    drawing::ticks::Ticks,
+    ColourScale, Rgb,
+    drawing::{Anchor, Pen, Rect, Surface, TextStyle, axes::TICK_SIZE, canvas::Canvas, ticks::Ticks},
 };
 
 /// A colour scale with what it measures.
@@ -20,11 +18,8 @@ impl Legend {
         let [low, high] = self.scale.ends();
         let table = self.scale.table(levels);
         let colour = |t: f64| table[((t * levels as f64).max(0.0) as usize).min(levels - 1)];
-        if upright {
-            canvas.shade(area, |_, y| Some(colour((area.bottom() - y) / area.height)));
-        } else {
-            canvas.shade(area, |x, _| Some(colour((x - area.left) / area.width)));
-        }
+        let along = |x, y| if upright { (area.bottom() - y) / area.height } else { (x - area.left) / area.width };
+        canvas.shade(area, |x, y| Some(colour(along(x, y))));
         let pen = Pen::new(Rgb::INK, (0.06 * em).max(1.0));
         canvas.stroke(&area.outline(), &pen);
         let length = if upright { area.height } else { area.width };

@@ -1,15 +1,17 @@
 //! The picture of a flow: how it is drawn.
 
-use anyhow::{Result, ensure};
-
 use crate::{
-    Canvas, Format, Picture, Rgb, Vec2,
-    drawing::axes::{Axis, AxisScale, Frame},
-    drawing::font::text_width,
-    drawing::surface::{Anchor, Pen, Pixel, Rect, Surface, TextStyle},
-    drawing::ticks::{nice_step_below, number},
-    field::streamlines::streamlines,
+    Error, Format, Picture, Rgb, Vec2,
+    drawing::{
+        Anchor, Pen, Pixel, Rect, Surface, TextStyle,
+        axes::{Axis, AxisScale, Frame, TICK_SIZE},
+        canvas::Canvas,
+        font::text_width,
+        image::Image,
+        ticks::{nice_step_below, number},
+    },
     picture::colour_bar::Legend,
+    streamlines,
 };
 
 /// Colours of solids and walls.
@@ -22,25 +24,27 @@ const WALL: f64 = 0.07;
 /// Pictures wider than this, relative to their height, have their colour bars below.
 const WIDE: f64 = 1.7;
 
-pub(crate) fn paint(picture: &Picture, format: &Format) -> Result<Canvas> {
-    ensure!((160..=8000).contains(&format.width), "pictures are 160 to 8000 pixels wide, not {}", format.width);
-    ensure!(format.type_sizes >= 20.0, "pictures are at least 20 sizes of their type wide, not {}", format.type_sizes);
+pub(crate) fn paint(picture: &Picture, format: &Format) -> Result<Image, Error> {
+    Error::check_size("a picture with a width (pixels)", format.width as f64, 160.0, 8000.0)?;
+    Error::check_size("a picture with a width (sizes of its type)", format.type_sizes, 20.0, 1000.0)?;
     let layout = Layout::new(picture, format);
-    let mut painter = Painter { picture, format, canvas: Canvas::new(format.width, layout.height)?, layout };
+    let canvas = Canvas::new(format.width, layout.height)?;
+    let mut painter = Painter { picture, levels: format.levels.max(2), canvas, layout };
     painter.canvas.clip(Some(painter.layout.frame.area));
     painter.field();
-    painter.streamlines()?;
+    painter.streamlines(format.streamline_spacing)?;
     painter.solids();
     painter.walls();
     painter.tracks();
     painter.interfaces();
-    painter.arrows();
     painter.scale_bar();
     painter.canvas.clip(None);
     painter.layout.frame.draw_axes(&mut painter.canvas);
     painter.legends();
-    painter.title();
-    Ok(painter.canvas)
+    let (area, em) = (painter.layout.frame.area, painter.layout.em);
+    let style = TextStyle::new(1.05 * em, Anchor::Start);
+    painter.canvas.text([area.left, area.top - 1.15 * em], &picture.title, &style);
+    Ok(painter.canvas.into_image())
 }
 
 /// Where the parts of a picture are.
@@ -56,8 +60,7 @@ struct Layout {
 
 impl Layout {
     fn new(picture: &Picture, format: &Format) -> Self {
-        let [low, mut high] = picture.view;
-        let mut low = low;
+        let [mut low, mut high] = picture.view;
         if let Some([below, above]) = picture.walls {
             let band = WALL * (above - below).abs();
             low[1] = low[1].min(below - band);
@@ -102,32 +105,31 @@ impl Layout {
 
 struct Painter<'a> {
     picture: &'a Picture,
-    format: &'a Format,
+    levels: usize,
     canvas: Canvas,
     layout: Layout,
 }
 
 impl Painter<'_> {
     /// The shifts that bring periodic images of points within a box around them into view.
-    fn images(&self, points: &[Vec2]) -> Vec<Vec2> {
+    fn images<'p>(&self, points: &(impl Iterator<Item = &'p Vec2> + Clone)) -> Vec<Vec2> {
         let raster = self.picture.field.raster();
         let frame = &self.layout.frame;
-        let [low, high] = [[frame.x.low, frame.y.low], [frame.x.high, frame.y.high]];
-        let axis = |k: usize| {
+        // Half a type size more, for the width of lines.
+        let margin = 0.5 * self.layout.em / self.layout.scale();
+        let axis = |k: usize, low: f64, high: f64| {
             if !raster.periodic()[k] {
                 return vec![0.0];
             }
-            let values = || points.iter().map(|p| p[k]).filter(|v| v.is_finite());
-            let (first, last) = (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+            let values = points.clone().map(|p| p[k]).filter(|v| v.is_finite());
+            let (first, last) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
             let period = raster.size()[k];
-            // Half a type size more, for the width of lines.
-            let margin = 0.5 * self.layout.em / self.layout.scale();
-            let from = ((low[k] - margin - last) / period).ceil() as i64;
-            let to = ((high[k] + margin - first) / period).floor() as i64;
+            let from = ((low - margin - last) / period).ceil() as i64;
+            let to = ((high + margin - first) / period).floor() as i64;
             (from..=to).take(100).map(|m| m as f64 * period).collect()
         };
-        let xs = axis(0);
-        axis(1).into_iter().flat_map(|y| xs.iter().map(move |&x| Vec2::new(x, y))).collect()
+        let (xs, ys) = (axis(0, frame.x.low, frame.x.high), axis(1, frame.y.low, frame.y.high));
+        ys.into_iter().flat_map(|y| xs.iter().map(move |&x| Vec2::new(x, y))).collect()
     }
 
     fn path(&self, points: &[Vec2], shift: Vec2) -> Vec<Pixel> {
@@ -136,7 +138,7 @@ impl Painter<'_> {
 
     fn field(&mut self) {
         let (field, scale) = (&self.picture.field, &self.picture.field_legend.scale);
-        let levels = self.format.levels.max(2);
+        let levels = self.levels;
         let (table, [low, high]) = (scale.table(levels), scale.ends());
         let area = self.layout.frame.area;
         let (x0, y1) = (self.layout.frame.x.low, self.layout.frame.y.high);
@@ -149,15 +151,15 @@ impl Painter<'_> {
         });
     }
 
-    fn streamlines(&mut self) -> Result<()> {
+    fn streamlines(&mut self, factor: f64) -> Result<(), Error> {
         let Some(flow) = &self.picture.flow else { return Ok(()) };
         // Lines closer than half a size of the type would be a grey area.
         let least = 0.55 * self.layout.em / self.layout.scale();
-        let spacing = (flow.spacing * self.format.streamline_spacing).max(least);
+        let spacing = (flow.spacing * factor).max(least);
         let unit = self.layout.unit;
         let pen = Pen::new(Rgb::INK, (0.07 * unit).max(0.9)).opacity(0.72);
         for line in streamlines(&flow.velocity, spacing, flow.anchor)? {
-            for shift in self.images(&line) {
+            for shift in self.images(&line.iter()) {
                 let path = self.path(&line, shift);
                 self.canvas.stroke(&path, &pen);
                 // Arrow heads along the line, at least one.
@@ -165,7 +167,7 @@ impl Painter<'_> {
                 for k in 0..count {
                     let at = (path.len() * (2 * k + 1)) / (2 * count);
                     if at + 1 < path.len() {
-                        self.head(path[at], path[at + 1], 0.62 * unit, Rgb::INK, 0.85);
+                        self.head(path[at], path[at + 1], 0.62 * unit);
                     }
                 }
             }
@@ -174,24 +176,20 @@ impl Painter<'_> {
     }
 
     /// An arrow head about `at`, pointing on to `next`.
-    fn head(&mut self, at: Pixel, next: Pixel, size: f64, colour: Rgb, opacity: f64) {
+    fn head(&mut self, at: Pixel, next: Pixel, size: f64) {
         let (dx, dy) = (next[0] - at[0], next[1] - at[1]);
-        let norm = dx.hypot(dy);
-        if norm == 0.0 {
-            return;
-        }
-        let (c, s) = (dx / norm * size, dy / norm * size);
+        let scale = size / dx.hypot(dy).max(1e-300);
+        let (c, s) = (dx * scale, dy * scale);
         let corner = |along: f64, across: f64| [at[0] + along * c - across * s, at[1] + along * s + across * c];
         let ring = vec![corner(0.6, 0.0), corner(-0.4, 0.36), corner(-0.22, 0.0), corner(-0.4, -0.36)];
-        self.canvas.fill(&[ring], colour, opacity);
+        self.canvas.fill(&[ring], Rgb::INK, 0.85);
     }
 
     fn solids(&mut self) {
         let picture = self.picture;
         let pen = Pen::new(SOLID_EDGE, (0.1 * self.layout.unit).max(1.0));
         for solid in &picture.solids {
-            let all: Vec<Vec2> = solid.area.iter().flatten().copied().collect();
-            for shift in self.images(&all) {
+            for shift in self.images(&solid.area.iter().flatten()) {
                 let rings: Vec<Vec<Pixel>> = solid.area.iter().map(|ring| self.path(ring, shift)).collect();
                 self.canvas.fill(&rings, SOLID, 1.0);
                 for line in &solid.edges {
@@ -213,7 +211,7 @@ impl Painter<'_> {
             if band.height <= 0.0 {
                 continue;
             }
-            self.canvas.fill(&[band.outline().to_vec()], SOLID, 1.0);
+            self.canvas.fill(&[band.outline()], SOLID, 1.0);
             self.canvas.clip(Some(band));
             let pen = Pen::new(SOLID_EDGE, (0.05 * unit).max(0.8)).opacity(0.6);
             let mut x = band.left - band.height;
@@ -231,13 +229,13 @@ impl Painter<'_> {
         let picture = self.picture;
         let unit = self.layout.unit;
         for track in &picture.tracks {
-            for shift in self.images(track) {
+            for shift in self.images(&track.iter()) {
                 let path = self.path(track, shift);
                 self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.3 * unit).opacity(0.75));
                 self.canvas.stroke(&path, &Pen::new(TRACK, 0.13 * unit));
                 if let Some(&start) = path.first() {
-                    self.canvas.disc(start, 0.28 * unit, Rgb::WHITE);
-                    self.canvas.disc(start, 0.2 * unit, TRACK);
+                    self.canvas.stroke(&[start, start], &Pen::new(Rgb::WHITE, 0.56 * unit));
+                    self.canvas.stroke(&[start, start], &Pen::new(TRACK, 0.4 * unit));
                 }
             }
         }
@@ -250,7 +248,7 @@ impl Painter<'_> {
             let colour = |v: &f64| picture.interface_legend.as_ref().map_or(Rgb::INK, |l| l.scale.colour(*v));
             let mut colours: Vec<Rgb> = curve.values.iter().map(colour).collect();
             colours.push(colours[0]);
-            for shift in self.images(&curve.points) {
+            for shift in self.images(&curve.points.iter()) {
                 let mut path = self.path(&curve.points, shift);
                 path.push(path[0]);
                 self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.8 * unit).opacity(0.7));
@@ -260,60 +258,35 @@ impl Painter<'_> {
         }
     }
 
-    fn arrows(&mut self) {
-        let picture = self.picture;
-        let unit = self.layout.unit;
-        for &[foot, along] in &picture.arrows {
-            let tip = foot + along;
-            if !(tip.x.is_finite() && tip.y.is_finite()) {
-                continue;
-            }
-            for shift in self.images(&[foot, tip]) {
-                let ends = self.path(&[foot, tip], shift);
-                for (colour, width, size) in [(Rgb::WHITE, 0.5, 2.0), (Rgb::INK, 0.22, 1.35)] {
-                    self.canvas.stroke(&ends, &Pen::new(colour, width * unit));
-                    let [dx, dy] = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
-                    self.head(ends[1], [ends[1][0] + dx, ends[1][1] + dy], size * unit, colour, 1.0);
-                }
-            }
-        }
-    }
-
     fn scale_bar(&mut self) {
-        let (area, em) = (self.layout.frame.area, self.layout.em);
+        let (frame, em) = (&self.layout.frame, self.layout.em);
+        let area = frame.area;
         if area.height < 8.0 * em {
             return;
         }
-        let frame = &self.layout.frame;
         let longest = (0.17 * (frame.x.high - frame.x.low)).min(0.45 * (frame.y.high - frame.y.low));
         let length = nice_step_below(longest);
         let width = length * self.layout.scale();
         let label = format!("{} {}", number(length), self.picture.length_unit);
-        let box_width = width.max(text_width(&label, TEXT * em)) + 1.4 * em;
-        let lift = self.picture.walls.map_or(area.bottom(), |[below, _]| self.layout.frame.place(0.0, below)[1]);
+        let lift = self.picture.walls.map_or(area.bottom(), |[below, _]| frame.place(0.0, below)[1]);
         let panel = Rect {
             left: area.left + 0.7 * em,
             top: lift.min(area.bottom()) - 2.9 * em,
-            width: box_width,
+            width: width.max(text_width(&label, TICK_SIZE * em)) + 1.4 * em,
             height: 2.2 * em,
         };
-        self.canvas.fill(&[panel.outline().to_vec()], Rgb::WHITE, 0.82);
-        let middle = panel.left + 0.5 * panel.width;
-        let y = panel.bottom() - 0.6 * em;
+        self.canvas.fill(&[panel.outline()], Rgb::WHITE, 0.82);
+        let (middle, y) = (panel.left + 0.5 * panel.width, panel.bottom() - 0.6 * em);
         let bar = [[middle - 0.5 * width, y], [middle + 0.5 * width, y]];
         self.canvas.stroke(&bar, &Pen::new(Rgb::INK, 0.2 * em));
-        self.canvas.text([middle, panel.top + 0.7 * em], &label, &TextStyle::new(TEXT * em, Anchor::Middle));
+        self.canvas.text([middle, panel.top + 0.7 * em], &label, &TextStyle::new(TICK_SIZE * em, Anchor::Middle));
     }
 
     fn legends(&mut self) {
-        let picture = self.picture;
         let (area, em, wide) = (self.layout.frame.area, self.layout.em, self.layout.wide);
-        let levels = self.format.levels.max(2);
+        let field = Some((&self.picture.field_legend, self.levels));
         let legends: Vec<(&Legend, usize)> =
-            [(Some(&picture.field_legend), levels), (picture.interface_legend.as_ref(), 256)]
-                .into_iter()
-                .filter_map(|(legend, levels)| Some((legend?, levels)))
-                .collect();
+            field.into_iter().chain(self.picture.interface_legend.iter().map(|legend| (legend, 256))).collect();
         let count = legends.len() as f64;
         let gap = if wide { 3.0 * em } else { 1.6 * em };
         let whole = if wide { area.width } else { area.height };
@@ -326,22 +299,7 @@ impl Painter<'_> {
             } else {
                 Rect { left: area.right() + 0.9 * em, top: area.top + offset, width: 0.9 * em, height: length }
             };
-            let bar = Rect {
-                left: bar.left.round(),
-                top: bar.top.round(),
-                width: bar.width.round(),
-                height: bar.height.round(),
-            };
-            legend.draw(&mut self.canvas, bar, em, !wide, levels);
+            legend.draw(&mut self.canvas, bar.rounded(), em, !wide, levels);
         }
     }
-
-    fn title(&mut self) {
-        let (area, em) = (self.layout.frame.area, self.layout.em);
-        let at = [area.left, area.top - 1.15 * em];
-        self.canvas.text(at, &self.picture.title, &TextStyle::new(1.05 * em, Anchor::Start));
-    }
 }
-
-/// Size of small text relative to the type.
-const TEXT: f64 = 0.88;

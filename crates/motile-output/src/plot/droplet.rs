@@ -1,20 +1,18 @@
 //! Plots of what was measured on a droplet.
 
-use anyhow::Result;
 use motile::active_interface::observables::ConcentrationProfile;
 
-use crate::{AxisScale, Figure, Plot, Series, Trajectory};
+use crate::{AxisScale, CsvTable, Error, Figure, Plot, Series};
 
 /// Speed, shape and the character of the flow over time; between walls also the height and the gap.
 ///
 /// # Errors
-/// A trajectory without these columns.
-pub fn time_series(trajectory: &Trajectory) -> Result<Figure> {
+/// [`Error::Column`]: a table without these columns.
+pub fn time_series(table: &CsvTable) -> Result<Figure, Error> {
     let plot = |title: &str, label: &str| {
         Plot::new(title).x_axis("time t", AxisScale::Linear).y_axis(label, AxisScale::Linear)
     };
-    let line =
-        |label: &str, column: &str| Ok::<_, anyhow::Error>(Series::line(label, trajectory.curve("time", column)?));
+    let line = |label: &str, column: &str| Ok::<_, Error>(Series::line(label, table.curve("time", column)?));
     let figure = Figure::new(2)
         .panel(plot("Speed", "|v| (R_{0} per time)").series(line("", "speed")?))
         .panel(
@@ -29,7 +27,7 @@ pub fn time_series(trajectory: &Trajectory) -> Result<Figure> {
                 .horizontal(0.0, "pushers above, pullers below"),
         )
         .panel(plot("Squirmer parameter", "β = B_{2}/|B_{1}|").series(line("", "beta")?).horizontal(0.0, "neutral"));
-    if trajectory.column("gap").is_err() {
+    if table.column("gap").is_err() {
         return Ok(figure);
     }
     Ok(figure
@@ -38,15 +36,13 @@ pub fn time_series(trajectory: &Trajectory) -> Result<Figure> {
 }
 
 /// The concentration along the interface, from the front and counter-clockwise, at the start and at `time`.
-///
-/// # Errors
-/// None for profiles that were measured.
+#[must_use]
 pub fn concentration_plot(
     start: &ConcentrationProfile,
     end: &ConcentrationProfile,
     time: f64,
     mean_concentration: f64,
-) -> Result<Figure> {
+) -> Figure {
     let line = |label: &str, profile: &ConcentrationProfile| {
         let arc = profile.arc.iter().map(|s| s / profile.perimeter);
         Series::line(label, arc.zip(profile.concentration.iter().map(|c| c / mean_concentration)).collect::<Vec<_>>())
@@ -58,5 +54,5 @@ pub fn concentration_plot(
         .series(line(&format!("t = {time:.1}"), end))
         .series(line("t = 0", start).dashed())
         .horizontal(1.0, "mean at the start");
-    Ok(Figure::new(1).panel(plot))
+    Figure::new(1).panel(plot)
 }

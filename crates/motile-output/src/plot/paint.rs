@@ -1,12 +1,12 @@
 //! Plots of series of points: how they are drawn.
 
-use anyhow::{Result, ensure};
-
 use crate::{
-    AxisScale, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series,
-    drawing::axes::{Axis, Frame},
-    drawing::font::text_width,
-    drawing::surface::{Anchor, Pen, Pixel, Rect, Surface, TextStyle},
+    AxisScale, Error, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series,
+    drawing::{
+        Anchor, Pen, Pixel, Rect, Surface, TextStyle,
+        axes::{Axis, Frame},
+        font::text_width,
+    },
 };
 
 /// Size of the type (pixels of the SVG).
@@ -29,13 +29,13 @@ struct Panel<'a> {
 
 impl<'a> Sheet<'a> {
     /// Lays out a figure, with `scale` pixels a pixel of the SVG.
-    pub(crate) fn new(figure: &'a Figure, scale: f64) -> Result<Self> {
+    pub(crate) fn new(figure: &'a Figure, scale: f64) -> Result<Self, Error> {
         let [width, height] = figure.panel_size;
-        ensure!(!figure.panels.is_empty(), "a figure without plots cannot be drawn");
-        ensure!(
-            (200.0..=4000.0).contains(&width) && (150.0..=4000.0).contains(&height),
-            "a panel of {width} x {height} pixels cannot be drawn: 200 x 150 to 4000 x 4000"
-        );
+        if figure.panels.is_empty() {
+            return Err(Error::Empty("a figure without plots"));
+        }
+        Error::check_size("a panel with a width (pixels)", width, 200.0, 4000.0)?;
+        Error::check_size("a panel with a height (pixels)", height, 150.0, 4000.0)?;
         let (width, height, em) = (width * scale, height * scale, EM * scale);
         let columns = figure.columns.min(figure.panels.len());
         let rows = figure.panels.len().div_ceil(columns);
@@ -61,32 +61,31 @@ impl<'a> Sheet<'a> {
 
 /// The axes of a plot within its panel.
 fn frame(plot: &Plot, outer: Rect, em: f64) -> Frame {
-    let axis = |k: usize, length: f64| {
-        let range = plot.ranges[k].filter(|r| usable(*r, plot.scales[k])).unwrap_or_else(|| data_range(plot, k));
+    let usable = |&[low, high]: &[f64; 2]| {
+        let [low, high] = [low, high].map(|end| plot.scales[0].straight(end));
+        low.is_finite() && high.is_finite() && low < high
+    };
+    let axis = |k: usize, range: [f64; 2], length: f64| {
         Axis::new(&plot.labels[k], range, plot.scales[k], ((length / (4.0 * em)) as usize).clamp(3, 9))
     };
-    let y = axis(1, outer.height);
+    let y = axis(1, data_range(plot, 1), outer.height);
     let left = Frame::left_margin(&y, em) + 0.4 * em;
     let top = if plot.title.is_empty() { 1.4 } else { 2.9 } * em;
-    let x = axis(0, outer.width - left);
+    let x = axis(0, plot.x_range.filter(usable).unwrap_or_else(|| data_range(plot, 0)), outer.width - left);
     let area = Rect {
-        left: (outer.left + left).round(),
-        top: (outer.top + top).round(),
-        width: (outer.width - left - 1.6 * em).round(),
-        height: (outer.height - top - Frame::bottom_margin(&x, em)).round(),
+        left: outer.left + left,
+        top: outer.top + top,
+        width: outer.width - left - 1.6 * em,
+        height: outer.height - top - Frame::bottom_margin(&x, em),
     };
-    Frame { area, x, y, em }
-}
-
-fn usable([low, high]: [f64; 2], scale: AxisScale) -> bool {
-    low.is_finite() && high.is_finite() && low < high && (scale == AxisScale::Linear || low > 0.0)
+    Frame { area: area.rounded(), x, y, em }
 }
 
 /// The range of the data along an axis, with some space around it.
 fn data_range(plot: &Plot, axis: usize) -> [f64; 2] {
     let scale = plot.scales[axis];
     let points = plot.series.iter().flat_map(|s| &s.points).map(|p| if axis == 0 { p.0 } else { p.1 });
-    let lines = plot.references.iter().filter(|r| r.vertical == (axis == 0)).map(|r| r.value);
+    let lines = plot.references.iter().filter(|_| axis == 1).map(|(value, _)| *value);
     let values = points.chain(lines).map(|v| scale.straight(v)).filter(|v| v.is_finite());
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
@@ -118,7 +117,7 @@ impl Panel<'_> {
         frame.draw_axes(surface);
         let shift = if frame.y.ticks.exponent == 0 { 0.0 } else { 3.4 * em };
         let at = [frame.area.left + shift, frame.area.top - 1.15 * em];
-        surface.text(at, &self.plot.title, &TextStyle::new(1.1 * em, Anchor::Start).bold());
+        surface.text(at, &self.plot.title, &TextStyle { bold: true, ..TextStyle::new(1.1 * em, Anchor::Start) });
     }
 
     /// The series with their colours.
@@ -135,17 +134,12 @@ impl Panel<'_> {
     fn references(&self, surface: &mut impl Surface) {
         let (area, em) = (self.frame.area, self.frame.em);
         let pen = Pen::new(Rgb::GREY, 0.09 * em).dashed(0.45 * em, 0.3 * em);
-        let style = TextStyle::new(0.85 * em, Anchor::End).colour(Rgb::GREY);
-        for reference in &self.plot.references {
-            let [x, y] = self.frame.place(reference.value, reference.value);
-            if reference.vertical && x.is_finite() {
-                surface.stroke(&[[x, area.top], [x, area.bottom()]], &pen);
-                surface.text([x - 0.6 * em, area.top + 0.5 * em], &reference.label, &style.upwards());
-            } else if !reference.vertical && y.is_finite() {
-                surface.stroke(&[[area.left, y], [area.right(), y]], &pen);
-                let side = if y - area.top < 1.6 * em { 0.75 } else { -0.75 };
-                surface.text([area.right() - 0.5 * em, y + side * em], &reference.label, &style);
-            }
+        let style = TextStyle { colour: Rgb::GREY, ..TextStyle::new(0.85 * em, Anchor::End) };
+        for (value, label) in &self.plot.references {
+            let y = self.frame.place(self.frame.x.low, *value)[1];
+            surface.stroke(&[[area.left, y], [area.right(), y]], &pen);
+            let side = if y - area.top < 1.6 * em { 0.75 } else { -0.75 };
+            surface.text([area.right() - 0.5 * em, y + side * em], label, &style);
         }
     }
 
@@ -182,7 +176,7 @@ impl Panel<'_> {
         let hidden = |panel: &Rect| {
             let inside =
                 |p: &Pixel| (panel.left..panel.right()).contains(&p[0]) && (panel.top..panel.bottom()).contains(&p[1]);
-            let lines = self.plot.references.iter().filter(|r| !r.vertical && !r.label.is_empty());
+            let lines = self.plot.references.iter().filter(|(_, label)| !label.is_empty());
             let label = |value: f64| [area.right() - gap, self.frame.place(self.frame.x.low, value)[1]];
             // The line between points hides as much as points do.
             let dense = |s: &Series| -> usize {
@@ -196,10 +190,10 @@ impl Panel<'_> {
                 pixels.windows(2).map(between).sum::<usize>() + pixels.iter().filter(|p| inside(p)).count()
             };
             let points: usize = self.plot.series.iter().map(|s| 1000 * dense(s) / (s.points.len().max(1) * 9)).sum();
-            points + lines.filter(|r| inside(&label(r.value))).count() * 50
+            points + lines.filter(|(value, _)| inside(&label(*value))).count() * 50
         };
         let Some(panel) = corners.min_by_key(hidden) else { return };
-        surface.fill(&[panel.outline().to_vec()], Rgb::WHITE, 0.85);
+        surface.fill(&[panel.outline()], Rgb::WHITE, 0.85);
         for (k, (series, colour)) in entries.into_iter().enumerate() {
             let y = panel.top + (1.4 * k as f64 + 0.95) * em;
             let (from, to) = (panel.left + 0.5 * em, panel.left + 2.5 * em);
@@ -236,25 +230,19 @@ fn thinned(path: &[Pixel], apart: f64) -> Vec<Pixel> {
 }
 
 fn draw_marker(surface: &mut impl Surface, marker: Marker, [x, y]: Pixel, radius: f64, colour: Rgb) {
-    let polygon = |corners: usize, size: f64, turn: f64| -> Vec<Pixel> {
-        let angle = |k: usize| turn + std::f64::consts::TAU * k as f64 / corners as f64;
-        (0..=corners).map(|k| [x + size * angle(k).sin(), y - size * angle(k).cos()]).collect()
+    let (corners, size, turn) = match marker {
+        Marker::Disc | Marker::Circle => (20, radius, 0.0),
+        Marker::Square => (4, 1.25 * radius, std::f64::consts::FRAC_PI_4),
+        Marker::Triangle => (3, 1.3 * radius, 0.0),
+        Marker::Diamond => (4, 1.3 * radius, 0.0),
     };
-    let pen = Pen::new(colour, 0.45 * radius);
-    match marker {
-        Marker::Disc => surface.fill(&[polygon(20, radius, 0.0)], colour, 1.0),
-        Marker::Circle => {
-            surface.fill(&[polygon(20, radius, 0.0)], Rgb::WHITE, 1.0);
-            surface.stroke(&polygon(20, radius, 0.0), &pen);
-        }
-        Marker::Square => surface.fill(&[polygon(4, 1.25 * radius, std::f64::consts::FRAC_PI_4)], colour, 1.0),
-        Marker::Triangle => surface.fill(&[polygon(3, 1.3 * radius, 0.0)], colour, 1.0),
-        Marker::Diamond => surface.fill(&[polygon(4, 1.3 * radius, 0.0)], colour, 1.0),
-        Marker::Cross => {
-            let r = 0.8 * radius;
-            surface.stroke(&[[x - r, y - r], [x + r, y + r]], &pen);
-            surface.stroke(&[[x - r, y + r], [x + r, y - r]], &pen);
-        }
+    let angle = |k: usize| turn + std::f64::consts::TAU * k as f64 / corners as f64;
+    let outline: Vec<Pixel> = (0..=corners).map(|k| [x + size * angle(k).sin(), y - size * angle(k).cos()]).collect();
+    if marker == Marker::Circle {
+        surface.fill(std::slice::from_ref(&outline), Rgb::WHITE, 1.0);
+        surface.stroke(&outline, &Pen::new(colour, 0.45 * radius));
+    } else {
+        surface.fill(&[outline], colour, 1.0);
     }
 }
 

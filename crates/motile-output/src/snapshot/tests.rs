@@ -1,16 +1,20 @@
 use super::*;
-use motile::Swimmer;
+use motile::prelude::*;
 
 #[test]
 fn a_snapshot_of_a_box_and_of_a_channel() {
-    let swimmer = Swimmer { spacing: 0.25, lengths: [6.0, 4.0], offset: [1.0, 0.5], ..Swimmer::default() };
-    let (mut scene, _) = swimmer.build_on_grid().unwrap();
-    let domain = scene.system().hydrodynamics().medium().domain;
-    let raster = domain_raster(&domain, 0.25, 100).unwrap();
+    let setup = Setup {
+        region: Region::Box { lengths: [6.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.25)),
+        droplets: vec![DropletSetup { centre: [1.0, 0.5], ..DropletSetup::default() }],
+        ..Setup::default()
+    };
+    let mut scene = setup.build().unwrap().scene;
+    let raster = Raster::of(scene.system(), 0.25).unwrap();
     assert_eq!((raster.cells(), raster.periodic()), ([24, 16], [true, true]));
-    assert_eq!(domain_raster(&domain, 0.25, 12).unwrap().cells(), [12, 8]);
+    assert_eq!(raster.coarsened(12).cells(), [12, 8]);
     let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
-    assert!((seen.centroid - Vec2::new(1.0, 0.5)).norm() < 1e-9);
+    assert!((seen.droplets[0].centroid - Vec2::new(1.0, 0.5)).norm() < 1e-9);
     // The pressure inside is above that outside, the droplet moves to the right.
     let at = |x: f64, y: f64| {
         let near = |p: &&(Vec2, FlowSample)| (p.0 - Vec2::new(x, y)).norm() < 0.2;
@@ -20,8 +24,9 @@ fn a_snapshot_of_a_box_and_of_a_channel() {
     assert!(at(1.0, 0.5).pressure > at(-2.0, -1.0).pressure);
     assert!(at(1.0, 0.5).velocity.x > 0.0);
 
-    let (scene, _) = swimmer.build_on_grid_in_channel(motile::stokes_grid::Drive::ZeroGradient).unwrap();
-    let raster = domain_raster(&scene.system().hydrodynamics().medium().domain, 0.25, 100).unwrap();
+    let region = Region::Channel { length: 6.0, width: 4.0, drive: Drive::ZeroGradient };
+    let scene = Setup { region, ..setup }.build().unwrap().scene;
+    let raster = Raster::of(scene.system(), 0.25).unwrap();
     assert_eq!((raster.origin(), raster.size()), ([-3.0, -2.0], [6.0, 4.0]));
     assert_eq!(raster.periodic(), [true, false]);
 }

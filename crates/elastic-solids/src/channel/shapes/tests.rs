@@ -133,7 +133,7 @@ fn bad_shapes_are_refused() {
     let valve = Valve { gap: 0.1, radius: 5.0, ..valve };
     assert!(matches!(valve.channel(), Err(SolidError::FilletTooLarge { .. })));
     let ratchet = Ratchet { period: 12.0, width: 2.0, throat: 1.0, teeth: 0, rise: 0.5, sharp: true };
-    assert!(matches!(ratchet.channel(), Err(SolidError::TooFew { .. })));
+    assert!(matches!(ratchet.channel(), Err(SolidError::OutOfRange { .. })));
     let ratchet = Ratchet { teeth: 2, rise: 1.0, ..ratchet };
     assert!(matches!(ratchet.channel(), Err(SolidError::OutOfRange { .. })));
     let (flat, circle) = (|y| Outline::flat(0.0, 4.0, y).unwrap(), Outline::circle(Vec2::zeros(), 0.2).unwrap());

@@ -1,34 +1,112 @@
 use super::*;
+use proptest::prelude::*;
+
+const PLANE: [Option<f64>; 2] = [None; 2];
 
 fn square() -> Boundary {
     let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(|(x, y)| Vec2::new(x, y));
     let mut boundary = Boundary::default();
     boundary.push_loop(&corners);
-    boundary.finish();
+    boundary.sort();
     boundary
 }
 
 #[test]
 fn distances_have_the_right_sign_at_sides_and_corners() {
     let square = square();
-    let at = |x: f64, y: f64| square.distance(Vec2::new(x, y), [None; 2], 1.0);
-    for (x, y, expected) in
-        [(1.0, -0.3, 0.3), (1.0, 0.3, -0.3), (2.3, 2.4, 0.5), (1.9, 1.8, -0.1), (-0.3, -0.4, 0.5), (0.1, 0.2, -0.1)]
-    {
-        let found = at(x, y).unwrap();
+    for (x, y, expected) in [
+        (1.0, -0.3, 0.3),
+        (1.0, 0.3, -0.3),
+        (2.3, 2.4, 0.5),
+        (1.9, 1.8, -0.1),
+        (-0.3, -0.4, 0.5),
+        (0.1, 0.2, -0.1),
+        (-30.0, -40.0, 50.0),
+    ] {
+        let found = square.distance(Vec2::new(x, y), PLANE);
         assert!((found - expected).abs() < 1e-12, "{x} {y}: {found} {expected}");
+        let near = square.distance_within(Vec2::new(x, y), PLANE, 1.0);
+        assert_eq!(near, (expected < 1.0).then_some(found));
     }
-    assert_eq!(at(1.0, -1.5), None);
+    assert!(square.distance(Vec2::new(f64::NAN, 0.0), PLANE).is_nan());
+    let mut empty = Boundary::default();
+    assert_eq!(empty.distance(Vec2::zeros(), PLANE), f64::INFINITY);
+    empty.sort();
+    assert_eq!(empty.distance(Vec2::zeros(), PLANE), f64::INFINITY);
+    assert_eq!(empty.smallest(&[Vec2::zeros()], PLANE), None);
+    assert_eq!(square.smallest(&[], PLANE), None);
 }
 
 #[test]
 fn images_count() {
     let square = square();
     let periods = [Some(5.0), None];
-    let found = square.distance(Vec2::new(-3.2, 1.0), periods, 1.0).unwrap();
+    let found = square.distance(Vec2::new(-3.2, 1.0), periods);
     assert!((found + 0.2).abs() < 1e-12);
-    let other = square.clone();
-    assert!(other.is_near(&square, Vec2::new(2.5, 0.0), periods, 0.6));
-    assert!(!other.is_near(&square, Vec2::new(2.5, 0.0), periods, 0.4));
-    assert!(!other.is_near(&square, Vec2::new(0.0, 2.5), periods, 0.4));
+    let frame = square.frame().unwrap();
+    assert!(frame.moved(Vec2::new(2.5, 0.0)).is_near(&frame, periods, 0.6));
+    assert!(!frame.moved(Vec2::new(2.5, 0.0)).is_near(&frame, periods, 0.4));
+    assert!(!frame.moved(Vec2::new(0.0, 2.5)).is_near(&frame, periods, 0.4));
+    assert!(frame.moved(Vec2::new(5.3, 0.3)).is_inside(&frame, periods, 0.31));
+    assert!(!frame.moved(Vec2::new(5.3, 0.3)).is_inside(&frame, periods, 0.29));
+}
+
+/// The wall below a zigzag surface along x of period 4, its sides on both sides of the seam.
+fn wall() -> Boundary {
+    let mut wall = Boundary::default();
+    for k in 0..40 {
+        let at = |k: i32| Vec2::new(5.0 - 0.1 * f64::from(k), if k % 2 == 0 { 1.0 } else { 1.2 });
+        wall.push(at(k), at(k + 1));
+    }
+    wall.sort();
+    wall
+}
+
+#[test]
+fn a_surface_over_the_seam_of_a_period() {
+    let wall = wall();
+    for k in 0..200 {
+        // Over a crest, and in a trough, whose sides rise by 0.2 over 0.1.
+        let crest = -7.0 + 0.2 * f64::from(k) - 0.1;
+        let periods = [Some(4.0), None];
+        assert!((wall.distance(Vec2::new(crest, 1.5), periods) - 0.3).abs() < 1e-12);
+        let trough = wall.distance(Vec2::new(crest + 0.1, 1.1), periods);
+        assert!((trough - 0.1 * 0.2_f64.sqrt()).abs() < 1e-12, "{trough}");
+        assert!(wall.distance(Vec2::new(crest, 0.5), periods) < -0.5);
+    }
+}
+
+/// One side as long as the box, aslant, the point to its left: the nearest image of its middle is not that of the side.
+#[test]
+fn images_of_long_sides_count() {
+    let mut side = Boundary::default();
+    side.push(Vec2::new(0.0, 0.0), Vec2::new(3.8, 3.0));
+    side.sort();
+    let found = side.distance(Vec2::new(3.5, 0.0), [Some(4.0), None]);
+    assert!((found + 0.5).abs() < 1e-12, "{found}");
+}
+
+proptest! {
+    #[test]
+    fn boxes_find_the_nearest_of_all(x in -9.0..9.0f64, y in -9.0..9.0f64, count in 3..200_usize, period in 3.0..5.0f64) {
+        let corner = |k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / count as f64;
+            (1.0 + 0.3 * (5.0 * angle).sin()) * Vec2::new(angle.cos(), angle.sin())
+        };
+        let corners: Vec<Vec2> = (0..count).map(corner).collect();
+        let mut star = Boundary::default();
+        star.push_loop(&corners);
+        star.sort();
+        for periods in [PLANE, [Some(period), None], [Some(period), Some(4.0)]] {
+            let point = Vec2::new(x, y);
+            let mut all = Nearest { squared: f64::INFINITY, height: 0.0 };
+            let images = |k: usize| if periods[k].is_some() { -4..=4 } else { 0..=0 };
+            for (i, j) in images(0).flat_map(|i| images(1).map(move |j| (i, j))) {
+                let image = point + Vec2::new(f64::from(i) * periods[0].unwrap_or(0.0), f64::from(j) * 4.0);
+                star.sides.iter().for_each(|side| all.look(side, image, PLANE));
+            }
+            let found = star.distance(point, periods);
+            prop_assert!((found - all.squared.sqrt().copysign(all.height)).abs() < 1e-12, "{found} {all:?}");
+        }
+    }
 }

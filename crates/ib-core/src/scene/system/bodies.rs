@@ -42,7 +42,8 @@ impl<H: Hydrodynamics> System<H> {
     pub(crate) fn body_mut<B: Body>(&mut self, handle: Handle<B>) -> Result<&mut B, SceneError> {
         let index = self.index_of(handle.into())?;
         // Whoever holds the body mutably may change it.
-        self.current = false;
+        self.forget_flow();
+        self.apart = false;
         let body: &mut dyn Any = self.bodies[index].as_mut();
         body.downcast_mut().ok_or(SceneError::ForeignHandle)
     }

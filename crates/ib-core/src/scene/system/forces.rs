@@ -1,4 +1,4 @@
-//! Markers and forces of the bodies.
+//! Forces of the bodies.
 
 use crate::{Body, BodyError, Medium, Vec2};
 
@@ -6,24 +6,22 @@ use crate::{Body, BodyError, Medium, Vec2};
 #[cfg(feature = "rayon")]
 const LEAST_MARKERS: usize = 15_000;
 
-/// Writes markers and forces of `bodies`, the first of which has the number `first`.
+/// Writes the forces of `bodies`, the first of which has the number `first`.
 pub(super) fn write_forces(
     first: usize,
     bodies: &mut [Box<dyn Body>],
-    positions: &mut [Vec2],
     forces: &mut [Vec2],
     medium: &Medium,
 ) -> Option<(usize, BodyError)> {
     #[cfg(feature = "rayon")]
-    if bodies.len() > 1 && positions.len() >= 2 * LEAST_MARKERS {
+    if bodies.len() > 1 && forces.len() >= 2 * LEAST_MARKERS {
         let middle = bodies.len() / 2;
         let (bodies, bodies_above) = bodies.split_at_mut(middle);
         let markers = bodies.iter().map(|body| body.marker_count()).sum();
-        let (positions, positions_above) = positions.split_at_mut(markers);
         let (forces, forces_above) = forces.split_at_mut(markers);
         let (failed, failed_above) = rayon::join(
-            || write_forces(first, bodies, positions, forces, medium),
-            || write_forces(first + middle, bodies_above, positions_above, forces_above, medium),
+            || write_forces(first, bodies, forces, medium),
+            || write_forces(first + middle, bodies_above, forces_above, medium),
         );
         return failed.or(failed_above);
     }
@@ -31,7 +29,6 @@ pub(super) fn write_forces(
     for (index, body) in bodies.iter_mut().enumerate() {
         let range = start..start + body.marker_count();
         start = range.end;
-        body.write_markers(&mut positions[range.clone()]);
         if let Err(source) = body.write_forces(medium, &mut forces[range]) {
             return Some((first + index, source));
         }

@@ -2,7 +2,7 @@
 
 use super::System;
 use crate::gap::Gap;
-use crate::{Hydrodynamics, MarkerKind, Medium, Repulsion, SceneError, Vec2, wall_gap};
+use crate::{Hydrodynamics, Medium, Repulsion, SceneError, gap::wall_gap};
 
 /// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the
 /// round-off of a grid.
@@ -10,19 +10,15 @@ const CONTACT: f64 = 0.25;
 
 impl<H: Hydrodynamics> System<H> {
     /// The smallest distance of an interface to a rigid wall at the present state (length; negative beyond a wall, see
-    /// [`wall_gap`]); `None` without walls or interfaces. Solids ([`MarkerKind::Points`]) may stand on a wall and do
-    /// not count. Needs no evaluation.
+    /// [`wall_gap`]); `None` without walls or interfaces. Solids ([`MarkerKind::Points`](crate::MarkerKind)) may stand
+    /// on a wall and do not count. Needs no evaluation.
     pub fn wall_gap(&mut self) -> Option<f64> {
         let walls = self.hydrodynamics.medium().domain.walls?;
-        let interfaces = || self.bodies.iter().filter(|body| body.kind() != MarkerKind::Points);
-        self.positions.resize(interfaces().map(|body| body.marker_count()).sum(), Vec2::zeros());
-        let mut start = 0;
-        for body in interfaces() {
-            let end = start + body.marker_count();
-            body.write_markers(&mut self.positions[start..end]);
-            start = end;
-        }
-        (start > 0).then(|| wall_gap(&self.positions, walls))
+        self.place_markers();
+        let interfaces =
+            self.markers.groups().iter().filter(|group| group.kind.is_interface() && !group.range.is_empty());
+        let gaps = interfaces.map(|group| wall_gap(&self.markers.positions[group.range.clone()], walls));
+        gaps.reduce(|least, gap| if gap < least || gap.is_nan() { gap } else { least })
     }
 
     /// The smallest [`System::wall_gap`] since the start (length): over the states after each addition of a body and at
@@ -39,13 +35,13 @@ impl<H: Hydrodynamics> System<H> {
         self.minimum_gap
     }
 
-    /// The largest distance of neighbouring markers of an interface (length).
-    fn finest_markers(&self) -> f64 {
-        let groups = self.markers.groups().iter().filter(|group| group.kind != MarkerKind::Points);
-        groups
-            .flat_map(|group| self.markers.positions[group.range.clone()].windows(2))
-            .map(|pair| (pair[1] - pair[0]).norm())
-            .fold(0.0, f64::max)
+    /// The length that contacts are measured in: the grid spacing, and without a grid the largest distance of
+    /// neighbouring markers of an interface (length).
+    fn contact_scale(&self) -> f64 {
+        let groups = self.markers.groups().iter().filter(|group| group.kind.is_interface());
+        let distances = groups.flat_map(|group| self.markers.positions[group.range.clone()].windows(2));
+        let finest = || distances.map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+        self.hydrodynamics.medium().spacing.unwrap_or_else(finest)
     }
 
     /// The repulsion between interfaces, if it is on.
@@ -54,18 +50,39 @@ impl<H: Hydrodynamics> System<H> {
         self.repulsion.as_ref()
     }
 
-    /// Looks at the gaps of the present state: interfaces must not be inside other bodies or their own images by more
-    /// than a quarter of the grid spacing, and no gap narrower than the bound, if there is one.
+    /// Looks at how the bodies lie before anything is computed for them, unless that is known: neither interfaces nor
+    /// solids may be inside other bodies by more than a quarter of the grid spacing, and no interface inside another
+    /// one whose fluid has a viscosity of its own.
+    pub(super) fn check_bodies(&mut self) -> Result<(), SceneError> {
+        if self.apart {
+            return Ok(());
+        }
+        let (time, allowed) = (self.time, self.find_gaps()?);
+        let name = |index: usize| self.bodies[index].name().to_owned();
+        if let Some(Gap { body, marker, other, width }) = self.narrowest.filter(|gap| gap.width < -allowed) {
+            let place = self.markers.positions[self.markers.groups()[body].range.start + marker];
+            let (body, other, [x, y]) = (name(body), name(other), [place.x, place.y]);
+            return Err(SceneError::Overlap { time, body, x, y, other, depth: -width, allowed });
+        }
+        let periods = self.hydrodynamics.medium().domain.periods;
+        let solids = self.gaps.deepest_overlap(&self.markers, periods);
+        if let Some((body, other, place, depth)) = solids.filter(|(.., depth)| *depth > allowed) {
+            let (body, other, [x, y]) = (name(body), name(other), [place.x, place.y]);
+            return Err(SceneError::Overlap { time, body, x, y, other, depth, allowed });
+        }
+        self.apart = true;
+        Ok(())
+    }
+
+    /// Looks at the gaps that a step has led to: interfaces must not have come to be inside other bodies or their own
+    /// images by more than a quarter of the grid spacing, and no gap be narrower than the bound, if there is one.
     pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
-        let Medium { domain, spacing, .. } = self.hydrodynamics.medium();
-        // Without a grid the spacing of the markers that carry the flow.
-        let scale = spacing.unwrap_or_else(|| self.finest_markers());
-        self.narrowest = self.contacts.narrowest(&self.bodies, &domain, scale);
-        let (time, allowed) = (self.time, CONTACT * scale);
+        let any = self.bodies.iter().any(|body| body.kind().is_interface());
+        let (time, allowed) = (self.time, if any { self.find_gaps()? } else { 0.0 });
         let name = |index: usize| self.bodies[index].name().to_owned();
         if let Some(Gap { body, marker, other, width }) = self.narrowest {
             if width < -allowed {
-                let place = self.contacts.place(body, marker);
+                let place = self.markers.positions[self.markers.groups()[body].range.start + marker];
                 let (body, other, [x, y]) = (name(body), name(other), [place.x, place.y]);
                 return Err(SceneError::Crossing { time, body, marker, x, y, other, depth: -width, allowed });
             }
@@ -79,6 +96,35 @@ impl<H: Hydrodynamics> System<H> {
             let (body, other) = ("a body".to_owned(), "a wall".to_owned());
             return Err(SceneError::Gap { time, body, other, gap, bound });
         }
+        self.apart = true;
+        Ok(())
+    }
+
+    /// Finds the narrowest gap of the present state and refuses nested interfaces; how deep a marker may be inside
+    /// another body (length).
+    fn find_gaps(&mut self) -> Result<f64, SceneError> {
+        self.place_markers();
+        let Medium { domain, viscosity, .. } = self.hydrodynamics.medium();
+        self.gaps.update(&self.bodies, &self.markers);
+        self.check_nesting(domain.periods, viscosity)?;
+        let scale = self.contact_scale();
+        self.narrowest = self.gaps.narrowest(&self.markers, &domain, scale);
+        Ok(CONTACT * scale)
+    }
+
+    /// Refuses an interface inside another one whose fluid has a viscosity of its own: the jumps of viscosity would be
+    /// taken against the exterior fluid.
+    fn check_nesting(&self, periods: [Option<f64>; 2], exterior: f64) -> Result<(), SceneError> {
+        for (outer, group) in self.markers.groups().iter().enumerate() {
+            let Some(interior) = group.kind.viscosity_inside().filter(|interior| *interior != exterior) else {
+                continue;
+            };
+            let inside = |inner: &usize| self.gaps.is_nested(&self.markers, *inner, outer, periods);
+            if let Some(inner) = (0..self.bodies.len()).find(inside) {
+                let [inner, outer] = [inner, outer].map(|index| self.bodies[index].name().to_owned());
+                return Err(SceneError::NestedInterfaces { time: self.time, inner, outer, interior, exterior });
+            }
+        }
         Ok(())
     }
 
@@ -88,3 +134,6 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

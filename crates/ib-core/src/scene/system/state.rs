@@ -24,7 +24,8 @@ impl<H: Hydrodynamics> System<H> {
     /// Gives the bodies a state whose parts have the lengths `lengths` (one a body).
     pub(crate) fn restore(&mut self, lengths: &[usize], state: &[f64]) -> Result<(), SceneError> {
         let mut start = 0;
-        self.current = false;
+        self.forget_flow();
+        self.apart = false;
         for (body, length) in self.bodies.iter_mut().zip(lengths) {
             body.read_state(&state[start..start + length])
                 .map_err(|source| body_error(self.time, body.as_ref(), source))?;
@@ -82,7 +83,7 @@ impl<H: Hydrodynamics> System<H> {
     /// # Errors
     /// A state that a body refuses.
     pub fn read_state(&mut self, state: &[f64]) -> Result<(), SceneError> {
-        self.current = false;
+        self.forget_flow();
         let time = self.time;
         let mut start = 0;
         for body in &mut self.bodies {

@@ -2,7 +2,7 @@ use super::*;
 
 /// Ink on the image: sum of darkness over pixels, 1 for a black one.
 fn ink(canvas: &Canvas) -> f64 {
-    canvas.pixels().iter().map(|p| 1.0 - f64::from(p.0[0]) / 255.0).sum()
+    canvas.image.pixels().iter().map(|p| 1.0 - f64::from(p.0[0]) / 255.0).sum()
 }
 
 const BLACK: Rgb = Rgb([0, 0, 0]);

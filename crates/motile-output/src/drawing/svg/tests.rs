@@ -1,9 +1,9 @@
 use super::*;
-use crate::Anchor;
+use crate::drawing::Anchor;
 
 #[test]
 fn elements_have_their_coordinates_and_groups_close() {
-    let mut svg = Svg::new(100.0, 50.0);
+    let mut svg = Svg::new([100.0, 50.0]);
     svg.clip(Some(Rect { left: 1.0, top: 2.0, width: 30.0, height: 40.0 }));
     svg.stroke(&[[1.0, 2.5], [3.256, 4.0]], &Pen::new(Rgb::INK, 1.5));
     svg.stroke(&[[1.0, f64::NAN], [3.0, 4.0]], &Pen::new(Rgb::INK, 1.5));
@@ -15,7 +15,7 @@ fn elements_have_their_coordinates_and_groups_close() {
 
 #[test]
 fn text_is_drawn_and_said() {
-    let mut svg = Svg::new(100.0, 50.0);
+    let mut svg = Svg::new([100.0, 50.0]);
     svg.text([10.0, 10.0], "a < b_{0}", &TextStyle::new(10.0, Anchor::Middle));
     svg.text([10.0, 10.0], "", &TextStyle::new(10.0, Anchor::Middle));
     let document = svg.document();

@@ -1,8 +1,8 @@
 use super::*;
 
-fn sampled(periodic: bool, flow: impl Fn(Vec2) -> Vec2) -> VectorSamples {
+fn sampled(periodic: bool, flow: impl Fn(Vec2) -> Vec2) -> Samples<Vec2> {
     let raster = Raster::new([-1.0, -1.0], [2.0, 2.0], [96, 96], [periodic; 2]).unwrap();
-    VectorSamples::new(raster, raster.points().into_iter().map(flow).collect()).unwrap()
+    Samples::new(raster, raster.points().into_iter().map(flow).collect()).unwrap()
 }
 
 #[test]

@@ -10,9 +10,10 @@ fn arrays_hold_their_size_and_values() {
 
 #[test]
 fn closed_lines_return_to_their_start() {
-    let points = CORNERS.map(Vec2::from);
-    let document = VtkFile::closed_line(&points).cell_scalars("area", &[1.0]).document().unwrap();
-    let ends = connectivity(&[0, 1, 2, 3, 0], &[5]);
+    let square = CORNERS.map(Vec2::from).to_vec();
+    let lines = [square[..3].to_vec(), Vec::new(), square];
+    let document = VtkFile::closed_lines(&lines).cell_scalars("area", [0.5, 0.0, 1.0]).document().unwrap();
+    let ends = connectivity(&[0, 1, 2, 0, 3, 4, 5, 6, 3], &[4, 4, 9]);
     assert!(document.contains(&ends) && document.contains("Name=\"area\""), "{document}");
 }
 
@@ -20,9 +21,9 @@ fn closed_lines_return_to_their_start() {
 fn wrong_lengths_names_and_corners_are_refused() {
     let points = CORNERS.map(Vec2::from);
     let raster = Raster::new([0.0; 2], [1.0, 1.0], [2, 3], [true; 2]).unwrap();
-    assert!(VtkFile::image(raster).cell_scalars("pressure", &[0.0; 6]).document().is_ok());
-    assert!(VtkFile::image(raster).cell_scalars("pressure", &[0.0; 7]).document().is_err());
-    assert!(VtkFile::image(raster).point_scalars("pressure", &[0.0; 12]).document().is_ok());
-    assert!(VtkFile::closed_line(&points).point_scalars("a\"b", &[0.0; 4]).document().is_err());
+    assert!(VtkFile::image(raster).cell_scalars("pressure", [0.0; 6]).document().is_ok());
+    assert!(VtkFile::image(raster).cell_scalars("pressure", [0.0; 7]).document().is_err());
+    assert!(VtkFile::image(raster).point_scalars("pressure", [0.0; 12]).document().is_ok());
+    assert!(VtkFile::closed_lines(&[points.to_vec()]).point_scalars("a\"b", [0.0; 4]).document().is_err());
     assert!(VtkFile::triangles(&points, &[[0, 1, 4]]).document().is_err());
 }

@@ -1,0 +1,176 @@
+use std::f64::consts::TAU;
+
+use crate::gap::Boundary;
+use crate::{
+    Body, BodyError, CubicQuadratic, ImmersedBoundary, MarkerBody, MarkerKind, Medium, Scene, SceneError, StepSize,
+    Vec2, body::StepLimits,
+};
+use stokes_grid::{Grid, PeriodicStokes};
+
+type Flow = ImmersedBoundary<PeriodicStokes, CubicQuadratic>;
+
+/// A box of 3.2 by 3.2 with fluid of viscosity 10 and grid spacing 0.1.
+fn scene() -> Scene<Flow> {
+    let solver = PeriodicStokes::new(Grid::periodic(32, 32, 0.1).unwrap(), 10.0).unwrap();
+    Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default())).with_step_size(StepSize::Fixed(0.05))
+}
+
+fn circle(centre: Vec2, radius: f64) -> Vec<Vec2> {
+    let count = (TAU * radius / 0.08).ceil();
+    (0..count as usize)
+        .map(|k| centre + radius * Vec2::new((TAU * k as f64 / count).cos(), (TAU * k as f64 / count).sin()))
+        .collect()
+}
+
+/// An interface without tension that moves at `velocity` with no regard to the fluid.
+fn ring(name: &str, centre: Vec2, radius: f64, viscosity_inside: Option<f64>, velocity: Vec2) -> MarkerBody {
+    MarkerBody::new(name, circle(centre, radius), |_, _| {})
+        .with_kind(MarkerKind::Interface { viscosity_inside })
+        .with_motion(move |_, _, rates| rates.fill(velocity))
+}
+
+/// A disc that stays where it is.
+#[derive(Debug)]
+struct Disc(Vec<Vec2>);
+
+impl Body for Disc {
+    fn name(&self) -> &str {
+        "disc"
+    }
+    fn kind(&self) -> MarkerKind {
+        MarkerKind::Points
+    }
+    fn marker_count(&self) -> usize {
+        self.0.len()
+    }
+    fn write_markers(&self, positions: &mut [Vec2]) {
+        positions.copy_from_slice(&self.0);
+    }
+    fn write_forces(&mut self, _: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        forces.fill(Vec2::zeros());
+        Ok(())
+    }
+    fn state_len(&self) -> usize {
+        0
+    }
+    fn write_state(&self, _: &mut [f64]) {}
+    fn read_state(&mut self, _: &[f64]) -> Result<(), BodyError> {
+        Ok(())
+    }
+    fn rate(&mut self, _: &[Vec2], _: &mut [f64]) {}
+    fn step_limits(&self, _: &Medium) -> StepLimits {
+        StepLimits::none()
+    }
+    fn write_boundary(&self, markers: &[Vec2], boundary: &mut Boundary) {
+        boundary.push_loop(markers);
+    }
+}
+
+#[test]
+fn an_interface_in_fluid_of_another_viscosity_is_refused() {
+    // In its middle, near its edge, and in the image of it beyond the edge of the box.
+    for place in [Vec2::zeros(), Vec2::new(0.6, 0.0), Vec2::new(-3.2, 3.2 + 0.3)] {
+        let mut scene = scene();
+        scene.add(ring("outer", Vec2::zeros(), 1.0, Some(100.0), Vec2::zeros()));
+        scene.add(ring("inner", place, 0.3, None, Vec2::zeros()));
+        for error in [
+            scene.system_mut().evaluate().map(|_| ()).unwrap_err(),
+            scene.step(0.05).unwrap_err(),
+            scene.run(1.0).go().unwrap_err(),
+        ] {
+            let SceneError::NestedInterfaces { inner, outer, interior, exterior, .. } = error else {
+                panic!("{error}");
+            };
+            assert_eq!((inner.as_str(), outer.as_str(), interior, exterior), ("inner", "outer", 100.0, 10.0));
+        }
+        assert_eq!(crate::Hydrodynamics::work(scene.system().hydrodynamics()).evaluations, 0);
+    }
+}
+
+#[test]
+fn an_interface_in_fluid_of_the_same_viscosity_is_solved() {
+    for outside in [None, Some(10.0)] {
+        let mut scene = scene();
+        scene.add(ring("outer", Vec2::zeros(), 1.0, outside, Vec2::zeros()));
+        scene.add(ring("inner", Vec2::new(0.6, 0.0), 0.3, Some(50.0), Vec2::zeros()));
+        scene.run(0.2).go().unwrap();
+        // The distance from within.
+        let gap = scene.system().minimum_gap().unwrap();
+        assert!((gap - 0.1).abs() < 5e-3, "{gap}");
+    }
+    // Beside each other any viscosity will do.
+    let mut scene = scene();
+    scene.add(ring("left", Vec2::new(-0.7, 0.0), 0.5, Some(100.0), Vec2::zeros()));
+    scene.add(ring("right", Vec2::new(0.7, 0.0), 0.5, Some(1.0), Vec2::zeros()));
+    scene.run(0.1).go().unwrap();
+}
+
+#[test]
+fn crossing_out_of_an_interface_is_the_error() {
+    let mut scene = scene();
+    scene.add(ring("outer", Vec2::zeros(), 1.0, None, Vec2::zeros()));
+    scene.add(ring("inner", Vec2::new(0.5, 0.0), 0.3, None, Vec2::new(1.0, 0.0)));
+    let error = scene.run(1.0).go().unwrap_err();
+    let SceneError::Crossing { body, other, depth, .. } = error else { panic!("{error}") };
+    assert_eq!((body.as_str(), other.as_str()), ("inner", "outer"));
+    // The gap was 0.2, and an overlap of 0.025 is allowed.
+    assert!((scene.time() - 0.2).abs() < 0.05 && depth > 0.025, "{} {depth}", scene.time());
+}
+
+#[test]
+fn an_interface_that_comes_to_lie_in_another_viscosity_ends_the_run() {
+    let mut scene = scene();
+    scene.add(ring("outer", Vec2::zeros(), 1.0, None, Vec2::zeros()));
+    let inner = scene.add(ring("inner", Vec2::new(0.2, 0.0), 0.3, None, Vec2::zeros()));
+    scene.run(0.1).go().unwrap();
+    scene.add(ring("third", Vec2::new(-0.3, 0.0), 0.15, Some(2.0), Vec2::zeros()));
+    scene.run(0.2).go().unwrap();
+    // A jump over the film between the two, by hand and by a step too long.
+    for marker in scene.body_mut(inner).unwrap().positions_mut() {
+        *marker = 0.1 * (*marker - Vec2::new(0.2, 0.0)) - Vec2::new(0.3, 0.0);
+    }
+    let error = scene.run(0.3).go().unwrap_err();
+    assert!(matches!(error, SceneError::NestedInterfaces { .. }), "{error}");
+    assert_eq!(scene.time(), 0.2);
+}
+
+#[test]
+fn bodies_that_overlap_at_the_start_are_to_be_moved_apart() {
+    let centre = |x: f64| Vec2::new(x, 0.0);
+    let disc = |x: f64| Disc(circle(centre(x), 0.5));
+    let overlap = |scene: &mut Scene<Flow>| {
+        let error = scene.run(0.1).go().unwrap_err();
+        assert!(error.to_string().ends_with("move the bodies apart"), "{error}");
+        assert_eq!(scene.steps(), 0);
+        let SceneError::Overlap { depth, .. } = error else { panic!("{error}") };
+        depth
+    };
+    // Two solids, also over the edge of the box.
+    for apart in [0.9, 3.2 - 0.9] {
+        let mut scene = scene();
+        scene.add(disc(0.0));
+        scene.add(disc(apart));
+        assert!((overlap(&mut scene) - 0.1).abs() < 5e-3);
+    }
+    // Two that touch.
+    let mut touching = scene();
+    touching.add(disc(0.0));
+    touching.add(disc(0.99));
+    touching.run(0.1).go().unwrap();
+    // Two interfaces, an interface and a solid.
+    let mut interfaces = scene();
+    interfaces.add(ring("left", centre(0.0), 0.5, None, Vec2::zeros()));
+    interfaces.add(ring("right", centre(0.9), 0.5, None, Vec2::zeros()));
+    assert!((overlap(&mut interfaces) - 0.1).abs() < 5e-3);
+    let mut mixed = scene();
+    mixed.add(ring("left", centre(0.0), 0.5, None, Vec2::zeros()));
+    mixed.add(disc(0.9));
+    assert!((overlap(&mut mixed) - 0.1).abs() < 5e-3);
+    // A nucleus.
+    let mut nucleus = scene();
+    nucleus.add(ring("cell", centre(0.0), 1.0, None, Vec2::zeros()));
+    nucleus.add(disc(0.4));
+    nucleus.run(0.1).go().unwrap();
+    let gap = nucleus.system().minimum_gap().unwrap();
+    assert!((gap - 0.1).abs() < 5e-3, "{gap}");
+}

@@ -1,0 +1,132 @@
+//! The trajectory of a droplet as a CSV file.
+
+use std::path::Path;
+
+use motile::{
+    active_interface::{
+        ActiveDroplet,
+        trajectory::{TrajectoryRecord, TrajectoryRecorder},
+    },
+    ib_core::{Handle, Hydrodynamics, Observer, System},
+};
+
+use crate::{CsvTable, Error, SolidMeter, Track};
+
+type Outcome = Result<(), Box<dyn std::error::Error + Send + Sync>>;
+
+/// Columns that only channels have, and of them those that elastic walls do not have: gap and flow beside the droplet
+/// are those up to rigid walls.
+const BETWEEN_WALLS: [&str; 4] = ["gap", "pressure_gradient", "net_flux", "retrograde_flow"];
+const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
+
+/// Records a droplet whenever it is called and writes what it sees to a CSV file.
+///
+/// The columns are those of [`TrajectoryRecord::entries`], without those about walls where there are none, and where
+/// there are elastic solids those of [`SolidMeter::NAMES`].
+///
+/// ```
+/// use motile::prelude::*;
+/// use motile_output::TrajectoryCsv;
+///
+/// let Built { mut scene, droplets, .. } = Setup::default().build()?;
+/// let path = std::env::temp_dir().join("a-trajectory.csv");
+/// let mut rows = TrajectoryCsv::create(&path, scene.system_mut(), droplets[0])?;
+/// scene.run(0.5).observe(Every::Time(0.1), &mut rows).go()?;
+/// rows.finish(scene.system_mut())?;
+/// assert!(std::fs::read_to_string(&path)?.starts_with("time,x,y,"));
+/// # std::fs::remove_file(&path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct TrajectoryCsv {
+    records: TrajectoryRecorder,
+    table: CsvTable,
+    columns: Vec<usize>,
+    solids: Option<SolidMeter>,
+    last_solids: Option<[f64; 8]>,
+}
+
+impl TrajectoryCsv {
+    /// A recorder of a droplet that writes to `path`.
+    ///
+    /// # Errors
+    /// [`Error::Write`]; [`Error::Observer`]: a state that cannot be measured.
+    pub fn create<H: Hydrodynamics>(
+        path: impl AsRef<Path>,
+        system: &mut System<H>,
+        droplet: Handle<ActiveDroplet>,
+    ) -> Result<Self, Error> {
+        let walls = system.hydrodynamics().medium().domain.walls.is_some();
+        let records = TrajectoryRecorder::new(droplet);
+        let solids = SolidMeter::of(system);
+        let records = if walls && solids.is_none() { records.with_gap_flow() } else { records };
+        let mut probe = records.clone();
+        probe.observe(system).map_err(Error::Observer)?;
+        let entries = probe.records()[0].entries();
+        let wanted = |k: &usize| {
+            let name = entries[*k].0;
+            (walls || !BETWEEN_WALLS.contains(&name)) && (solids.is_none() || !BETWEEN_RIGID_WALLS.contains(&name))
+        };
+        let columns: Vec<usize> = (0..entries.len()).filter(wanted).collect();
+        let mut names: Vec<&str> = columns.iter().map(|&k| entries[k].0).collect();
+        names.extend(solids.iter().flat_map(|_| SolidMeter::NAMES));
+        Ok(Self { records, table: CsvTable::create(path, &names)?, columns, solids, last_solids: None })
+    }
+
+    /// Everything measured, record by record.
+    #[must_use]
+    pub fn records(&self) -> &TrajectoryRecorder {
+        &self.records
+    }
+
+    /// Everything measured, by column.
+    #[must_use]
+    pub fn table(&self) -> &CsvTable {
+        &self.table
+    }
+
+    /// Times and positions of the centroid.
+    #[must_use]
+    pub fn track(&self) -> Track {
+        self.records.records().iter().map(|record| (record.time, record.observables.centroid)).collect()
+    }
+
+    /// Tells how far solids are meshed behind the surfaces where they stop the fluid ([`SolidMeter::set_back`]).
+    pub fn set_back(&mut self, set_back: f64) {
+        if let Some(meter) = &mut self.solids {
+            meter.set_back(set_back);
+        }
+    }
+
+    /// What was last measured of the solids ([`SolidMeter::NAMES`]); `None` without solids.
+    #[must_use]
+    pub fn last_solids(&self) -> Option<&[f64; 8]> {
+        self.last_solids.as_ref()
+    }
+
+    /// Makes sure that everything is in the file, also the last state of a run that broke off, if it can be measured.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub fn finish<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), Error> {
+        if self.records.records().last().map(|record| record.time) != Some(system.time()) {
+            // A state after which nothing can go on may be one that cannot be measured.
+            let _ = self.observe(system);
+        }
+        self.table.flush()
+    }
+}
+
+impl<H: Hydrodynamics> Observer<H> for TrajectoryCsv {
+    fn observe(&mut self, system: &mut System<H>) -> Outcome {
+        self.records.observe(system)?;
+        let entries = self.records.records().last().map(TrajectoryRecord::entries).unwrap_or_default();
+        let mut row: Vec<f64> = self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect();
+        if let Some(meter) = &mut self.solids {
+            let values = meter.measure(system)?;
+            row.extend(values);
+            self.last_solids = Some(values);
+        }
+        Ok(self.table.push(&row)?)
+    }
+}

@@ -1,0 +1,28 @@
+//! What drives the flow along a channel.
+
+use crate::StokesError;
+use crate::error::checks::check_finite;
+
+/// What is held fixed along a channel, beside the forces and the walls' motion: the mean pressure gradient or the flux.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Drive {
+    /// No mean pressure gradient: the pressure is periodic in x, fluid may stream through (the thesis' channel).
+    #[default]
+    ZeroGradient,
+    /// A mean pressure gradient dp/dx (force per volume); a negative one drives fluid to positive x.
+    Gradient(f64),
+    /// No net flux, as in a closed channel: the mean pressure gradient is what this takes.
+    ZeroFlux,
+    /// A net flux, the integral of u over the width (area per time); the mean pressure gradient is what this takes.
+    Flux(f64),
+}
+
+impl Drive {
+    pub(crate) fn check(self) -> Result<(), StokesError> {
+        match self {
+            Self::ZeroGradient | Self::ZeroFlux => Ok(()),
+            Self::Gradient(value) => check_finite("imposed pressure gradient", value),
+            Self::Flux(value) => check_finite("imposed flux", value),
+        }
+    }
+}

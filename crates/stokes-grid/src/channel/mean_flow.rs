@@ -1,0 +1,89 @@
+//! The part of a channel's flow that does not depend on x.
+
+use super::Drive;
+use crate::Grid;
+
+/// The x velocities of a channel averaged over x: `eta (u[j+1] - 2 u[j] + u[j-1]) / h^2 = g - f[j]` between walls, with
+/// the mean force f and the mean pressure gradient g.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct MeanFlow {
+    /// h^2 / eta.
+    scale: f64,
+    pivots: Vec<f64>,
+    poiseuille: Poiseuille,
+}
+
+impl MeanFlow {
+    pub(crate) fn new(grid: &Grid, viscosity: f64) -> Self {
+        let ny = grid.ny();
+        let mut pivots = Vec::with_capacity(ny);
+        let mut pivot = 0.0;
+        for j in 0..ny {
+            // The ghost behind a wall is 2 U - u.
+            let diagonal = if j == 0 || j + 1 == ny { -3.0 } else { -2.0 };
+            pivot = 1.0 / (diagonal - pivot);
+            pivots.push(pivot);
+        }
+        let h = grid.spacing();
+        Self { scale: h * h / viscosity, pivots, poiseuille: Poiseuille::new(grid, viscosity) }
+    }
+
+    /// Turns the mean force on each row into its mean velocity, for the mean velocities of the bottom and the top wall;
+    /// gives the mean pressure gradient.
+    pub(crate) fn solve(&self, drive: Drive, walls: [f64; 2], u: &mut [f64]) -> f64 {
+        for u in u.iter_mut() {
+            *u *= -self.scale;
+        }
+        let last = u.len() - 1;
+        u[0] -= 2.0 * walls[0];
+        u[last] -= 2.0 * walls[1];
+        let mut below = 0.0;
+        for (u, pivot) in u.iter_mut().zip(&self.pivots) {
+            *u = (*u - below) * pivot;
+            below = *u;
+        }
+        for j in (0..last).rev() {
+            u[j] -= self.pivots[j] * u[j + 1];
+        }
+        self.poiseuille.impose(drive, u)
+    }
+}
+
+/// The response of the mean flow to a uniform force of one, `(y (H - y) / 2 + h^2 / 8) / eta`, and its flux. The
+/// constant is what the no-slip condition half a cell from the wall adds to the parabola.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Poiseuille {
+    profile: Vec<f64>,
+    h: f64,
+    flux: f64,
+}
+
+impl Poiseuille {
+    pub(crate) fn new(grid: &Grid, viscosity: f64) -> Self {
+        let (h, width) = (grid.spacing(), grid.lengths()[1]);
+        let profile: Vec<f64> = (0..grid.ny())
+            .map(|j| {
+                let y = (j as f64 + 0.5) * h;
+                (0.5 * y * (width - y) + 0.125 * h * h) / viscosity
+            })
+            .collect();
+        let flux = h * profile.iter().sum::<f64>();
+        Self { profile, h, flux }
+    }
+
+    /// Makes the mean flow `u` that belongs to no pressure gradient one that belongs to `drive`; gives the mean
+    /// pressure gradient (force per volume).
+    pub(crate) fn impose(&self, drive: Drive, u: &mut [f64]) -> f64 {
+        let found = self.h * u.iter().sum::<f64>();
+        let gradient = match drive {
+            Drive::ZeroGradient => return 0.0,
+            Drive::Gradient(gradient) => gradient,
+            Drive::ZeroFlux => found / self.flux,
+            Drive::Flux(flux) => (found - flux) / self.flux,
+        };
+        for (u, response) in u.iter_mut().zip(&self.profile) {
+            *u -= gradient * response;
+        }
+        gradient
+    }
+}

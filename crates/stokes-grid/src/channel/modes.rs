@@ -1,0 +1,229 @@
+//! The tridiagonal systems of a channel's streamfunction.
+
+use num_complex::Complex64;
+
+use crate::transform::second_difference;
+
+/// What a wall does at a distance, relative to what it does nearby, is left out when it is smaller than this: it is far
+/// below round-off, and skipping it saves half of the work in the middle of a wide channel.
+const NEGLIGIBLE: f64 = 1e-20;
+
+/// Tables and sweeps for `T w = g`, `T psi = w` on rows 1..N of nodes, for each wave number m of x, where
+///
+/// `(T psi)[j] = psi[j-1] - (2 + k^2) psi[j] + psi[j+1]`, `k = 2 sin(pi m / nx)`, `psi[0] = psi[N] = 0`,
+///
+/// and the wall values of w are such that `w[0] = 2 (psi[1] - U_bottom)` and `w[N] = 2 (psi[N-1] + U_top)`, which is no
+/// slip. (All lengths in cells, psi and U in the same units.)
+///
+/// The first problem is eliminated upwards and substituted downwards; the second one is eliminated downwards on the
+/// same way and substituted upwards. So the spectrum is passed three times, and twice together with a transform. The
+/// influence of the wall values on psi comes from a table.
+#[derive(Debug, Clone)]
+pub(crate) struct ChannelModes {
+    ny: usize,
+    width: usize,
+    /// Reciprocal pivots of T from the bottom; those from the top are the same in reverse order.
+    pivots: Vec<f64>,
+    /// Solution of T E = 0 with E = 1 at the bottom and 0 at the top.
+    harmonic: Vec<f64>,
+    /// Solution of T P = E with P = 0 at both walls.
+    influence: Vec<f64>,
+    /// How many wave numbers a wall `d` rows away reaches: beyond, `pivots` are `limits`, `harmonic` and `influence`
+    /// are zero.
+    reach: Vec<usize>,
+    /// Reciprocal pivots of T far from the walls.
+    limits: Vec<f64>,
+    /// For the sum and the difference of the two wall values.
+    sum_factor: Vec<f64>,
+    difference_factor: Vec<f64>,
+    wall_bottom: Vec<Complex64>,
+    wall_top: Vec<Complex64>,
+    carried: Vec<Complex64>,
+    near_top: Vec<Complex64>,
+}
+
+impl ChannelModes {
+    pub(crate) fn new(nx: usize, ny: usize) -> Self {
+        let width = nx / 2 + 1;
+        let n = ny as f64;
+        let mut modes = Self {
+            ny,
+            width,
+            pivots: vec![0.0; width * (ny - 1)],
+            harmonic: vec![0.0; width * (ny - 1)],
+            influence: vec![0.0; width * (ny - 1)],
+            reach: vec![0; ny],
+            limits: vec![0.0; width],
+            sum_factor: vec![0.0; width],
+            difference_factor: vec![0.0; width],
+            wall_bottom: vec![Complex64::ZERO; width],
+            wall_top: vec![Complex64::ZERO; width],
+            carried: vec![Complex64::ZERO; width],
+            near_top: vec![Complex64::ZERO; width],
+        };
+        // The tables are zero for m = 0, whose flow is found otherwise.
+        for m in 1..width {
+            let k2 = second_difference(m, nx);
+            // Solutions of T psi = 0 are sinh(j decay) and cosh(j decay).
+            let decay = 2.0 * (0.5 * k2.sqrt()).asinh();
+            modes.limits[m] = -(-decay).exp();
+            let at = |j: usize| (j - 1) * width + m;
+            for j in 1..ny {
+                let y = j as f64;
+                modes.pivots[at(j)] =
+                    modes.limits[m] * (-2.0 * y * decay).exp_m1() / (-2.0 * (y + 1.0) * decay).exp_m1();
+                let harmonic = (-y * decay).exp() * (-2.0 * (n - y) * decay).exp_m1() / (-2.0 * n * decay).exp_m1();
+                modes.harmonic[at(j)] = if harmonic < NEGLIGIBLE { 0.0 } else { harmonic };
+            }
+            let mut below = 0.0;
+            for j in 1..ny {
+                below = (modes.harmonic[at(j)] - below) * modes.pivots[at(j)];
+                modes.influence[at(j)] = below;
+            }
+            for j in (1..ny - 1).rev() {
+                modes.influence[at(j)] -= modes.pivots[at(j)] * modes.influence[at(j + 1)];
+            }
+            for j in 1..ny {
+                if modes.influence[at(j)].abs() < NEGLIGIBLE {
+                    modes.influence[at(j)] = 0.0;
+                }
+                let at = at(j);
+                if modes.influence[at] != 0.0 || modes.harmonic[at] != 0.0 || modes.pivots[at] != modes.limits[m] {
+                    modes.reach[j] = m + 1;
+                }
+            }
+            let (near, far) = (modes.influence[at(1)], modes.influence[at(ny - 1)]);
+            modes.sum_factor[m] = 1.0 / (0.5 - near - far);
+            modes.difference_factor[m] = 1.0 / (0.5 - near + far);
+        }
+        modes
+    }
+
+    fn row<'a>(&self, table: &'a [f64], j: usize) -> &'a [f64] {
+        &table[(j - 1) * self.width..j * self.width]
+    }
+
+    /// Elimination of the first problem in row `j`, upwards; `below` is row `j - 1`, empty for the first.
+    pub(crate) fn eliminate(&self, j: usize, below: &[Complex64], row: &mut [Complex64]) {
+        let near = self.reach[j];
+        if below.is_empty() {
+            for (value, pivot) in row.iter_mut().zip(self.row(&self.pivots, j)) {
+                *value *= *pivot;
+            }
+            return;
+        }
+        let (row_near, row_far) = row.split_at_mut(near);
+        let (below_near, below_far) = below.split_at(near);
+        for ((value, pivot), below) in row_near.iter_mut().zip(self.row(&self.pivots, j)).zip(below_near) {
+            *value = (*value - below) * *pivot;
+        }
+        for ((value, pivot), below) in row_far.iter_mut().zip(&self.limits[near..]).zip(below_far) {
+            *value = (*value - below) * *pivot;
+        }
+    }
+
+    /// Substitution of the first problem and elimination of the second one, downwards; then the wall values, for walls
+    /// of velocities `bottom` and `top`.
+    pub(crate) fn descend(&mut self, spectrum: &mut [Complex64], bottom: &[Complex64], top: &[Complex64]) {
+        let (width, ny) = (self.width, self.ny);
+        let mut carried = std::mem::take(&mut self.carried);
+        let mut near_top = std::mem::take(&mut self.near_top);
+        carried.fill(Complex64::ZERO);
+        near_top.fill(Complex64::ZERO);
+        for j in (1..ny).rev() {
+            let near = self.reach[j].max(self.reach[ny - j]);
+            let (lower, upper) = spectrum.split_at_mut(j * width);
+            let row = &mut lower[(j - 1) * width..];
+            let sweep = Sweep {
+                pivots: &self.row(&self.pivots, j)[..near],
+                pivots_down: &self.row(&self.pivots, ny - j)[..near],
+                harmonic: &self.row(&self.harmonic, ny - j)[..near],
+                limits: &self.limits[near..],
+            };
+            if j + 1 == ny {
+                sweep.first_row(row, &mut carried, &mut near_top);
+            } else {
+                sweep.row(row, &upper[..width], &mut carried, &mut near_top);
+            }
+        }
+        let near_bottom = &spectrum[..width];
+        for m in 0..width {
+            // near_top has minus psi[N-1] without wall values, the first row has psi[1].
+            let sum = (near_bottom[m] - near_top[m] - bottom[m] + top[m]) * self.sum_factor[m];
+            let difference = (near_bottom[m] + near_top[m] - bottom[m] - top[m]) * self.difference_factor[m];
+            self.wall_bottom[m] = (sum + difference) * 0.5;
+            self.wall_top[m] = (sum - difference) * 0.5;
+        }
+        carried.fill(Complex64::ZERO);
+        self.carried = carried;
+        self.near_top = near_top;
+    }
+
+    /// Substitution of the second problem in row `j`, upwards, and the influence of the walls: gives the spectrum of
+    /// psi.
+    pub(crate) fn ascend(&mut self, j: usize, row: &mut [Complex64]) {
+        let (near, far) = (self.reach[j].max(self.reach[self.ny - j]), self.width);
+        let pivots = self.row(&self.pivots, self.ny - j);
+        let from_top = &self.row(&self.influence, self.ny - j)[..near];
+        let from_bottom = &self.row(&self.influence, j)[..near];
+        let walls = self.wall_bottom[..near].iter().zip(from_bottom).zip(self.wall_top[..near].iter().zip(from_top));
+        let mut carried = std::mem::take(&mut self.carried);
+        let (carried_near, carried_far) = carried.split_at_mut(near);
+        let (row_near, row_far) = row[..far].split_at_mut(near);
+        for (((row, carried), pivot), ((bottom, by_bottom), (top, by_top))) in
+            row_near.iter_mut().zip(carried_near).zip(&pivots[..near]).zip(walls)
+        {
+            let psi = *row - *carried * pivot;
+            *carried = psi;
+            *row = psi + bottom * by_bottom + top * by_top;
+        }
+        for ((row, carried), pivot) in row_far.iter_mut().zip(carried_far).zip(&self.limits[near..]) {
+            *row -= *carried * pivot;
+            *carried = *row;
+        }
+        self.carried = carried;
+    }
+}
+
+/// The tables of one row on the way down: where the walls are felt, and beyond.
+struct Sweep<'a> {
+    pivots: &'a [f64],
+    pivots_down: &'a [f64],
+    harmonic: &'a [f64],
+    limits: &'a [f64],
+}
+
+impl Sweep<'_> {
+    /// The row next to the top wall; next to a wall all wave numbers feel it.
+    fn first_row(&self, row: &mut [Complex64], carried: &mut [Complex64], near_top: &mut [Complex64]) {
+        carried.copy_from_slice(row);
+        for ((near_top, w), harmonic) in near_top.iter_mut().zip(row.iter()).zip(self.harmonic) {
+            *near_top = w * harmonic;
+        }
+        for (w, pivot) in row.iter_mut().zip(self.pivots_down) {
+            *w *= *pivot;
+        }
+    }
+
+    fn row(&self, row: &mut [Complex64], above: &[Complex64], carried: &mut [Complex64], near_top: &mut [Complex64]) {
+        let near = self.harmonic.len();
+        let (row_near, row_far) = row.split_at_mut(near);
+        let (carried_near, carried_far) = carried.split_at_mut(near);
+        let (above_near, above_far) = above.split_at(near);
+        let pivots = self.pivots.iter().zip(self.pivots_down);
+        let top = near_top[..near].iter_mut().zip(self.harmonic);
+        for ((((row, carried), above), (pivot, pivot_down)), (top, harmonic)) in
+            row_near.iter_mut().zip(carried_near).zip(above_near).zip(pivots).zip(top)
+        {
+            let w = *row - *carried * pivot;
+            *carried = w;
+            *top += w * harmonic;
+            *row = (w - above) * *pivot_down;
+        }
+        for (((row, carried), above), pivot) in row_far.iter_mut().zip(carried_far).zip(above_far).zip(self.limits) {
+            let w = *row - *carried * pivot;
+            *carried = w;
+            *row = (w - above) * *pivot;
+        }
+    }
+}

@@ -1,0 +1,92 @@
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::{MethodFlags, OutputFlags, Summary};
+use clap::Parser;
+use motile::ib_core::StepSize;
+use motile::stokes_grid::Drive;
+use motile::{Built, GridMethod, Method, Region, Setup};
+
+#[derive(Debug, Parser)]
+struct Flags {
+    #[command(flatten)]
+    method: MethodFlags,
+}
+
+/// The flags of a run to that time.
+fn method(time: &str) -> MethodFlags {
+    Flags::parse_from(["test", "--time", time]).method
+}
+
+fn directory(name: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("motile-{name}-{}", std::process::id()))
+}
+
+fn output(directory: &Path, no_pictures: bool) -> OutputFlags {
+    OutputFlags { no_pictures, quiet: true, out: Some(directory.to_path_buf()), ..OutputFlags::default() }
+}
+
+#[test]
+fn a_run_in_a_channel_leaves_all_its_files() {
+    let directory = directory("channel-run");
+    let region = Region::Channel { length: 6.0, width: 3.0, drive: Drive::ZeroGradient };
+    let setup = Setup { region, ..Setup::default() };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    let (mut flags, title) = (output(&directory, false), caption(&setup));
+    std::fs::create_dir_all(&directory).unwrap();
+    flags.write_scene = Some(directory.join("scene.toml"));
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &method("1"), &flags, "", title).unwrap();
+    run.go(&mut scene).unwrap().unwrap();
+    let summary = run.summary().unwrap();
+    run.write_pictures(&mut scene).unwrap();
+
+    let files =
+        ["final.png", "swim.gif", "time_series.svg", "concentration_profile.png", "trajectory.csv", "vtk/fields.pvd"];
+    for file in files {
+        assert!(directory.join(file).metadata().is_ok_and(|data| data.len() > 200), "{file}");
+    }
+    let written = std::fs::read_to_string(directory.join("scene.toml")).unwrap();
+    assert_eq!(Setup::from_toml(&written).unwrap(), setup);
+    let header = std::fs::read_to_string(directory.join("trajectory.csv")).unwrap();
+    assert!(header.starts_with("time,x,y,") && header.lines().next().unwrap().contains(",gap,"));
+    assert_eq!(run.recorder().table().rows().len(), run.recorder().records().records().len());
+    assert_eq!(summary.number("time"), 1.0);
+    assert!(summary.number("speed") > 0.05 && summary.number("area_relative_change").abs() < 1e-4);
+    std::fs::remove_dir_all(&directory).unwrap();
+}
+
+#[test]
+fn a_run_that_breaks_off_keeps_what_it_has() {
+    // A step that is stable at the start, but not when the particles have gathered.
+    let directory = directory("broken-run");
+    let setup = Setup {
+        region: Region::Box { lengths: [4.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        step: StepSize::Fixed(0.1),
+        ..Setup::default()
+    };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    let flags = output(&directory, true);
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &method("100"), &flags, "", String::new()).unwrap();
+    let error = run.go(&mut scene).unwrap().unwrap_err();
+    let summary: Summary = run.summary().unwrap();
+    let time = summary.number("time");
+    assert!(time > 0.0 && time < 100.0);
+    assert_eq!(run.recorder().table().column("time").unwrap().last(), Some(&time));
+    assert_eq!(summary.values()["failure"], error.to_string());
+    assert_eq!(summary.values()["finished"], false);
+    let files = std::fs::read_dir(&directory).unwrap().count();
+    assert_eq!(files, 1, "without pictures there is the trajectory alone");
+    std::fs::remove_dir_all(&directory).unwrap();
+}
+
+#[test]
+fn an_unstable_step_is_refused_before_anything_is_written() {
+    let directory = directory("refused-run");
+    let setup = Setup { step: StepSize::Fixed(5.0), ..Setup::default() };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    let flags = output(&directory, true);
+    let refused = WatchedRun::new(&mut scene, &droplets, &setup, &method("10"), &flags, "", String::new());
+    assert!(refused.unwrap_err().to_string().contains("time step 5"));
+    assert!(!directory.exists());
+}
