@@ -51,7 +51,7 @@ fn steps_allocate_nothing() {
         ("thesis, contrast", thick(thesis)),
     ];
     for (name, base) in scenes {
-        for region in [base.region, open_channel(6.0, 2.0), open_channel(6.0, 3.0)] {
+        for region in [base.region, open_channel(6.0, 2.4), open_channel(6.0, 3.0)] {
             let setup = Setup { region, ..base.clone() };
             assert_eq!(allocations(setup.build().unwrap().scene), 0, "{name}, {region:?}");
         }

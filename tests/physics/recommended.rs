@@ -1,31 +1,24 @@
 //! Recommended settings hold what they promise where they were not measured.
 
 use motile::ib_core::StepSize;
-use motile::{DropletSetup, MethodKind, Region, Setup};
-use motile::{Recommendation, SceneKind, SetupError, recommend};
+use motile::{DropletSetup, Method, MethodKind, Recommendation, Region, SceneKind, Setup, SetupError, recommend};
 use motile_tests::validation::scene::{open_channel, without_grid};
 use motile_tests::validation::swimmers::speeds;
 
 const STEADY: f64 = 40.0;
 const KINDS: [MethodKind; 2] = [MethodKind::Integral, MethodKind::Grid];
 
-/// The default scene with the recommended method and step.
-fn recommended(kind: SceneKind, method: MethodKind, target: f64) -> Result<Setup, SetupError> {
-    let Recommendation { method, step } = recommend(kind, method, target)?;
-    Ok(Setup { method, step, ..Setup::default() })
-}
-
 /// Errors of the recommended settings for targets by boundary integrals and on a grid; `scene` is not in the data.
 fn check(kind: SceneKind, targets: [&[f64]; 2], scene: &Setup) {
-    let speed = |settings: &Setup| {
-        let setup = Setup { method: settings.method, step: settings.step, ..scene.clone() };
-        speeds(&setup, &[STEADY]).expect("a good swimmer")[0]
+    let speed = |method: Method, step: StepSize| {
+        speeds(&Setup { method, step, ..scene.clone() }, &[STEADY]).expect("a good swimmer")[0]
     };
     // Far finer than anything that is recommended.
-    let exact = speed(&Setup { step: StepSize::OfLimit(0.5), ..without_grid(96, 512) });
+    let exact = speed(without_grid(96, 512).method, StepSize::OfLimit(0.5));
     for (method, targets) in KINDS.into_iter().zip(targets) {
         for &target in targets {
-            let found = speed(&recommended(kind, method, target).expect("a measured target"));
+            let Recommendation { method, step } = recommend(kind, method, target).expect("a measured target");
+            let found = speed(method, step);
             let error = found / exact - 1.0;
             println!("{kind:?} {method:?} target {target}: error {error:.2e}");
             assert!(error.abs() < target, "{kind:?} {method:?} target {target}: error {error:.2e}");
@@ -58,7 +51,7 @@ fn in_a_channel() {
 #[test]
 fn targets_out_of_range_are_refused() {
     for target in [1e-5, 0.2, 0.0, -1.0, f64::NAN] {
-        let refused = recommended(SceneKind::Channel, MethodKind::Grid, target);
+        let refused = recommend(SceneKind::Channel, MethodKind::Grid, target);
         assert!(matches!(refused, Err(SetupError::TargetError { .. })), "{target}");
     }
 }

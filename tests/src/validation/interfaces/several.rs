@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
-use motile::ib_core::{Handle, Hydrodynamics, Scene, Vec2};
+use motile::ib_core::{Handle, Hydrodynamics, Scene, Vec2, gap::Boundary};
 use motile::{AnyFlow, Built, DropletSetup, Region, Setup};
 
 use crate::validation::StudyError;
@@ -55,7 +55,7 @@ fn run(base: &Setup, region: Region, places: &[([f64; 2], f64)], time: f64) -> R
     let placed = |&(centre, angle)| DropletSetup { centre, angle, ..base.droplets[0].clone() };
     let setup = Setup { region, droplets: places.iter().map(placed).collect(), ..base.clone() };
     let Built { mut scene, droplets, .. } = setup.build()?;
-    let periods = region.lengths();
+    let periods = scene.system().hydrodynamics().medium().domain.periods;
     let particles = |scene: &Scene<AnyFlow>, droplet: Handle<ActiveDroplet>| -> Result<f64, StudyError> {
         Ok(scene.body(droplet)?.particle_numbers().iter().sum())
     };
@@ -69,7 +69,8 @@ fn run(base: &Setup, region: Region, places: &[([f64; 2], f64)], time: f64) -> R
             area_change = area_change.max((polygon_moments(body.markers())?.area / body.initial_area() - 1.0).abs());
             particle_change = particle_change.max((particles(&scene, droplet)? / start[k] - 1.0).abs());
             for &other in &droplets[..k] {
-                least = least.min(gap(body.markers(), scene.body(other)?.markers(), periods));
+                let gap = Boundary::of(scene.body(other)?).smallest(body.markers(), periods);
+                least = gap.map_or(least, |(gap, _)| least.min(gap));
             }
         }
     }
@@ -80,22 +81,4 @@ fn run(base: &Setup, region: Region, places: &[([f64; 2], f64)], time: f64) -> R
     let work = scene.system().hydrodynamics().work();
     let iterations = work.iterations as f64 / work.evaluations as f64;
     Ok(Several { centroids, gap: least, area_change, particle_change, iterations })
-}
-
-/// Smallest distance of the markers of one droplet from the sides of another, the closest image of it; periods are
-/// infinite where there are no images.
-fn gap(first: &[Vec2], second: &[Vec2], periods: [f64; 2]) -> f64 {
-    let middle = |points: &[Vec2]| points.iter().sum::<Vec2>() / points.len() as f64;
-    let between = middle(second) - middle(first);
-    let image = |i: usize| if periods[i].is_finite() { (between[i] / periods[i]).round() * periods[i] } else { 0.0 };
-    let shift = Vec2::new(image(0), image(1));
-    let mut least = f64::INFINITY;
-    for point in first.iter().map(|point| point + shift) {
-        for (k, from) in second.iter().enumerate() {
-            let along = second[(k + 1) % second.len()] - from;
-            let t = ((point - from).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-            least = least.min((point - from - t * along).norm_squared());
-        }
-    }
-    least.sqrt()
 }
