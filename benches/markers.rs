@@ -5,10 +5,10 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use motile::Swimmer;
 use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
 use motile::ib_core::{AnyKernel, Body, Hydrodynamics, ImmersedBoundary, Transfer, Vec2};
 use motile::stokes_grid::{Grid, PeriodicStokes, StaggeredField};
+use motile::{GridMethod, Method, Setup};
 use motile_timing::{PlainPair, print_ratios};
 
 /// A body in a box of n x n cells.
@@ -53,8 +53,8 @@ fn body(c: &mut Criterion, name: &str, n: usize, mut body: impl Body) {
 fn markers(c: &mut Criterion) {
     for n in [120, 240, 480] {
         let spacing = 6.0 / n as f64;
-        let swimmer = Swimmer { spacing, ..Swimmer::default() };
-        body(c, "droplet", n, swimmer.droplet().expect("a good droplet"));
+        let setup = Setup { method: Method::Grid(GridMethod::of_spacing(spacing)), ..Setup::default() };
+        body(c, "droplet", n, setup.droplet(&setup.droplets[0]).expect("a good droplet"));
         let mesh = || fitted_strip(Vec2::new(-3.0, -1.0), [6.0, 2.0], spacing).expect("a good mesh");
         body(c, "springs", n, Solid::springs(mesh(), 1.0).expect("a good modulus"));
         body(c, "neo-Hookean", n, Solid::hyperelastic(mesh(), NeoHookean::new(1.0, 3.0).expect("good moduli")));

@@ -8,9 +8,8 @@ use std::time::Duration;
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use motile::elastic_solids::Moduli;
-use motile::ib_core::Scene;
-use motile::stokes_grid::Drive;
-use motile::{AnyFlow, ContrastMethod, ElasticChannel, Method, Swimmer};
+use motile::prelude::*;
+use motile::{AnyFlow, Contrast};
 use motile_timing::{PlainPair, print_ratios};
 
 /// A step small enough that thousands of them stay in the same regime.
@@ -25,48 +24,56 @@ fn step(c: &mut Criterion, name: &str, [nx, ny]: [usize; 2], scene: Scene<AnyFlo
     print_ratios(name, &mut [("pair", &mut || pair.run()), ("step", &mut step)]);
 }
 
-fn grid(lengths: [f64; 2], spacing: f64) -> (Swimmer, [usize; 2]) {
-    let swimmer = Swimmer { method: Method::ImmersedBoundary, lengths, spacing, ..Swimmer::default() };
-    (swimmer, lengths.map(|length| (length / spacing).round() as usize))
+fn cells(setup: &Setup, spacing: f64) -> [usize; 2] {
+    setup.region.lengths().map(|length| (length / spacing).round() as usize)
 }
 
-fn in_box(c: &mut Criterion, name: &str, swimmer: &Swimmer, cells: [usize; 2]) {
-    step(c, &format!("{name}, {} x {}", cells[0], cells[1]), cells, swimmer.build().expect("a good swimmer").0);
+fn measure(c: &mut Criterion, name: &str, setup: &Setup, cells: [usize; 2]) {
+    step(c, &format!("{name}, {} x {}", cells[0], cells[1]), cells, setup.build().expect("a good scene").scene);
 }
 
-fn in_channel(c: &mut Criterion, name: &str, swimmer: &Swimmer, cells: [usize; 2]) {
-    let built = swimmer.build_in_channel(Drive::ZeroGradient).expect("a good swimmer");
-    step(c, &format!("{name}, {} x {}", cells[0], cells[1]), cells, built.0);
+fn on_grid(region: Region, spacing: f64) -> (Setup, [usize; 2]) {
+    let setup = Setup { region, method: Method::Grid(GridMethod::of_spacing(spacing)), ..Setup::default() };
+    let cells = cells(&setup, spacing);
+    (setup, cells)
+}
+
+fn thick(setup: &Setup) -> Setup {
+    let droplet = DropletSetup { viscosity: Some(1e4), ..DropletSetup::default() };
+    Setup { droplets: vec![droplet], ..setup.clone() }
+}
+
+fn between_walls(length: f64, width: f64) -> Region {
+    Region::Channel { length, width, drive: Drive::ZeroGradient }
 }
 
 fn scenes(c: &mut Criterion) {
     for (side, spacing) in [(6.0, 0.1), (6.0, 0.05), (12.0, 0.05), (6.0, 0.025)] {
-        let (swimmer, cells) = grid([side, side], spacing);
-        in_box(c, "box", &swimmer, cells);
+        let (setup, cells) = on_grid(Region::Box { lengths: [side, side] }, spacing);
+        measure(c, "box", &setup, cells);
     }
     for width in [2.0, 5.0] {
-        let (swimmer, cells) = grid([12.0, width], 0.05);
-        in_channel(c, "channel", &swimmer, cells);
+        let (setup, cells) = on_grid(between_walls(12.0, width), 0.05);
+        measure(c, "channel", &setup, cells);
     }
     for spacing in [0.1, 0.05] {
-        let (swimmer, cells) = grid([6.0, 6.0], spacing);
-        let thick = Swimmer { viscosity_inside: Some(1e4), ..swimmer };
-        in_box(c, "ratio 100, sharp", &thick, cells);
-        let smeared = Swimmer { contrast: ContrastMethod::Arithmetic, ..thick };
-        in_box(c, "ratio 100, arithmetic", &smeared, cells);
+        let (setup, cells) = on_grid(Region::Box { lengths: [6.0, 6.0] }, spacing);
+        let sharp = thick(&setup);
+        measure(c, "ratio 100, sharp", &sharp, cells);
+        let grid = GridMethod { corrected: false, contrast: Contrast::Arithmetic, ..GridMethod::of_spacing(spacing) };
+        measure(c, "ratio 100, arithmetic", &Setup { method: Method::Grid(grid), ..sharp }, cells);
     }
-    let (swimmer, cells) = grid([6.0, 2.4], 0.1);
-    let moduli = Moduli::from_thesis_spring_constant(1e5).expect("good moduli");
-    let walls = ElasticChannel::new(swimmer, moduli).build().expect("a good channel").0;
-    // The walls are 1.5 thick on both sides.
-    step(c, "elastic channel", [cells[0], cells[1] + 30], walls);
+    let (setup, cells) = on_grid(between_walls(6.0, 5.4), 0.1);
+    let shear = Moduli::from_thesis_spring_constant(1e5).expect("good moduli").shear();
+    let solids = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
+    measure(c, "elastic channel", &Setup { solids, ..setup }, cells);
     for nodes in [24, 64] {
-        let integrals = Swimmer { nodes, concentration_cells: 4 * nodes, ..Swimmer::default() };
-        let thick = Swimmer { viscosity_inside: Some(1e4), ..integrals.clone() };
-        in_box(c, &format!("{nodes} nodes"), &integrals, [120, 120]);
-        in_box(c, &format!("{nodes} nodes, ratio 100"), &thick, [120, 120]);
-        let narrow = Swimmer { lengths: [12.0, 3.0], ..integrals };
-        in_channel(c, &format!("{nodes} nodes, channel"), &narrow, [240, 60]);
+        let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+        let integrals = Setup { method, ..Setup::default() };
+        measure(c, &format!("{nodes} nodes"), &integrals, [120, 120]);
+        measure(c, &format!("{nodes} nodes, ratio 100"), &thick(&integrals), [120, 120]);
+        let narrow = Setup { region: between_walls(12.0, 3.0), ..integrals };
+        measure(c, &format!("{nodes} nodes, channel"), &narrow, [240, 60]);
     }
 }
 

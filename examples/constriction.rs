@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
-use motile::setup::{Built, ChannelShape};
+use motile::{Built, ChannelShape};
 use motile_examples::{
     DropletFlags, ElasticFlags, MethodFlags, OutputFlags, Passage, SurfaceRule, WatchedRun, caption, positive, say,
 };

@@ -11,7 +11,7 @@ use anyhow::{Result, bail};
 use clap::{Parser, ValueEnum};
 use motile::elastic_solids::{Channel, SolidError};
 use motile::ib_core::Scene;
-use motile::setup::{Built, ChannelShape, Method, Setup};
+use motile::{Built, ChannelShape, Method, Setup};
 use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// A channel whose walls are functions of x: bumps below, and a step to a narrower part above.

@@ -8,11 +8,9 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
-use motile::{
-    active_interface::trajectory::{Evidence, RegimeCriteria},
-    ib_core::Body,
-    setup::{Built, ChannelShape},
-};
+use motile::active_interface::trajectory::{Evidence, RegimeCriteria};
+use motile::ib_core::Body;
+use motile::{Built, ChannelShape};
 use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims between elastic walls.

@@ -8,11 +8,11 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
+use motile::Built;
 use motile::active_interface::{
     observables::net_flux,
     trajectory::{Evidence, RegimeCriteria},
 };
-use motile::setup::Built;
 use motile_examples::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a channel with rigid walls.

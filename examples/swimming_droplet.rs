@@ -15,7 +15,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use clap::Parser;
-use motile::setup::{Built, Setup};
+use motile::{Built, Setup};
 use motile_examples::{BoxFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
 
 /// An active droplet swims in a periodic box.

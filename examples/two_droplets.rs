@@ -18,7 +18,7 @@ use motile::active_interface::{
     observables::{InterfaceState, centroid_velocity},
 };
 use motile::ib_core::{Every, Handle, Hydrodynamics, SceneError, System, Vec2};
-use motile::setup::{AnyFlow, Built, DropletSetup, Particles, Region, RepulsionSetup};
+use motile::{AnyFlow, Built, DropletSetup, Particles, Region, RepulsionSetup};
 use motile_examples::{
     DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say, settle_contrast,
 };

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, ensure};
 use clap::{Args, ValueEnum};
-use motile::setup::{DropletSetup, Exclusion, Region, Setup, Start};
+use motile::{DropletSetup, Exclusion, Region, Setup, Start};
 
 use crate::parse::{activity, finite, not_negative, pair, positive, seed};
 use crate::{CheckpointFlags, MethodFlags};

@@ -3,7 +3,7 @@
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 use motile::ib_core::{AnyKernel, StepSize};
-use motile::setup::{self, GridMethod, IntegralMethod, Method, MethodKind, Setup};
+use motile::{GridMethod, IntegralMethod, Method, MethodKind, Setup};
 
 use crate::DropletFlags;
 use crate::flags::RADIUS;
@@ -132,8 +132,8 @@ impl MethodFlags {
             spacing: self.spacing.unwrap_or(base.spacing),
             kernel: self.kernel.unwrap_or(base.kernel),
             contrast: match self.contrast_method {
-                Some(Contrast::Sharp) => setup::Contrast::Sharp,
-                Some(Contrast::Arithmetic) => setup::Contrast::Arithmetic,
+                Some(Contrast::Sharp) => motile::Contrast::Sharp,
+                Some(Contrast::Arithmetic) => motile::Contrast::Arithmetic,
                 None => base.contrast,
             },
             ..base
@@ -185,7 +185,7 @@ impl MethodFlags {
 pub fn settle_contrast(setup: &mut Setup) {
     let differs = setup.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != setup.viscosity));
     if let Method::Grid(grid) = &mut setup.method
-        && grid.contrast == setup::Contrast::Arithmetic
+        && grid.contrast == motile::Contrast::Arithmetic
         && differs
     {
         grid.corrected = false;

@@ -4,7 +4,7 @@ use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::SetupError;
 use motile::elastic_solids::Moduli;
-use motile::setup::{self, ChannelShape, MeshKind, Region, Setup, SolidSetup, Surface};
+use motile::{ChannelShape, MeshKind, Region, Setup, SolidSetup, Surface};
 
 use crate::flags::RADIUS;
 use crate::method_flags::FlowMethod;
@@ -172,7 +172,7 @@ impl ElasticFlags {
         Ok(())
     }
 
-    fn material(&self) -> Result<setup::Material> {
+    fn material(&self) -> Result<motile::Material> {
         let shear = match self.shear_modulus {
             Some(shear) => shear,
             None => Moduli::from_thesis_spring_constant(self.stiffness.unwrap_or(SOFT))?.shear(),
@@ -183,9 +183,9 @@ impl ElasticFlags {
              neo-hookean"
         );
         Ok(match self.material {
-            Material::Springs => setup::Material::Springs { shear },
+            Material::Springs => motile::Material::Springs { shear },
             Material::NeoHookean => {
-                setup::Material::NeoHookean { shear, bulk: self.bulk_modulus.unwrap_or(2.0 * shear) }
+                motile::Material::NeoHookean { shear, bulk: self.bulk_modulus.unwrap_or(2.0 * shear) }
             }
         })
     }
@@ -197,7 +197,7 @@ impl ElasticFlags {
     pub fn caption(&self) -> Result<String> {
         let (length, width, material) = (self.length, self.width, self.material()?);
         let name = match material {
-            setup::Material::Springs { .. } => "springs",
+            motile::Material::Springs { .. } => "springs",
             _ => "neo-Hookean",
         };
         // A product such as 3/16 h k need not be written to the last digit.

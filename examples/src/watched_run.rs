@@ -13,7 +13,7 @@ use motile::{
     ib_core::{Every, Handle, Hydrodynamics, Integrator, Observer, Scene, SceneError, StepSize, System, Vec2},
 };
 
-use motile::setup::{DropletSetup, Exclusion, Method, Particles, Region, Setup};
+use motile::{DropletSetup, Exclusion, Method, Particles, Region, Setup};
 
 use crate::{
     CheckpointFlags, Decided, MethodFlags, OutputFlags, RunCost, Steadiness, Summary, droplet_summary, put_solids,
@@ -285,3 +285,6 @@ pub fn caption(setup: &Setup) -> String {
     };
     format!("{particles}{viscosities}").replace('-', "−")
 }
+
+#[cfg(test)]
+mod tests;

@@ -10,8 +10,8 @@ use anyhow::Result;
 use clap::Args;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{AnyKernel, Body, Hydrodynamics, Transfer, Vec2};
-use motile::setup::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, StaggeredField, StokesSolver};
+use motile::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
 use motile_examples::{positive, say};
 
 /// Times the parts of a step between elastic walls.

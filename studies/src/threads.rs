@@ -9,8 +9,8 @@ use anyhow::{Context, Result, ensure};
 use clap::Args;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{Hydrodynamics, Scene};
-use motile::setup::{ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
 use motile::stokes_grid::Drive;
+use motile::{ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
 use motile_examples::say;
 
 /// Compares one thread with several.

@@ -16,11 +16,11 @@ use motile::elastic_solids::Moduli;
 use motile::ib_core::{
     Checkpoint, Handle, Hydrodynamics, Integrator, Midpoint, RungeKuttaChebyshev, Scene, StepSize, Vec2,
 };
-use motile::setup::{
+use motile::stokes_grid::Drive;
+use motile::{
     AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup,
     SolidSetup, Surface,
 };
-use motile::stokes_grid::Drive;
 use motile_examples::{make_directory, positive, say};
 
 /// Which table.

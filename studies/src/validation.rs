@@ -12,7 +12,7 @@ mod solids;
 
 use clap::{Args, ValueEnum};
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
-use motile::setup::{DropletSetup, GridMethod, Method, Region, Setup};
+use motile::{DropletSetup, GridMethod, Method, Region, Setup};
 use motile_examples::say;
 use motile_tests::validation::growth::Mode;
 use motile_tests::validation::scene::{on_grid, open_channel, reference, without_grid};

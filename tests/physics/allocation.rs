@@ -3,7 +3,7 @@
 use allocation_counter::measure;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{Integrator, RungeKuttaChebyshev, Scene};
-use motile::setup::{AnyFlow, ChannelShape, Contrast, GridMethod, Material, Method, Setup, SolidSetup};
+use motile::{AnyFlow, ChannelShape, Contrast, GridMethod, Material, Method, Setup, SolidSetup};
 use motile_tests::validation::scene::{on_grid, open_channel, without_grid};
 
 const DT: f64 = 0.002;

@@ -1,7 +1,7 @@
 //! Channels with no-slip walls against boundary-integral values.
 
 use motile::ib_core::CubicQuadratic;
-use motile::setup::{DropletSetup, Setup};
+use motile::{DropletSetup, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 use motile_tests::validation::swimmers::{speeds, steady};
 use motile_tests::validation::{Case, channel, order};

@@ -4,8 +4,8 @@ use allocation_counter::measure;
 use motile::ib_core::{
     CubicQuadratic, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2,
 };
-use motile::setup::{DropletSetup, Region, Setup};
 use motile::stokes_grid::{Grid, PeriodicStokes};
+use motile::{DropletSetup, Region, Setup};
 use motile_tests::validation::contrast::{Droplet, Errors, Exact, exact_flow, field_errors};
 use motile_tests::validation::scene::{on_grid, open_channel, reference};
 use motile_tests::validation::swimmers::{speeds, steady};

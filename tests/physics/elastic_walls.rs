@@ -2,7 +2,7 @@
 
 use motile::active_interface::curve::polygon_moments;
 use motile::elastic_solids::Moduli;
-use motile::setup::{Built, ChannelShape, DropletSetup, Material, Setup, SolidSetup, Surface};
+use motile::{Built, ChannelShape, DropletSetup, Material, Setup, SolidSetup, Surface};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 /// Where a droplet has swum to along a channel at t = 3.

@@ -1,10 +1,8 @@
 //! Recommended settings hold what they promise where they were not measured.
 
 use motile::ib_core::StepSize;
-use motile::setup::{
-    DropletSetup, Exclusion, GridMethod, IntegralMethod, Method, MethodKind, Particles, Region, Setup,
-};
-use motile::{SceneKind, SetupError, recommend};
+use motile::{DropletSetup, Exclusion, MethodKind, Particles, Region, Setup};
+use motile::{Recommendation, SceneKind, SetupError, recommend};
 use motile_tests::validation::scene::{open_channel, without_grid};
 use motile_tests::validation::swimmers::speeds;
 
@@ -13,21 +11,8 @@ const KINDS: [MethodKind; 2] = [MethodKind::Integral, MethodKind::Grid];
 
 /// The default scene with the recommended method and step.
 fn recommended(kind: SceneKind, method: MethodKind, target: f64) -> Result<Setup, SetupError> {
-    let found = match method {
-        MethodKind::Integral => recommend(kind, motile::Method::BoundaryIntegral, target)?,
-        MethodKind::Grid => recommend(kind, motile::Method::ImmersedBoundary, target)?,
-    };
-    let method = match method {
-        MethodKind::Integral => {
-            Method::Integral(IntegralMethod { nodes: found.nodes, cells: found.concentration_cells })
-        }
-        MethodKind::Grid => Method::Grid(GridMethod {
-            marker_spacing: found.marker_spacing,
-            kernel: found.kernel,
-            ..GridMethod::of_spacing(found.spacing)
-        }),
-    };
-    Ok(Setup { method, step: found.step, ..Setup::default() })
+    let Recommendation { method, step } = recommend(kind, method, target)?;
+    Ok(Setup { method, step, ..Setup::default() })
 }
 
 /// Errors of the recommended settings for targets by boundary integrals and on a grid; `scene` is not in the data.

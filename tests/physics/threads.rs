@@ -2,7 +2,7 @@
 
 use motile::elastic_solids::Moduli;
 use motile::ib_core::Scene;
-use motile::setup::{AnyFlow, ChannelShape, DropletSetup, Material, Region, Setup, SolidSetup};
+use motile::{AnyFlow, ChannelShape, DropletSetup, Material, Region, Setup, SolidSetup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 /// State and velocities, bit for bit, after three steps on that many threads.

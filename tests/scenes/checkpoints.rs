@@ -3,14 +3,16 @@
 
 use std::path::PathBuf;
 
-use motile::active_interface::{ActiveDroplet, Curve};
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{
-    Body, Checkpoint, CheckpointError, Handle, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError,
-    StepSize,
+    Body, Checkpoint, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
+    checkpoint::CheckpointError,
 };
 use motile::stokes_grid::Drive;
-use motile::{ContrastMethod, ElasticChannel, Method, SetupError, Swimmer};
+use motile::{
+    AnyFlow, Built, ChannelShape, DropletSetup, Exclusion, GridMethod, IntegralMethod, Material, Method, Particles,
+    Region, Setup, SolidSetup,
+};
 use proptest::prelude::*;
 
 /// Everything there is to know of a state, bit by bit.
@@ -76,12 +78,31 @@ fn stops(seed: u64, most: u64) -> [usize; 2] {
     })
 }
 
-fn coarse() -> Swimmer {
-    Swimmer { spacing: 0.2, activity: -3.0, method: Method::ImmersedBoundary, ..Swimmer::default() }
+fn coarse() -> Setup {
+    let method = Method::Grid(GridMethod::of_spacing(0.2));
+    Setup { method, droplets: vec![DropletSetup::active(-3.0)], ..Setup::default() }
 }
 
-fn built<T, U>(outcome: Result<(T, U), SetupError>) -> T {
-    outcome.expect("a scene").0
+fn thesis(activity: f64) -> Setup {
+    let method = Method::Grid(GridMethod { spacing: 0.2, ..GridMethod::thesis() });
+    let mut droplet = DropletSetup::thesis();
+    droplet.particles.iter_mut().for_each(|particles| particles.activity = activity);
+    Setup { method, droplets: vec![droplet], ..Setup::thesis() }
+}
+
+fn channel(width: f64, drive: Drive) -> Region {
+    Region::Channel { length: 6.0, width, drive }
+}
+
+/// The same with droplets of this viscosity.
+fn filled(viscosity: f64, setup: &Setup) -> Setup {
+    let droplets = setup.droplets.iter().cloned();
+    let droplets = droplets.map(|droplet| DropletSetup { viscosity: Some(viscosity), ..droplet }).collect();
+    Setup { droplets, ..setup.clone() }
+}
+
+fn scene(setup: &Setup) -> Scene<AnyFlow> {
+    setup.build().expect("a scene").scene
 }
 
 const AUTO: StepSize = StepSize::OfLimit(0.5);
@@ -89,14 +110,14 @@ const ADAPTIVE: StepSize = StepSize::Adaptive { tolerance: 1e-5 };
 
 #[test]
 fn a_swimmer() {
-    compare(|| built(coarse().build()), 6.0, AUTO, &stops(1, 15));
-    compare(|| built(coarse().build()), 6.0, ADAPTIVE, &stops(2, 15));
-    compare(|| built(coarse().build()), 1.0, StepSize::Fixed(0.01), &stops(3, 40));
+    compare(|| scene(&coarse()), 6.0, AUTO, &stops(1, 15));
+    compare(|| scene(&coarse()), 6.0, ADAPTIVE, &stops(2, 15));
+    compare(|| scene(&coarse()), 1.0, StepSize::Fixed(0.01), &stops(3, 40));
 }
 
 #[test]
 fn a_swimmer_by_the_chebyshev_method() {
-    let make = || built(coarse().build()).advanced_by(RungeKuttaChebyshev::new());
+    let make = || scene(&coarse()).advanced_by(RungeKuttaChebyshev::new());
     compare(make, 20.0, ADAPTIVE, &stops(4, 25));
     compare(make, 2.0, StepSize::Fixed(0.025), &stops(5, 30));
 }
@@ -104,39 +125,43 @@ fn a_swimmer_by_the_chebyshev_method() {
 #[test]
 fn a_swimmer_by_the_method_of_the_thesis() {
     // Markers are inserted and removed.
-    let swimmer = Swimmer { spacing: 0.2, activity: -4.0, ..Swimmer::thesis() };
-    compare(|| built(swimmer.build()), 2.0, StepSize::Fixed(0.01), &stops(6, 80));
-    let contrast = Swimmer { viscosity_inside: Some(1000.0), contrast: ContrastMethod::Arithmetic, ..swimmer };
-    compare(|| built(contrast.build()), 0.4, StepSize::Fixed(0.02), &stops(7, 8));
+    let setup = thesis(-4.0);
+    compare(|| scene(&setup), 2.0, StepSize::Fixed(0.01), &stops(6, 80));
+    let contrast = filled(1000.0, &setup);
+    compare(|| scene(&contrast), 0.4, StepSize::Fixed(0.02), &stops(7, 8));
 }
 
 #[test]
 fn a_channel() {
-    let swimmer = Swimmer { lengths: [6.0, 3.0], ..coarse() };
-    compare(|| built(swimmer.build_in_channel(Drive::ZeroGradient)), 6.0, AUTO, &stops(8, 20));
+    let setup = Setup { region: channel(3.0, Drive::ZeroGradient), ..coarse() };
+    compare(|| scene(&setup), 6.0, AUTO, &stops(8, 20));
 }
 
 #[test]
 fn a_viscosity_ratio_of_a_hundred() {
-    let swimmer = Swimmer { viscosity: 10.0, viscosity_inside: Some(1000.0), ..coarse() };
-    compare(|| built(swimmer.build()), 3.0, AUTO, &stops(9, 10));
-    let channel = Swimmer { lengths: [6.0, 3.0], ..swimmer };
-    compare(|| built(channel.build_in_channel(Drive::ZeroFlux)), 2.0, AUTO, &stops(10, 8));
+    let setup = filled(1000.0, &Setup { viscosity: 10.0, ..coarse() });
+    compare(|| scene(&setup), 3.0, AUTO, &stops(9, 10));
+    let channel = Setup { region: channel(3.0, Drive::ZeroFlux), ..setup };
+    compare(|| scene(&channel), 2.0, AUTO, &stops(10, 8));
 }
 
 #[test]
 fn without_a_grid() {
-    let swimmer = Swimmer { method: Method::BoundaryIntegral, nodes: 48, concentration_cells: 96, ..coarse() };
-    compare(|| built(swimmer.build()), 6.0, AUTO, &stops(11, 5));
-    let contrast = Swimmer { viscosity_inside: Some(1000.0), ..swimmer };
-    compare(|| built(contrast.build()), 3.0, AUTO, &stops(12, 4));
+    let setup = Setup { method: Method::Integral(IntegralMethod { nodes: 48, cells: 96 }), ..coarse() };
+    compare(|| scene(&setup), 6.0, AUTO, &stops(11, 5));
+    let contrast = filled(1000.0, &setup);
+    compare(|| scene(&contrast), 3.0, AUTO, &stops(12, 4));
 }
 
 #[test]
 fn an_elastic_channel() {
-    let swimmer = Swimmer { lengths: [4.0, 2.4], ..coarse() };
-    let channel = ElasticChannel::new(swimmer, Moduli::from_thesis_spring_constant(1e4).expect("moduli"));
-    let make = || channel.build().expect("a scene").0;
+    let shear = Moduli::from_thesis_spring_constant(1e4).expect("moduli").shear();
+    let setup = Setup {
+        region: Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient },
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear }),
+        ..coarse()
+    };
+    let make = || scene(&setup);
     compare(make, 3.0, AUTO, &stops(13, 10));
     compare(|| make().advanced_by(RungeKuttaChebyshev::new()), 3.0, ADAPTIVE, &stops(14, 15));
 }
@@ -144,15 +169,16 @@ fn an_elastic_channel() {
 /// As large as it has to be for more than one thread to take part.
 #[test]
 fn a_large_box() {
-    let swimmer = Swimmer { spacing: 0.05, lengths: [46.0, 46.0], ..coarse() };
-    compare(|| built(swimmer.build()), 0.2, StepSize::Fixed(0.02), &stops(15, 4));
+    let method = Method::Grid(GridMethod::of_spacing(0.05));
+    let setup = Setup { region: Region::Box { lengths: [46.0, 46.0] }, method, ..coarse() };
+    compare(|| scene(&setup), 0.2, StepSize::Fixed(0.02), &stops(15, 4));
 }
 
 /// Threads that run scenes of their own do not disturb each other, and there are no others.
 #[test]
 fn two_at_a_time_are_as_one() {
     let run = || {
-        let mut scene = built(Swimmer { viscosity_inside: Some(1000.0), ..coarse() }.build());
+        let mut scene = scene(&filled(1000.0, &coarse()));
         scene.run(0.5).go().expect("a run");
         bits(&scene)
     };
@@ -163,7 +189,7 @@ fn two_at_a_time_are_as_one() {
 }
 
 fn saved() -> Vec<u8> {
-    let mut scene = built(coarse().build());
+    let mut scene = scene(&coarse());
     scene.step(0.01).expect("a step");
     bits(&scene)
 }
@@ -180,45 +206,95 @@ fn a_file_that_is_not_whole_is_refused() {
     let longer = [bytes.as_slice(), &[0]].concat();
     assert!(matches!(Checkpoint::from_bytes(&longer), Err(CheckpointError::Length { .. })));
     let mut later = bytes.clone();
-    later[8] = 2;
-    assert!(matches!(Checkpoint::from_bytes(&later), Err(CheckpointError::Version { found: 2, supported: 1 })));
+    for version in [1, 3] {
+        later[8] = version;
+        let error = Checkpoint::from_bytes(&later).expect_err("another version");
+        let expected = u32::from(version);
+        assert!(matches!(error, CheckpointError::Version { found, supported: 2 } if found == expected), "{error}");
+    }
     assert!(matches!(Checkpoint::from_bytes(b"some other file"), Err(CheckpointError::Foreign)));
 }
 
 #[test]
 fn a_checkpoint_of_another_scene_is_refused_and_changes_nothing() {
-    let mut scene = built(coarse().build());
-    scene.step(0.01).expect("a step");
-    let before = bits(&scene);
-    let mut others = vec![
-        built(Swimmer { lengths: [8.0, 6.0], ..coarse() }.build()).checkpoint(""),
-        built(Swimmer { viscosity_inside: Some(10.0), ..coarse() }.build()).checkpoint(""),
-        built(coarse().build_in_channel(Drive::ZeroFlux)).checkpoint(""),
-        coarse().scene().expect("an empty box").checkpoint(""),
+    let mut resumed = scene(&coarse());
+    resumed.step(0.01).expect("a step");
+    let before = bits(&resumed);
+    let others = [
+        Setup { region: Region::Box { lengths: [8.0, 6.0] }, ..coarse() },
+        filled(10.0, &coarse()),
+        Setup { region: channel(6.0, Drive::ZeroFlux), ..coarse() },
+        Setup { droplets: Vec::new(), ..coarse() },
+        Setup { droplets: vec![DropletSetup::passive(1.0)], ..coarse() },
     ];
-    let passive = Curve::circle(1.0).and_then(|curve| curve.markers(64)).expect("markers");
-    let mut other = coarse().scene().expect("an empty box");
-    other.add(ActiveDroplet::passive(&passive, 1.0).expect("a droplet"));
-    others.push(other.checkpoint(""));
     for other in others {
-        let error = scene.resume(&other).expect_err("another scene");
-        assert!(matches!(error, SceneError::ForeignCheckpoint { .. } | SceneError::Body { .. }), "{error}");
-        assert!(bits(&scene) == before);
+        let error = resumed.resume(&scene(&other).checkpoint("")).expect_err("another scene");
+        let refused = matches!(error, SceneError::ForeignCheckpoint { .. } | SceneError::OtherProperty { .. });
+        assert!(refused, "{error}");
+        assert!(bits(&resumed) == before);
     }
+}
+
+/// What differs is named with both values, whatever it is.
+#[test]
+fn a_checkpoint_of_other_physics_is_refused_by_name() {
+    let good = filled(20.0, &coarse());
+    let saved = scene(&good).checkpoint("");
+    let droplet = |change: fn(&mut DropletSetup)| {
+        let mut setup = good.clone();
+        change(&mut setup.droplets[0]);
+        setup
+    };
+    let particles = |change: fn(&mut Particles)| {
+        let mut setup = good.clone();
+        setup.droplets[0].particles.as_mut().map(change);
+        setup
+    };
+    let Method::Grid(grid) = good.method else { panic!("a grid") };
+    let finer = Method::Grid(GridMethod { marker_spacing: Some(0.15), ..grid });
+    let others = [
+        ("the tension at a concentration", particles(|particles| particles.activity = -2.0)),
+        ("the tension at a concentration", particles(|particles| particles.excluded_volume = Exclusion::Step(20.0))),
+        ("the tension at a concentration", droplet(|droplet| droplet.tension = 7.0)),
+        ("the diffusion constant is 0.1 in it and 0.2 here", particles(|particles| particles.diffusion = 0.2)),
+        ("the exterior viscosity is 100 in it and 50 here", Setup { viscosity: 50.0, ..good.clone() }),
+        ("the viscosity inside is 20 in it and 30 here", droplet(|droplet| droplet.viscosity = Some(30.0))),
+        ("the viscosity inside is 20 in it and not given here", droplet(|droplet| droplet.viscosity = None)),
+        ("the number of markers is", Setup { method: finer, ..good.clone() }),
+    ];
+    for (expected, other) in others {
+        let error = scene(&other).resume(&saved).expect_err(expected);
+        assert!(matches!(error, SceneError::OtherProperty { .. }), "{error}");
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    let elastic = |shear: f64| {
+        let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
+        let region = Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient };
+        scene(&Setup { region, solids: walls, ..coarse() })
+    };
+    let saved = elastic(187.5).checkpoint("");
+    let error = elastic(375.0).resume(&saved).expect_err("softer walls");
+    assert!(error.to_string().contains("the energy of a shear"), "{error}");
+    // Another grid for the same bodies is no obstacle.
+    let on = |spacing: f64| {
+        let grid = GridMethod { marker_spacing: Some(0.1), ..GridMethod::of_spacing(spacing) };
+        scene(&Setup { method: Method::Grid(grid), ..coarse() })
+    };
+    let saved = on(0.2).checkpoint("");
+    on(0.15).resume(&saved).expect("the same bodies");
 }
 
 /// Every kind of scene in every other: refused, or taken, and what is refused changes nothing.
 #[test]
 fn every_scene_in_every_other() {
-    let grid = Swimmer { lengths: [6.0, 4.0], ..coarse() };
-    let integrals = Swimmer { method: Method::BoundaryIntegral, nodes: 32, concentration_cells: 64, ..grid.clone() };
-    let thesis = Swimmer { spacing: 0.2, activity: -3.0, lengths: [6.0, 4.0], ..Swimmer::thesis() };
-    let contrast = |swimmer: &Swimmer| Swimmer { viscosity_inside: Some(1000.0), ..swimmer.clone() };
-    let arithmetic = Swimmer { contrast: ContrastMethod::Arithmetic, ..contrast(&thesis) };
-    let swimmers = [contrast(&grid), contrast(&integrals), arithmetic, grid, integrals, thesis];
-    let boxes = swimmers.iter().map(|swimmer| built(swimmer.build()));
-    let channels = swimmers.iter().map(|swimmer| built(swimmer.build_in_channel(Drive::ZeroGradient)));
-    let mut scenes: Vec<_> = boxes.chain(channels).collect();
+    let integrals = Method::Integral(IntegralMethod { nodes: 32, cells: 64 });
+    let plain = [coarse(), Setup { method: integrals, ..coarse() }, thesis(-3.0)];
+    let contrasts = plain.each_ref().map(|setup| filled(1000.0, setup));
+    let regions = [Region::Box { lengths: [6.0, 4.0] }, channel(4.0, Drive::ZeroGradient)];
+    let setups = regions
+        .iter()
+        .flat_map(|&region| contrasts.iter().chain(&plain).map(move |setup| Setup { region, ..setup.clone() }));
+    let mut scenes: Vec<_> = setups.map(|setup| scene(&setup)).collect();
     for scene in &mut scenes {
         (0..2).for_each(|_| scene.step(0.002).expect("a step"));
     }
@@ -241,13 +317,13 @@ fn every_scene_in_every_other() {
 }
 
 #[test]
-fn another_integrator_or_viscosity_goes_on_from_the_state() {
-    let mut scene = built(coarse().build());
-    scene.run(1.0).go().expect("a run");
-    let saved = scene.checkpoint("");
-    let mut other = built(Swimmer { viscosity: 50.0, ..coarse() }.build()).advanced_by(RungeKuttaChebyshev::new());
+fn another_integrator_goes_on_from_the_state() {
+    let mut first = scene(&coarse());
+    first.run(1.0).go().expect("a run");
+    let saved = first.checkpoint("");
+    let mut other = scene(&coarse()).advanced_by(RungeKuttaChebyshev::new());
     other.resume(&saved).expect("the same bodies");
-    assert_eq!((other.time(), other.steps()), (1.0, scene.steps()));
+    assert_eq!((other.time(), other.steps()), (1.0, first.steps()));
     other.run(1.5).go().expect("a run");
 }
 
@@ -272,7 +348,7 @@ impl Drop for Directory {
 fn a_run_saves_checkpoints_and_stops_when_told() {
     let directory = Directory::new("checkpoints");
     let path = directory.0.join("swimmer.checkpoint");
-    let mut scene = built(coarse().build());
+    let mut scene = scene(&coarse());
     scene.run(0.5).step_size(StepSize::Fixed(0.0125)).save(7, &path, "a swimmer").go().expect("a run");
     let read = Checkpoint::read(&path).expect("a checkpoint");
     assert_eq!((read.steps(), read.description()), (35, "a swimmer"));
@@ -287,7 +363,11 @@ fn a_run_saves_checkpoints_and_stops_when_told() {
     let error = scene.run(4.0).save(1, &nowhere, "").go().expect_err("no such directory");
     assert!(matches!(error, SceneError::Checkpoint { .. }), "{error}");
     assert!(error.explanation().contains("missing"), "{}", error.explanation());
-    assert!(matches!(Checkpoint::read(&nowhere), Err(CheckpointError::File { .. })));
+    let error = Checkpoint::read(&nowhere).expect_err("no file");
+    assert!(matches!(error, CheckpointError::Missing { .. }), "{error}");
+    assert_eq!(error.to_string(), format!("there is no checkpoint at {}", nowhere.display()));
+    let error = Checkpoint::read(&directory.0).expect_err("no file");
+    assert!(matches!(error, CheckpointError::Directory { .. }), "{error}");
     // What is not a file stays what it is.
     assert!(matches!(scene.checkpoint("").write(&directory.0), Err(CheckpointError::File { .. })));
     assert!(directory.0.is_dir());
@@ -316,7 +396,7 @@ proptest! {
             contents[index] = value;
         }
         if let Ok(checkpoint) = Checkpoint::from_contents(&contents) {
-            let mut scene = built(coarse().build());
+            let mut scene = scene(&coarse());
             let before = bits(&scene);
             match scene.resume(&checkpoint) {
                 Ok(()) => { let _ = scene.step(0.01); }
@@ -329,7 +409,8 @@ proptest! {
 /// Handles find their bodies after a resumption.
 #[test]
 fn handles_stay_valid() {
-    let (mut scene, droplet): (_, Handle<ActiveDroplet>) = coarse().build().expect("a scene");
+    let Built { mut scene, droplets, .. } = coarse().build().expect("a scene");
+    let droplet = droplets[0];
     scene.run(0.5).go().expect("a run");
     let saved = scene.checkpoint("");
     let markers = scene.body(droplet).unwrap().markers().to_vec();

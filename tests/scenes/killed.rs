@@ -5,13 +5,14 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use motile::ib_core::{Checkpoint, Scene};
-use motile::{PeriodicBox, Swimmer};
+use motile::{AnyFlow, GridMethod, Method, Setup};
 
 /// Where the program that is killed finds the path of its checkpoint.
 const PATH: &str = "MOTILE_KILLED_RUN";
 
-fn scene() -> Scene<PeriodicBox> {
-    Swimmer { spacing: 0.1, ..Swimmer::default() }.build_on_grid().expect("a scene").0
+fn scene() -> Scene<AnyFlow> {
+    let setup = Setup { method: Method::Grid(GridMethod::of_spacing(0.1)), ..Setup::default() };
+    setup.build().expect("a scene").scene
 }
 
 /// The program that is killed: goes on from the checkpoint, if there is one, and saves one after each step.

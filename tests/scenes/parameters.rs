@@ -6,7 +6,7 @@ use motile::active_interface::{
     observables::Frame,
     theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
-use motile::boundary_integral::{BoundaryIntegral, Forcing, Region, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Forcing, Region as Domain, Settings};
 use motile::elastic_solids::{
     Mesher, Moduli, NeoHookean, Outline, Solid,
     channel::{Constriction, SinusoidalChannel, StraightChannel, Valve},
@@ -15,7 +15,11 @@ use motile::elastic_solids::{
 };
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Repulsion, Scene, SmearedContrast, StepSize, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, TwoPhaseStokes, WallMotion};
-use motile::{ElasticChannel, Swimmer};
+use motile::{
+    Axis, Built, ChannelShape, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
+    MarkerMotion, Material, Method, Particles, Region, RepulsionSetup, Setup, SolidOutline, SolidSetup, Squeezed,
+    Start,
+};
 use proptest::prelude::*;
 
 /// A constructor: good values of its parameters, whether each may be zero or negative, and whether it takes values.
@@ -43,15 +47,62 @@ fn settings() -> Settings {
     Settings { nodes: 16, ..Settings::default() }
 }
 
-fn coarse() -> Swimmer {
-    Swimmer { spacing: 0.25, nodes: 16, concentration_cells: 32, ..Swimmer::default() }
+fn coarse() -> Setup {
+    Setup { method: Method::Grid(GridMethod::of_spacing(0.25)), ..Setup::default() }
 }
 
-/// A swimmer with one parameter changed, by both methods.
-fn swims(change: impl Fn(&mut Swimmer)) -> bool {
-    let mut swimmer = coarse();
-    change(&mut swimmer);
-    swimmer.build().is_ok() && swimmer.build_on_grid().is_ok()
+/// Whether a scene can be built. What is built takes a step, which may fail but not panic.
+fn builds(setup: &Setup) -> bool {
+    let Ok(Built { mut scene, .. }) = setup.build() else { return false };
+    let _ = scene.step(1e-4);
+    true
+}
+
+/// Whether scenes with such a droplet can be built by both methods.
+fn droplet_builds(change: impl Fn(&mut DropletSetup)) -> bool {
+    let mut droplet = DropletSetup::default();
+    change(&mut droplet);
+    let droplets = vec![droplet];
+    [Method::Integral(IntegralMethod { nodes: 16, cells: 32 }), coarse().method]
+        .into_iter()
+        .all(|method| builds(&Setup { method, droplets: droplets.clone(), ..Setup::default() }))
+}
+
+fn particles_build(particles: Particles) -> bool {
+    droplet_builds(|droplet| droplet.particles = Some(particles))
+}
+
+fn shape_builds(shape: &DropletShape) -> bool {
+    droplet_builds(|droplet| droplet.shape = shape.clone())
+}
+
+fn region_builds(region: Region) -> bool {
+    let integrals = Method::Integral(IntegralMethod { nodes: 16, cells: 32 });
+    let region_of = |method| Setup { region, method, ..Setup::default() };
+    builds(&region_of(integrals)) && builds(&region_of(coarse().method))
+}
+
+/// A channel of 8 x 6 with one solid and no droplet.
+fn with_solid(solid: SolidSetup) -> Setup {
+    Setup {
+        region: Region::Channel { length: 8.0, width: 6.0, drive: Drive::ZeroGradient },
+        droplets: Vec::new(),
+        solids: vec![solid],
+        ..coarse()
+    }
+}
+
+const SPRINGS: Material = Material::Springs { shear: 100.0 };
+
+fn solid_builds(change: impl Fn(&mut SolidSetup)) -> bool {
+    let outline = SolidOutline::Disc { centre: [0.3, 0.2], radius: 1.0 };
+    let mut solid = SolidSetup { hold: Hold::Free, ..SolidSetup::new(outline, SPRINGS) };
+    change(&mut solid);
+    builds(&with_solid(solid))
+}
+
+fn walls_build(shape: ChannelShape) -> bool {
+    SolidSetup::walls(&shape, &SPRINGS).into_iter().all(|wall| builds(&with_solid(wall)))
 }
 
 fn makers() -> Vec<Maker> {
@@ -95,7 +146,7 @@ fn makers() -> Vec<Maker> {
             scene.run(v[1]).step_size(StepSize::Fixed(v[0])).most_steps(10).go().is_ok()
         }),
         maker("StepSize::Adaptive", &[1e-4], "+", |v| {
-            let (mut scene, _) = coarse().build_on_grid().expect("a scene");
+            let mut scene = coarse().build().expect("a scene").scene;
             scene.run(0.02).step_size(StepSize::Adaptive { tolerance: v[0] }).most_steps(1000).go().is_ok()
         }),
         maker("Curve::circle", &[1.0], "+", |v| Curve::circle(v[0]).is_ok()),
@@ -152,15 +203,15 @@ fn makers() -> Vec<Maker> {
             .is_ok()
         }),
         maker("Region::Box", &[4.0, 4.0], "++", |v| {
-            BoundaryIntegral::new(Region::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
+            BoundaryIntegral::new(Domain::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
         }),
         maker("Region::Channel", &[4.0, 4.0, 0.1], "++-", |v| {
-            let region = Region::Channel { length: v[0], width: v[1], forcing: Forcing::Flux(v[2]) };
+            let region = Domain::Channel { length: v[0], width: v[1], forcing: Forcing::Flux(v[2]) };
             BoundaryIntegral::new(region, 1.0, settings()).is_ok()
         }),
         maker("BoundaryIntegral", &[1.0, 1e-8, 6.0], "+++", |v| {
             let settings = Settings { tolerance: v[1], ..settings() };
-            let flow = BoundaryIntegral::new(Region::Plane, v[0], settings);
+            let flow = BoundaryIntegral::new(Domain::Plane, v[0], settings);
             flow.and_then(|flow| flow.with_reference_perimeter(v[2])).is_ok()
         }),
         maker("Moduli", &[1.0, 2.0], "++", |v| Moduli::new(v[0], v[1]).is_ok()),
@@ -196,25 +247,127 @@ fn makers() -> Vec<Maker> {
         maker("Valve", &[8.0, 3.0, 1.0, 2.0, 0.1, 0.0], "++++0-", |v| {
             Valve { period: v[0], width: v[1], gap: v[2], base: v[3], radius: v[4], centre: v[5] }.channel().is_ok()
         }),
-        maker("Swimmer activity", &[-2.0], "-", |v| swims(|s| s.activity = v[0])),
-        maker("Swimmer excluded volume", &[10.0], "0", |v| swims(|s| s.excluded_volume = v[0])),
-        maker("Swimmer viscosity", &[100.0], "+", |v| swims(|s| s.viscosity = v[0])),
-        maker("Swimmer viscosity inside", &[100.0], "+", |v| swims(|s| s.viscosity_inside = Some(v[0]))),
-        maker("Swimmer diffusion", &[0.1], "0", |v| swims(|s| s.diffusion = v[0])),
-        maker("Swimmer mean concentration", &[100.0], "+", |v| swims(|s| s.mean_concentration = v[0])),
-        maker("Swimmer bare tension", &[10.0], "0", |v| swims(|s| s.bare_tension = v[0])),
-        maker("Swimmer radius", &[1.0], "+", |v| swims(|s| s.radius = v[0])),
-        maker("Swimmer lengths", &[6.0, 6.0], "++", |v| swims(|s| s.lengths = [v[0], v[1]])),
-        maker("Swimmer spacing", &[0.25], "+", |v| Swimmer { spacing: v[0], ..coarse() }.build_on_grid().is_ok()),
-        maker("Swimmer marker spacing", &[0.1], "+", |v| {
-            Swimmer { marker_spacing: Some(v[0]), ..coarse() }.build_on_grid().is_ok()
+        maker("Setup viscosity", &[100.0], "+", |v| builds(&Setup { viscosity: v[0], ..coarse() })),
+        maker("Setup step.fixed", &[1e-3], "+", |v| builds(&Setup { step: StepSize::Fixed(v[0]), ..coarse() })),
+        maker("Setup step.of-limit", &[0.5], "+", |v| builds(&Setup { step: StepSize::OfLimit(v[0]), ..coarse() })),
+        maker("Setup step.adaptive", &[1e-4], "+", |v| {
+            builds(&Setup { step: StepSize::Adaptive { tolerance: v[0] }, ..coarse() })
         }),
-        maker("Swimmer angle", &[0.3], "-", |v| swims(|s| s.angle = v[0])),
-        maker("Swimmer offset", &[0.3, 0.2], "--", |v| swims(|s| s.offset = [v[0], v[1]])),
-        maker("ElasticChannel thickness", &[1.5], "+", |v| {
-            let swimmer = Swimmer { lengths: [6.0, 3.0], ..coarse() };
-            let moduli = Moduli::of_springs(100.0).expect("moduli");
-            ElasticChannel { thickness: v[0], ..ElasticChannel::new(swimmer, moduli) }.build().is_ok()
+        maker("Setup repulsion", &[1.0, 0.2], "++", |v| {
+            let droplets = [-1.5, 1.5].map(|x| DropletSetup { centre: [x, 0.0], ..DropletSetup::default() });
+            let repulsion = Some(RepulsionSetup { strength: v[0], range: v[1] });
+            builds(&Setup { repulsion, droplets: droplets.to_vec(), ..coarse() })
+        }),
+        maker("Setup region.box", &[6.0, 6.0], "++", |v| region_builds(Region::Box { lengths: [v[0], v[1]] })),
+        maker("Setup region.channel", &[6.0, 3.0, 1.0], "++-", |v| {
+            region_builds(Region::Channel { length: v[0], width: v[1], drive: Drive::Gradient(v[2]) })
+                && region_builds(Region::Channel { length: v[0], width: v[1], drive: Drive::Flux(v[2]) })
+        }),
+        maker("Setup method.grid", &[0.25, 0.1], "++", |v| {
+            let grid = GridMethod { marker_spacing: Some(v[1]), ..GridMethod::of_spacing(v[0]) };
+            builds(&Setup { method: Method::Grid(grid), ..Setup::default() })
+        }),
+        maker("Setup droplet.centre", &[0.3, 0.2], "--", |v| droplet_builds(|d| d.centre = [v[0], v[1]])),
+        maker("Setup droplet.angle", &[0.3], "-", |v| droplet_builds(|d| d.angle = v[0])),
+        maker("Setup droplet.viscosity", &[10.0], "+", |v| droplet_builds(|d| d.viscosity = Some(v[0]))),
+        maker("Setup droplet.tension", &[10.0], "0", |v| droplet_builds(|d| d.tension = v[0])),
+        maker("Setup droplet.motion.relaxation", &[5.0], "0", |v| {
+            droplet_builds(|d| d.motion = MarkerMotion::Equidistributed { relaxation: v[0] })
+        }),
+        maker("Setup shape.round", &[1.0], "+", |v| shape_builds(&DropletShape::Round { radius: v[0] })),
+        maker("Setup shape.squeezed", &[1.0, 0.8], "++", |v| {
+            [Squeezed::Ellipse, Squeezed::Stadium]
+                .into_iter()
+                .all(|to| shape_builds(&DropletShape::Squeezed { radius: v[0], half_height: v[1], to }))
+        }),
+        maker("Setup shape.ellipse", &[1.2, 0.8], "++", |v| {
+            shape_builds(&DropletShape::Ellipse { half_axes: [v[0], v[1]] })
+        }),
+        maker("Setup shape.modes", &[1.0, 0.1, 0.05], "+--", |v| {
+            shape_builds(&DropletShape::Modes { radius: v[0], cosines: vec![0.0, v[1]], sines: vec![v[2]] })
+        }),
+        maker("Setup shape.points", &[1.0, 0.1], "--", |v| {
+            let mut points: Vec<[f64; 2]> =
+                (0..16_u8).map(|k| 0.392_699 * f64::from(k)).map(|t| [t.cos(), t.sin()]).collect();
+            points[0] = [v[0], v[1]];
+            shape_builds(&DropletShape::Points(points))
+        }),
+        maker("Setup particles", &[-2.0, 10.0, 0.1, 100.0], "-00+", |v| {
+            particles_build(Particles {
+                activity: v[0],
+                excluded_volume: Exclusion::Step(v[1]),
+                diffusion: v[2],
+                concentration: v[3],
+                ..Particles::default()
+            })
+        }),
+        maker("Setup particles, quadratic", &[0.1], "0", |v| {
+            particles_build(Particles { excluded_volume: Exclusion::Quadratic(v[0]), ..Particles::default() })
+        }),
+        maker("Setup particles, perturbed", &[0.1], "0", |v| {
+            let start = Start::Perturbed { amplitude: v[0], seed: 3 };
+            particles_build(Particles { start, ..Particles::default() })
+        }),
+        maker("Setup solid.mesh-spacing", &[0.2], "+", |v| solid_builds(|s| s.mesh_spacing = Some(v[0]))),
+        maker("Setup solid.hold.tethered", &[10.0], "+", |v| {
+            solid_builds(|s| s.hold = Hold::Tethered { stiffness: v[0] })
+        }),
+        maker("Setup solid.outline.disc", &[0.3, 0.2, 1.0], "--+", |v| {
+            solid_builds(|s| s.outline = SolidOutline::Disc { centre: [v[0], v[1]], radius: v[2] })
+        }),
+        maker("Setup solid.outline.ellipse", &[0.3, 0.2, 1.0, 0.8], "--++", |v| {
+            solid_builds(|s| {
+                s.outline = SolidOutline::Ellipse { centre: [v[0], v[1]], half_axes: [v[2], v[3]] };
+            })
+        }),
+        maker("Setup solid.outline.polygon", &[0.0, 1.2, 0.1], "--0", |v| {
+            let corners = vec![[-1.0, -1.0], [1.0, -1.0], [v[0], v[1]]];
+            solid_builds(|s| s.outline = SolidOutline::Polygon { corners: corners.clone(), fillet: v[2] })
+        }),
+        maker("Setup solid.material.springs", &[100.0], "+", |v| {
+            solid_builds(|s| s.material = Material::Springs { shear: v[0] })
+        }),
+        maker("Setup solid.material", &[100.0, 200.0], "++", |v| {
+            let [shear, bulk] = [v[0], v[1]];
+            solid_builds(|s| s.material = Material::NeoHookean { shear, bulk })
+                && solid_builds(|s| s.material = Material::SaintVenantKirchhoff { shear, bulk })
+        }),
+        maker("Setup solid.material.mooney-rivlin", &[100.0, 200.0, 0.5], "++0", |v| {
+            solid_builds(|s| s.material = Material::MooneyRivlin { shear: v[0], bulk: v[1], fraction: v[2] })
+        }),
+        maker("Setup solid.grading", &[-1.0, 1.0, 2.0], "-++", |v| {
+            let factors = vec![[v[0], v[1]], [3.0, v[2]]];
+            solid_builds(|s| s.grading = Grading::Along { axis: Axis::X, factors: factors.clone() })
+        }),
+        maker("Setup solid.outline, straight", &[3.0], "+", |v| walls_build(ChannelShape::Straight { width: v[0] })),
+        maker("Setup solid.outline, constriction", &[3.0, 2.0, 2.0, 1.0, 0.5], "++++-", |v| {
+            walls_build(ChannelShape::Constriction {
+                width: v[0],
+                throat: v[1],
+                throat_length: v[2],
+                ramp: v[3],
+                centre: v[4],
+            })
+        }),
+        maker("Setup solid.outline, valve", &[3.0, 2.0, 2.0, 0.1, 0.5], "+++0-", |v| {
+            walls_build(ChannelShape::Valve { width: v[0], gap: v[1], base: v[2], radius: v[3], centre: v[4] })
+        }),
+        maker("Setup solid.outline, ratchet", &[3.0, 2.0, 0.6], "+++", |v| {
+            [true, false].into_iter().all(|sharp| {
+                walls_build(ChannelShape::Ratchet { width: v[0], throat: v[1], teeth: 2, rise: v[2], sharp })
+            })
+        }),
+        maker("Setup solid.outline, sinusoidal", &[3.0, 0.3, 0.2], "+--", |v| {
+            walls_build(ChannelShape::Sinusoidal { width: v[0], amplitude: v[1], waves: 2, phase: v[2] })
+        }),
+        maker("Setup solid.outline, branching", &[1.5, 1.0, 1.0, 2.0, 1.0, 1.0], "++++++", |v| {
+            walls_build(ChannelShape::Branching {
+                width: v[0],
+                branches: [v[1], v[2]],
+                island_length: v[3],
+                island_thickness: v[4],
+                ramp: v[5],
+            })
         }),
     ]
 }
@@ -245,7 +398,7 @@ fn good_values_are_taken_and_bad_ones_refused() {
 
 /// Constructors whose work does not grow with their parameters.
 fn cheap() -> Vec<Maker> {
-    let dear = ["Swimmer", "ElasticChannel", "markers_with", "StepSize", "fitted_strip", "Drive"];
+    let dear = ["markers_with", "StepSize", "fitted_strip", "Drive"];
     makers().into_iter().filter(|maker| !dear.iter().any(|name| maker.name.starts_with(name))).collect()
 }
 

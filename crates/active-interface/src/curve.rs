@@ -6,15 +6,15 @@ pub(crate) mod polygon;
 mod spline;
 
 use std::f64::consts::{PI, TAU};
-use std::fmt;
-use std::sync::Arc;
 
 use ib_core::Vec2;
 use nalgebra::Rotation2;
 
 use crate::InterfaceError;
 use crate::error::{all_finite, all_points_finite, enough, finite, not_negative, positive};
-pub use crossing::{CrossingFinder, first_crossing};
+use crate::function::Function;
+pub(crate) use crossing::CrossingFinder;
+pub use crossing::first_crossing;
 use equidistant::equidistant;
 pub use polygon::{AreaMoments, polygon_area, polygon_moments, polygon_perimeter};
 use polygon::{edges, raw_area, raw_perimeter};
@@ -58,29 +58,14 @@ pub struct Curve {
     perimeter: f64,
 }
 
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 enum Shape {
     Circle(f64),
     Ellipse(f64, f64),
     Fourier { radius: f64, cosines: Vec<f64>, sines: Vec<f64> },
-    Parametric(Arc<dyn Fn(f64) -> Vec2 + Send + Sync>),
+    Parametric(Function<Vec2>),
     Spline(PeriodicSpline),
     Polygon { points: Vec<Vec2>, ends: Vec<f64> },
-}
-
-impl fmt::Debug for Shape {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Circle(radius) => f.debug_tuple("Circle").field(radius).finish(),
-            Self::Ellipse(a, b) => f.debug_tuple("Ellipse").field(a).field(b).finish(),
-            Self::Fourier { radius, cosines, sines } => {
-                f.debug_struct("Fourier").field("radius", radius).field("cos", cosines).field("sin", sines).finish()
-            }
-            Self::Parametric(_) => f.write_str("Parametric"),
-            Self::Spline(spline) => f.debug_tuple("Spline").field(spline).finish(),
-            Self::Polygon { points, .. } => f.debug_tuple("Polygon").field(points).finish(),
-        }
-    }
 }
 
 /// Radius divided by its mean at the polar angle `angle`.
@@ -185,7 +170,7 @@ impl Curve {
         if gap > 1e-9 * extent {
             return Err(InterfaceError::NotClosed { gap });
         }
-        Self::build(Shape::Parametric(Arc::new(point)))
+        Self::build(Shape::Parametric(Function::new(point)))
     }
 
     /// The smooth closed curve (a cubic spline) through these points; the last is joined to the first and must not

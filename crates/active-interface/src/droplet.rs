@@ -6,22 +6,24 @@ mod geometry;
 mod limits;
 mod observe;
 mod redistribution;
+mod shape;
 mod spectral;
 mod warning;
 
 use std::sync::Arc;
 
-use ib_core::{BandLimit, Medium, Vec2};
+use fourier::BandLimit;
+use ib_core::{Medium, Vec2};
 
 use crate::error::{not_negative, positive};
 use crate::{
     Flux, InterfaceError, Tension,
     concentration::{Repair, Transport, cell_peclet},
-    curve::CrossingFinder,
+    curve::{CrossingFinder, polygon::raw_area},
 };
-use filter::WiggleFilter;
-use geometry::{Geometry, signed_area};
+use filter::ShortWaveFilter;
 pub(crate) use limits::finest_response;
+use shape::Shape;
 use spectral::SpectralCurve;
 pub use warning::DropletWarning;
 
@@ -45,8 +47,8 @@ pub enum Motion {
     Equidistributed {
         /// Rate at which unequal spacing relaxes (1/time).
         relaxation: f64,
-        /// Whether wiggles shorter than the kernel are filtered after each step; without it they grow in long runs.
-        /// Only on a grid.
+        /// Whether modes of the markers shorter than the kernel are filtered after each step; without it they grow in
+        /// long runs. Only on a grid.
         filter: bool,
     },
     /// With the fluid's full velocity (thesis (2.8)), markers being inserted where they thin out (1.5 times the spacing
@@ -65,10 +67,12 @@ impl Default for Motion {
 /// The unknowns are the marker positions and the particle numbers n_k of the segments between them; c_k = n_k / l_k.
 /// Force of marker k on the fluid: `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (thesis (2.5), (2.31); t_k along segment
 /// k), whose sum over the curve is zero. Particles move with the fluid along the interface and diffuse (thesis (2.3)).
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ActiveDroplet {
     pub(crate) name: String,
-    pub(crate) markers: Vec<Vec2>,
+    pub(crate) shape: Shape,
+    /// Another state's shape: that of the start of a step, of a state that is solved for implicitly.
+    pub(crate) other: Shape,
     pub(crate) numbers: Vec<f64>,
     pub(crate) tension: Arc<dyn Tension>,
     pub(crate) motion: Motion,
@@ -78,7 +82,6 @@ pub struct ActiveDroplet {
     pub(crate) viscosity_inside: Option<f64>,
     pub(crate) target_spacing: f64,
     pub(crate) initial_area: f64,
-    pub(crate) geometry: Geometry,
     pub(crate) concentrations: Vec<f64>,
     pub(crate) tensions: Vec<f64>,
     pub(crate) slip: Vec<f64>,
@@ -87,10 +90,7 @@ pub struct ActiveDroplet {
     /// Diffusivities at the markers of the stabiliser, and of stabiliser and diffusion together (length^2 per time).
     pub(crate) stabiliser: Vec<f64>,
     pub(crate) diffusivities: Vec<f64>,
-    /// Geometry of a state that is not the droplet's present one, for the implicit operator.
-    pub(crate) other_markers: Vec<Vec2>,
-    pub(crate) other_geometry: Geometry,
-    pub(crate) filter: WiggleFilter,
+    pub(crate) filter: ShortWaveFilter,
     /// Truncation of the motion, where the flow resolves fewer modes than there are markers.
     pub(crate) band: Option<BandLimit>,
     /// The smooth curve through the markers, where the flow is spectrally accurate.
@@ -104,8 +104,6 @@ pub struct ActiveDroplet {
     /// Particles at the start, and the bounds on the relative changes of area and particles.
     pub(crate) initial_number: f64,
     pub(crate) bounds: [f64; 2],
-    /// Whether the tension law lets particles collapse.
-    pub(crate) collapsible: bool,
 }
 
 impl ActiveDroplet {
@@ -149,7 +147,7 @@ impl ActiveDroplet {
         transport: Option<Transport>,
     ) -> Result<Self, InterfaceError> {
         let markers = crate::curve::markers_from_points(markers)?;
-        let initial_area = signed_area(&markers);
+        let initial_area = raw_area(&markers);
         let mut droplet = Self {
             name: "droplet".to_owned(),
             motion: Motion::default(),
@@ -159,7 +157,8 @@ impl ActiveDroplet {
             viscosity_inside: None,
             target_spacing: 0.0,
             initial_area,
-            geometry: Geometry::default(),
+            shape: Shape::default(),
+            other: Shape::default(),
             concentrations: Vec::new(),
             tensions: Vec::new(),
             slip: vec![0.0; markers.len()],
@@ -167,25 +166,22 @@ impl ActiveDroplet {
             transport,
             stabiliser: Vec::new(),
             diffusivities: Vec::new(),
-            other_markers: Vec::new(),
-            other_geometry: Geometry::default(),
-            filter: WiggleFilter::default(),
+            filter: ShortWaveFilter::default(),
             band: None,
             spectral: None,
-            crossing: CrossingFinder::new(),
+            crossing: CrossingFinder::default(),
             repair: Repair::default(),
             redistributed: (0, 0),
             last_repair: Repair::default(),
             last_redistributed: (0, 0),
             initial_number: numbers.iter().sum(),
             bounds: [AREA_BOUND, NUMBER_BOUND],
-            collapsible: tension.warning().is_some(),
             tension,
-            markers,
             numbers,
         };
-        droplet.update()?;
-        droplet.target_spacing = droplet.geometry.mean_length();
+        droplet.shape.markers = markers;
+        droplet.update();
+        droplet.target_spacing = droplet.shape.geometry.mean_length();
         Ok(droplet)
     }
 
@@ -242,7 +238,7 @@ impl ActiveDroplet {
         self
     }
 
-    /// The same droplet filled with a fluid of another viscosity (stress times time) than its surroundings.
+    /// The same droplet filled with a fluid of another viscosity (stress times time) than the exterior fluid.
     ///
     /// # Errors
     /// A viscosity that is not positive and finite.
@@ -254,7 +250,7 @@ impl ActiveDroplet {
     /// Marker positions (length), counter-clockwise, not wrapped into a periodic box.
     #[must_use]
     pub fn markers(&self) -> &[Vec2] {
-        &self.markers
+        &self.shape.markers
     }
 
     /// Particle numbers of the segments; segment k runs from marker k to the next. Empty for a passive droplet.
@@ -278,7 +274,7 @@ impl ActiveDroplet {
     /// Lengths of the segments (length).
     #[must_use]
     pub fn segment_lengths(&self) -> &[f64] {
-        &self.geometry.lengths
+        &self.shape.geometry.lengths
     }
 
     /// Area of the polygon at the start (length squared).
@@ -287,19 +283,13 @@ impl ActiveDroplet {
         self.initial_area
     }
 
-    /// The tension law.
-    #[must_use]
-    pub fn tension_law(&self) -> &dyn Tension {
-        self.tension.as_ref()
-    }
-
     /// Diffusion constant of the particles (length squared per time).
     #[must_use]
     pub fn diffusion(&self) -> f64 {
         self.diffusion
     }
 
-    /// Viscosity of the fluid inside (stress times time), `None` where it is that of the surroundings.
+    /// Viscosity of the fluid inside (stress times time), `None` where it is that of the exterior fluid.
     #[must_use]
     pub fn viscosity_inside(&self) -> Option<f64> {
         self.viscosity_inside
@@ -323,50 +313,52 @@ impl ActiveDroplet {
         if self.transport.is_none() || self.diffusion == 0.0 {
             return 0.0;
         }
-        cell_peclet(&self.slip, &self.geometry.lengths, self.diffusion)
+        cell_peclet(&self.slip, &self.shape.geometry.lengths, self.diffusion)
     }
 
     /// What a user should know at the present state.
     #[must_use]
     pub fn warnings(&self) -> Vec<DropletWarning> {
-        let mut warnings: Vec<_> = self.tension.warning().map(DropletWarning::from).into_iter().collect();
+        let mut warnings = Vec::from_iter(self.tension.warning());
         let peclet = self.cell_peclet();
         if peclet > PECLET_LIMIT {
-            let spacing = self.geometry.mean_length() * PECLET_LIMIT / peclet;
+            let spacing = self.shape.geometry.mean_length() * PECLET_LIMIT / peclet;
             warnings.push(DropletWarning::CellPeclet { peclet, spacing });
         }
         warnings
     }
 
     /// Brings everything that follows from markers and particle numbers up to date.
-    pub(crate) fn update(&mut self) -> Result<(), InterfaceError> {
-        self.geometry.update(&self.markers);
-        let count = self.markers.len();
-        if let Some(spectral) = self.spectral.as_mut().filter(|spectral| spectral.len() == count) {
-            spectral.refine(&self.markers, &mut self.geometry);
-        }
-        self.concentrations.resize(count, 0.0);
-        self.tensions.resize(count, 0.0);
+    pub(crate) fn update(&mut self) {
+        self.shape.update(self.spectral.as_mut());
+        self.update_tensions();
+    }
+
+    /// Brings concentrations and tensions up to date.
+    pub(crate) fn update_tensions(&mut self) {
+        let lengths = &self.shape.geometry.lengths;
+        self.concentrations.resize(lengths.len(), 0.0);
+        self.tensions.resize(lengths.len(), 0.0);
         for (k, c) in self.concentrations.iter_mut().enumerate() {
-            *c = self.numbers.get(k).map_or(0.0, |n| n / self.geometry.lengths[k]);
+            *c = self.numbers.get(k).map_or(0.0, |n| n / lengths[k]);
         }
-        self.tension.values(&self.concentrations, &mut self.tensions)
+        self.tension.values(&self.concentrations, &mut self.tensions);
     }
 
     /// The truncation and the geometry that `medium` asks for, made anew only where they have changed.
-    pub(crate) fn fit(&mut self, medium: &Medium) -> Result<(), InterfaceError> {
-        let count = self.markers.len();
+    pub(crate) fn fit(&mut self, medium: &Medium) {
+        let count = self.shape.markers.len();
         let smooth = medium.shape_modes.is_some() && matches!(self.motion, Motion::Equidistributed { .. });
         if smooth != self.spectral.as_ref().is_some_and(|spectral| spectral.len() == count) {
             self.spectral = smooth.then(|| SpectralCurve::new(count));
-            self.update()?;
+            self.other.markers.clear();
+            self.update();
         }
         match medium.shape_modes.filter(|&modes| modes < count) {
             None => self.band = None,
             Some(modes) if self.band.as_ref().is_some_and(|b| b.len() == count && b.modes() == modes) => {}
             Some(modes) => self.band = Some(BandLimit::new(count, modes)),
         }
-        Ok(())
     }
 
     /// Mean of the viscosities on both sides, on which the speed of an interface depends (stress times time).
@@ -374,3 +366,6 @@ impl ActiveDroplet {
         self.viscosity_inside.map_or(medium.viscosity, |inside| 0.5 * (inside + medium.viscosity))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -130,12 +130,6 @@ pub enum InterfaceError {
         /// The radius there (length).
         radius: f64,
     },
-    /// A linear system without a unique solution.
-    #[error("the cyclic tridiagonal system is singular at row {row}: its diagonal must dominate")]
-    Singular {
-        /// The row.
-        row: usize,
-    },
     /// An iteration did not converge.
     #[error("{what} stopped at a residual of {residual:e}, above {tolerance:e}: {remedy}")]
     NoConvergence {

@@ -67,6 +67,7 @@ pub mod concentration;
 pub mod curve;
 pub mod droplet;
 mod error;
+mod function;
 pub mod observables;
 pub mod tension;
 pub mod theory;

@@ -5,15 +5,15 @@ mod excluded_volume;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::InterfaceError;
-use crate::error::{finite, length, not_negative};
+use crate::error::{finite, not_negative};
+use crate::{DropletWarning, InterfaceError};
 pub use excluded_volume::ExcludedVolume;
 
 /// A tension law: the tension gamma (force; a line tension in two dimensions) as a function of the concentration c
 /// (particles per length).
 ///
-/// Implement [`Tension::value`] and [`Tension::slope`] for a law of your own. The methods on slices are compiled anew
-/// for every law, so that a `dyn Tension` costs one indirect call a slice.
+/// Implement [`Tension::value`] and [`Tension::slope`] for a law of your own. The one on slices is compiled anew for
+/// every law, so that a `dyn Tension` costs one indirect call a slice.
 pub trait Tension: Debug + Send + Sync {
     /// gamma(c) (force).
     fn value(&self, c: f64) -> f64;
@@ -21,37 +21,17 @@ pub trait Tension: Debug + Send + Sync {
     /// d gamma / d c (force times length).
     fn slope(&self, c: f64) -> f64;
 
-    /// gamma of every concentration.
-    ///
-    /// # Errors
-    /// Slices of different length.
-    fn values(&self, concentrations: &[f64], tensions: &mut [f64]) -> Result<(), InterfaceError> {
-        length("tensions", concentrations.len(), tensions.len())?;
+    /// Writes gamma of every concentration.
+    fn values(&self, concentrations: &[f64], tensions: &mut [f64]) {
         for (tension, &c) in tensions.iter_mut().zip(concentrations) {
             *tension = self.value(c);
         }
-        Ok(())
     }
 
     /// What may go wrong with this law whatever the resolution, for a warning before a run.
-    fn warning(&self) -> Option<TensionWarning> {
+    fn warning(&self) -> Option<DropletWarning> {
         None
     }
-}
-
-/// What may go wrong with a tension law whatever the resolution.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TensionWarning {
-    /// Contraction is stronger than repulsion at every concentration.
-    #[error(
-        "the activity {activity} is not balanced by the excluded volume at any concentration: there is no plateau, the \
-         particles collapse towards a point (use |activity| below the strength of the excluded volume)"
-    )]
-    NoPlateau {
-        /// The activity zeta delta-mu (force times length).
-        activity: f64,
-    },
 }
 
 /// A constant tension: gamma = gamma0.
@@ -145,8 +125,8 @@ impl Tension for ContractileTension {
         -self.activity - self.excluded_volume.slope(c)
     }
 
-    fn warning(&self) -> Option<TensionWarning> {
-        self.plateau().is_none().then_some(TensionWarning::NoPlateau { activity: self.activity })
+    fn warning(&self) -> Option<DropletWarning> {
+        self.plateau().is_none().then_some(DropletWarning::NoPlateau { activity: self.activity })
     }
 }
 
@@ -162,11 +142,11 @@ macro_rules! laws_behind_pointers {
                 (**self).slope(c)
             }
 
-            fn values(&self, concentrations: &[f64], tensions: &mut [f64]) -> Result<(), InterfaceError> {
-                (**self).values(concentrations, tensions)
+            fn values(&self, concentrations: &[f64], tensions: &mut [f64]) {
+                (**self).values(concentrations, tensions);
             }
 
-            fn warning(&self) -> Option<TensionWarning> {
+            fn warning(&self) -> Option<DropletWarning> {
                 (**self).warning()
             }
         }

@@ -2,8 +2,6 @@
 
 use std::ops::{Add, Mul};
 
-use crate::InterfaceError;
-
 /// Solves `lower[k] x[k-1] + diagonal[k] x[k] + upper[k] x[k+1] = rhs[k]`, indices modulo n, for coefficients that
 /// vary along the curve.
 ///
@@ -23,17 +21,8 @@ impl CyclicTridiagonal {
     }
 
     /// Replaces `x`, which holds the right-hand side, by the solution. `lower[0]` multiplies `x[n-1]`, `upper[n-1]`
-    /// multiplies `x[0]`.
-    ///
-    /// # Errors
-    /// A pivot that is zero or not finite.
-    pub(crate) fn solve(
-        &mut self,
-        lower: &[f64],
-        diagonal: &[f64],
-        upper: &[f64],
-        x: &mut [f64],
-    ) -> Result<(), InterfaceError> {
+    /// multiplies `x[0]`. Not finite for a singular system.
+    pub(crate) fn solve(&mut self, lower: &[f64], diagonal: &[f64], upper: &[f64], x: &mut [f64]) {
         let n = self.ratios.len();
         // A = T + u v^T with u = (gamma, 0, ..., upper[n-1]) and v = (1, 0, ..., lower[0]/gamma).
         let gamma = -diagonal[0];
@@ -53,9 +42,6 @@ impl CyclicTridiagonal {
                 z[k] -= lower[k] * z[k - 1];
                 pivot = next;
             }
-            if pivot == 0.0 || !pivot.is_finite() {
-                return Err(InterfaceError::Singular { row: k });
-            }
             x[k] /= pivot;
             z[k] /= pivot;
         }
@@ -65,14 +51,10 @@ impl CyclicTridiagonal {
         }
         let corner = lower[0] / gamma;
         let denominator = 1.0 + z[0] + corner * z[n - 1];
-        if denominator == 0.0 || !denominator.is_finite() {
-            return Err(InterfaceError::Singular { row: n - 1 });
-        }
         let factor = (x[0] + corner * x[n - 1]) / denominator;
         for (x, z) in x.iter_mut().zip(z.iter()) {
             *x -= factor * z;
         }
-        Ok(())
     }
 }
 
@@ -89,26 +71,16 @@ pub(crate) struct CirculantTridiagonal {
 
 impl CirculantTridiagonal {
     /// The operator with these coefficients.
-    ///
-    /// # Errors
-    /// Coefficients that are not finite, and a diagonal that does not dominate.
-    pub(crate) fn new(diagonal: f64, off: f64) -> Result<Self, InterfaceError> {
-        if !(diagonal.abs() > 2.0 * off.abs() && diagonal.is_finite()) {
-            return Err(InterfaceError::Singular { row: 0 });
-        }
+    fn new(diagonal: f64, off: f64) -> Self {
         // off (E + 1/E) + diagonal = (1 - root E)(1 - root / E) / scale, |root| < 1
         let root = -2.0 * off / (diagonal + diagonal.signum() * (diagonal * diagonal - 4.0 * off * off).sqrt());
-        Ok(Self { root, scale: (1.0 + root * root) / diagonal })
+        Self { root, scale: (1.0 + root * root) / diagonal }
     }
 
     /// The smoothing operator S^-1 = 1 - width^2 d^2/ds^2 by second differences on points `spacing` apart, so that
     /// [`CirculantTridiagonal::solve`] applies S.
-    ///
-    /// # Errors
-    /// A spacing that is not positive, a width that is not finite.
-    pub(crate) fn smoothing(width: f64, spacing: f64) -> Result<Self, InterfaceError> {
-        let spacing = crate::error::positive("the marker spacing", spacing)?;
-        let ratio = crate::error::finite("the smoothing width", width)? / spacing;
+    pub(crate) fn smoothing(width: f64, spacing: f64) -> Self {
+        let ratio = width / spacing;
         Self::new(1.0 + 2.0 * ratio * ratio, -ratio * ratio)
     }
 

@@ -1,7 +1,6 @@
 //! An elastic solid: a mesh, its forces, and where its points are now.
 
 mod body;
-mod gap;
 mod observables;
 mod rounded_kink;
 mod surface_correction;
@@ -15,7 +14,6 @@ use crate::forces::{Hyperelastic, Springs};
 use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
 use surface_correction::SurfaceCorrection;
 
-pub use gap::SurfaceGap;
 pub use observables::Observables;
 
 /// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid

@@ -1,4 +1,4 @@
-//! Discrete Fourier, sine and cosine transforms of double precision numbers.
+//! Discrete Fourier, sine and cosine transforms of double precision numbers, and Fourier series of closed curves.
 //!
 //! Every transform is a plan for one length: it is made once, owns its scratch, and allocates nothing per call. Nothing
 //! here is generic, so that the algorithms behind the plans (rustfft, realfft) are compiled in this crate
@@ -10,14 +10,22 @@
 //! | [`RealTransform`] | real numbers to half of their spectrum and back |
 //! | [`SineCosine`] | sines and cosines across an interval, for values on its nodes or in its cells |
 //!
+//! On them stand Fourier series through equally spaced samples of periodic functions, such as the points of a closed
+//! curve ([`PeriodicSeries`], [`BandLimit`]).
+//!
 //! Every length is correct, odd and prime ones included; lengths with no prime factors but 2, 3, 5, 7 and 11 are fast.
 
+mod band_limit;
 mod complex;
 mod error;
 mod real;
+mod series;
 mod sine_cosine;
+pub mod spectrum;
 
+pub use band_limit::BandLimit;
 pub use complex::ComplexTransform;
 pub use error::FourierError;
 pub use real::RealTransform;
+pub use series::PeriodicSeries;
 pub use sine_cosine::SineCosine;

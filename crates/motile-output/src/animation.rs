@@ -23,8 +23,7 @@ const UNCHANGED: u8 = 255;
 /// use motile::prelude::*;
 /// use motile_output::{Film, Look, Raster};
 ///
-/// let swimmer = Swimmer { nodes: 48, concentration_cells: 192, ..Swimmer::default() };
-/// let (mut scene, _) = swimmer.build()?;
+/// let Built { mut scene, .. } = Setup::default().build()?;
 /// let mut film = Film::new(Look::default(), Raster::of(scene.system(), 0.2)?);
 /// scene.run(0.2).observe(Every::Time(0.1), &mut film).go()?;
 /// let path = std::env::temp_dir().join("a-droplet.gif");

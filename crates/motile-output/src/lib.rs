@@ -6,10 +6,10 @@
 //! use motile::prelude::*;
 //! use motile_output::{Look, Raster, Snapshot, TrajectoryCsv};
 //!
-//! let (mut scene, droplet) = Swimmer { nodes: 48, concentration_cells: 192, ..Swimmer::default() }.build()?;
+//! let Built { mut scene, droplets, .. } = Setup::default().build()?;
 //! # let directory = std::env::temp_dir().join("motile-output-first-page");
 //! # std::fs::create_dir_all(&directory)?;
-//! let mut rows = TrajectoryCsv::create(directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
+//! let mut rows = TrajectoryCsv::create(directory.join("trajectory.csv"), scene.system_mut(), droplets[0])?;
 //! scene.run(2.0).observe(Every::Time(0.1), &mut rows).go()?;
 //! rows.finish(scene.system_mut())?;
 //! let raster = Raster::of(scene.system(), 0.1)?;

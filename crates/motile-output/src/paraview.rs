@@ -26,7 +26,7 @@ use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_mark
 /// use motile::prelude::*;
 /// use motile_output::{ParaView, Raster};
 ///
-/// let (mut scene, _) = Swimmer { nodes: 48, concentration_cells: 192, ..Swimmer::default() }.build()?;
+/// let Built { mut scene, .. } = Setup::default().build()?;
 /// let directory = std::env::temp_dir().join("a-run-for-paraview");
 /// let mut files = ParaView::create(&directory, Raster::of(scene.system(), 0.2)?)?;
 /// scene.run(0.2).observe(Every::Time(0.1), &mut files).go()?;

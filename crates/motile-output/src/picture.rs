@@ -20,7 +20,7 @@ pub type Track = Vec<(f64, Vec2)>;
 /// use motile::prelude::*;
 /// use motile_output::{Look, Raster, Snapshot};
 ///
-/// let (mut scene, _) = Swimmer { nodes: 48, concentration_cells: 192, ..Swimmer::default() }.build()?;
+/// let Built { mut scene, .. } = Setup::default().build()?;
 /// let path = std::env::temp_dir().join("a-droplet.png");
 /// let raster = Raster::of(scene.system(), 0.2)?;
 /// Look::default().write_picture(&Snapshot::take(scene.system_mut(), raster)?, &[], &path)?;

@@ -83,7 +83,7 @@ impl SolidMeter {
     pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<[f64; 8], Error> {
         let mut pair = solids(system);
         let width = pair.next().zip(pair.next()).and_then(|(lower, upper)| width_between(lower, upper).ok());
-        let gap = self.gap.measure(system)?.map_or(f64::NAN, |(gap, _)| gap);
+        let gap = self.gap.measure(system).map_or(f64::NAN, |nearest| nearest.gap);
         let (mut total, mut normal, mut drift, mut energy, mut jacobian) =
             (0.0_f64, 0.0_f64, 0.0_f64, 0.0, f64::INFINITY);
         for solid in solids(system) {

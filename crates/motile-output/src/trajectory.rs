@@ -22,9 +22,9 @@ const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
 /// use motile::prelude::*;
 /// use motile_output::TrajectoryCsv;
 ///
-/// let (mut scene, droplet) = Swimmer { nodes: 48, concentration_cells: 192, ..Swimmer::default() }.build()?;
+/// let Built { mut scene, droplets, .. } = Setup::default().build()?;
 /// let path = std::env::temp_dir().join("a-trajectory.csv");
-/// let mut rows = TrajectoryCsv::create(&path, scene.system_mut(), droplet)?;
+/// let mut rows = TrajectoryCsv::create(&path, scene.system_mut(), droplets[0])?;
 /// scene.run(0.5).observe(Every::Time(0.1), &mut rows).go()?;
 /// rows.finish(scene.system_mut())?;
 /// assert!(std::fs::read_to_string(&path)?.starts_with("time,x,y,"));
@@ -124,3 +124,6 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryCsv {
         Ok(self.table.push(&row)?)
     }
 }
+
+#[cfg(test)]
+mod tests;

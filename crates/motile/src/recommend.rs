@@ -1,9 +1,9 @@
 //! Settings for an error that is asked for.
 
-use active_interface::Motion;
 use ib_core::{AnyKernel, StepSize};
 
-use crate::{Method, SetupError, Swimmer};
+use crate::SetupError;
+use crate::{GridMethod, IntegralMethod, Method, MethodKind};
 
 /// What a scene contains, as far as its errors are concerned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,7 +38,7 @@ const OF_LIMIT_IN_CHANNELS: f64 = 0.5;
 /// The largest error over the scenes of docs/speed-against-error.md of that kind, of these settings and of all finer
 /// ones of the same kind; in boxes also at activity -4 at 0.2, 0.4 and 0.6 radians from the axes to t = 80, in a
 /// channel of width two also, by boundary integrals, at activity -4. From coarse to fine.
-fn measured(scene: SceneKind, method: Method) -> &'static [Entry] {
+fn measured(scene: SceneKind, method: MethodKind) -> &'static [Entry] {
     use AnyKernel::BSpline4;
     use Settings::{Grid, Integrals};
     const fn entry(error: f64, settings: Settings) -> Entry {
@@ -57,37 +57,48 @@ fn measured(scene: SceneKind, method: Method) -> &'static [Entry] {
     ];
     const CHANNEL_GRID: [Entry; 2] = [entry(0.0045, Grid(0.08, BSpline4)), entry(0.0028, Grid(0.05, BSpline4))];
     match (scene, method) {
-        (SceneKind::Box, Method::BoundaryIntegral) => &BOX,
-        (SceneKind::Box, Method::ImmersedBoundary) => &BOX_GRID,
-        (SceneKind::ViscosityContrast, Method::BoundaryIntegral) => &CONTRAST,
-        (SceneKind::ViscosityContrast, Method::ImmersedBoundary) => &CONTRAST_GRID,
-        (SceneKind::Channel, Method::BoundaryIntegral) => &CHANNEL,
-        (SceneKind::Channel, Method::ImmersedBoundary) => &CHANNEL_GRID,
+        (SceneKind::Box, MethodKind::Integral) => &BOX,
+        (SceneKind::Box, MethodKind::Grid) => &BOX_GRID,
+        (SceneKind::ViscosityContrast, MethodKind::Integral) => &CONTRAST,
+        (SceneKind::ViscosityContrast, MethodKind::Grid) => &CONTRAST_GRID,
+        (SceneKind::Channel, MethodKind::Integral) => &CHANNEL,
+        (SceneKind::Channel, MethodKind::Grid) => &CHANNEL_GRID,
     }
 }
 
-/// A swimmer with the cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to
-/// give its steady speed with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of
-/// scene by a method. All else is the default; the grid spacing is that for a radius of one.
+/// A method and the steps that go with it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Recommendation {
+    /// How the flow is computed.
+    pub method: Method,
+    /// How long the steps of runs are.
+    pub step: StepSize,
+}
+
+/// The cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to give the steady
+/// speed of a droplet with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of scene by
+/// a method; the grid spacing is that for a radius of one.
 ///
-/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the
-/// thesis' units (-1 with a contrast, -2 on a grid in a channel); a sharper edge of the concentration needs more cells
+/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the units of
+/// the defaults (-1 with a contrast, -2 on a grid in a channel); a sharper edge of the concentration needs more cells
 /// ([`active_interface::DropletWarning::CellPeclet`] tells).
 ///
 /// ```
 /// use motile::prelude::*;
-/// use motile::{SceneKind, recommend};
+/// use motile::{MethodKind, Recommendation, SceneKind, recommend};
 ///
-/// let swimmer = recommend(SceneKind::Box, Method::BoundaryIntegral, 0.01)?;
-/// assert!(swimmer.nodes < Swimmer::default().nodes);
+/// let Recommendation { method, step } = recommend(SceneKind::Box, MethodKind::Integral, 0.01)?;
+/// let Method::Integral(integral) = method else { panic!("without a grid") };
+/// assert!(integral.nodes < IntegralMethod::default().nodes);
+/// let _setup = Setup { method, step, ..Setup::default() };
 /// // Nothing that was measured is this accurate.
-/// assert!(recommend(SceneKind::Box, Method::ImmersedBoundary, 1e-7).is_err());
+/// assert!(recommend(SceneKind::Box, MethodKind::Grid, 1e-7).is_err());
 /// # Ok::<(), motile::SetupError>(())
 /// ```
 ///
 /// # Errors
 /// A target below the smallest error that was measured, above 5 %, or not a number.
-pub fn recommend(scene: SceneKind, method: Method, target_error: f64) -> Result<Swimmer, SetupError> {
+pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Result<Recommendation, SetupError> {
     const LARGEST: f64 = 0.05;
     let entries = measured(scene, method);
     let found = entries.iter().find(|entry| entry.error <= target_error).filter(|_| target_error <= LARGEST);
@@ -96,9 +107,9 @@ pub fn recommend(scene: SceneKind, method: Method, target_error: f64) -> Result<
         return Err(SetupError::TargetError { target: target_error, smallest, largest: LARGEST });
     };
     let fraction = if scene == SceneKind::Channel { OF_LIMIT_IN_CHANNELS } else { OF_LIMIT };
-    let base = Swimmer { method, motion: Motion::default(), step: StepSize::OfLimit(fraction), ..Swimmer::default() };
-    Ok(match entry.settings {
-        Settings::Integrals(nodes, cells) => Swimmer { nodes, concentration_cells: cells, ..base },
-        Settings::Grid(spacing, kernel) => Swimmer { spacing, kernel, marker_spacing: Some(0.5 * spacing), ..base },
-    })
+    let method = match entry.settings {
+        Settings::Integrals(nodes, cells) => Method::Integral(IntegralMethod { nodes, cells }),
+        Settings::Grid(spacing, kernel) => Method::Grid(GridMethod { kernel, ..GridMethod::of_spacing(spacing) }),
+    };
+    Ok(Recommendation { method, step: StepSize::OfLimit(fraction) })
 }

@@ -64,18 +64,6 @@ pub enum SetupError {
         /// How deep (length).
         depth: f64,
     },
-    /// A box that does not hold a whole number of cells or is too small for the droplet.
-    #[error("a box of {lx} x {ly} with cells of {spacing} {problem}")]
-    Box {
-        /// Length in x.
-        lx: f64,
-        /// Length in y.
-        ly: f64,
-        /// Grid spacing.
-        spacing: f64,
-        /// What is wrong, and the remedy.
-        problem: &'static str,
-    },
     /// An error that no settings were measured for.
     #[error("no settings are known for an error of {target:e}: ask for one from {smallest:e} to {largest}")]
     TargetError {

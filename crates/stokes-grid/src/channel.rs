@@ -1,13 +1,23 @@
 //! The streamfunction solver of a channel.
 
+mod conditions;
+mod drive;
+mod mean_flow;
+mod modes;
+mod walls;
+
 use num_complex::Complex64;
 
-use crate::channel_modes::ChannelModes;
-use crate::checks::{check_grid, check_viscosity, not_finite};
-use crate::mean_flow::MeanFlow;
-use crate::rows::RowTransform;
-use crate::sums::sum;
-use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, Wall, WallMotion, Work};
+use crate::error::checks::{check_grids, check_viscosity, not_finite};
+use crate::field::sum;
+use crate::transform::RowTransform;
+use crate::{CentreField, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, Work, stencil};
+pub(crate) use conditions::Conditions;
+pub use drive::Drive;
+use mean_flow::MeanFlow;
+pub(crate) use mean_flow::Poiseuille;
+use modes::ChannelModes;
+pub use walls::{Wall, WallMotion};
 
 /// Stokes flow with one viscosity in a channel, periodic in x with no-slip walls in y, by its streamfunction psi:
 ///
@@ -29,13 +39,11 @@ use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, 
 ///
 /// **Sizes.** Every size is correct. Only `nx` is transformed: even values with no prime factors but 2, 3, 5, 7 and 11
 /// are fast; `ny` may be anything.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ChannelStokes {
     grid: Grid,
     viscosity: f64,
-    drive: Drive,
-    walls: WallMotion,
-    wall_spectra: [Vec<Complex64>; 2],
+    conditions: Conditions,
     modes: ChannelModes,
     mean: MeanFlow,
     rows: RowTransform,
@@ -62,9 +70,7 @@ impl ChannelStokes {
         Ok(Self {
             grid,
             viscosity,
-            drive: Drive::default(),
-            walls: WallMotion::AT_REST,
-            wall_spectra: [vec![Complex64::ZERO; width], vec![Complex64::ZERO; width]],
+            conditions: Conditions::new(width),
             modes: ChannelModes::new(nx, ny),
             mean: MeanFlow::new(&grid, viscosity),
             rows,
@@ -80,9 +86,7 @@ impl ChannelStokes {
     /// # Errors
     /// A value that is not finite.
     pub fn set_drive(&mut self, drive: Drive) -> Result<(), StokesError> {
-        drive.check()?;
-        self.drive = drive;
-        Ok(())
+        self.conditions.set_drive(drive)
     }
 
     /// Moves the walls in the solutions to come.
@@ -90,12 +94,7 @@ impl ChannelStokes {
     /// # Errors
     /// Walls of a channel with another number of cells.
     pub fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
-        walls.check(&self.grid)?;
-        for (wall, spectrum) in [Wall::Bottom, Wall::Top].into_iter().zip(&mut self.wall_spectra) {
-            walls.spectrum(wall, &mut self.rows, spectrum);
-        }
-        self.walls = walls;
-        Ok(())
+        self.conditions.set_walls(walls, &self.grid, &mut self.rows)
     }
 }
 
@@ -109,16 +108,15 @@ impl StokesSolver for ChannelStokes {
     }
 
     fn walls(&self) -> &WallMotion {
-        &self.walls
+        &self.conditions.walls
     }
 
     fn drive(&self) -> Drive {
-        self.drive
+        self.conditions.drive
     }
 
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
-        check_grid(&self.grid, force.grid(), "the force")?;
-        check_grid(&self.grid, velocity.grid(), "the velocity")?;
+        check_grids(&self.grid, &[("the force", force.grid()), ("the velocity", velocity.grid())])?;
         let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
         let width = self.rows.width();
         let (fx, fy) = (force.x(), force.y());
@@ -128,18 +126,17 @@ impl StokesSolver for ChannelStokes {
         let scale = h * h / (self.viscosity * nx as f64);
         self.mean_u[0] = sum(&fx[..nx]) / nx as f64;
         for j in 1..ny {
-            let (fx_below, fx, fy) = (&fx[(j - 1) * nx..][..nx], &fx[j * nx..][..nx], &fy[j * nx..][..nx]);
             let (below, rest) = self.spectrum.split_at_mut((j - 1) * width);
             let row = &mut rest[..width];
-            self.rows.forward(|out| curl(out, fx_below, fx, fy, scale), row);
+            self.rows.forward(|out| stencil::curl(force, j, scale, out), row);
             // The mean of the curl is how the mean of fx differs from the row below.
             self.mean_u[j] = self.mean_u[j - 1] - row[0].re / (scale * nx as f64);
             self.modes.eliminate(j, &below[below.len().saturating_sub(width)..], row);
         }
-        let [bottom, top] = &self.wall_spectra;
+        let Conditions { drive, walls, spectra: [bottom, top] } = &self.conditions;
         self.modes.descend(&mut self.spectrum, bottom, top);
-        let walls = [self.walls.mean(Wall::Bottom), self.walls.mean(Wall::Top)];
-        let gradient = self.mean.solve(self.drive, walls, &mut self.mean_u);
+        let walls = [walls.mean(Wall::Bottom), walls.mean(Wall::Top)];
+        let gradient = self.mean.solve(*drive, walls, &mut self.mean_u);
 
         // On the way up again: the second Dirichlet problem, the transform back and the differences.
         let (u, v) = velocity.components_mut();
@@ -151,11 +148,7 @@ impl StokesSolver for ChannelStokes {
             if j == 1 && !(psi[0] + self.mean_u[0]).is_finite() {
                 return Err(not_finite("the velocity", &[("the force", fx), ("the force", &fy[nx..ny * nx])]));
             }
-            let v = &mut v[j * nx..][..nx];
-            for (v, psi) in v.iter_mut().zip(psi.windows(2)) {
-                *v = psi[0] - psi[1];
-            }
-            v[nx - 1] = psi[nx - 1] - psi[0];
+            stencil::across(&mut v[j * nx..][..nx], psi, 0.0);
             let mean = self.mean_u[j - 1];
             for ((u, psi), below) in u[(j - 1) * nx..][..nx].iter_mut().zip(psi).zip(&mut self.below) {
                 *u = mean + (psi - *below);
@@ -175,17 +168,17 @@ impl StokesSolver for ChannelStokes {
         Ok(SolveReport { mean_pressure_gradient: [gradient, 0.0], ..SolveReport::default() })
     }
 
-    /// From the momentum balance along x, `grad p = eta lap u + fx`, with one transform there and back; no Poisson
-    /// problem.
+    /// From the momentum balance along x, `grad p = eta lap u + fx`, with one forward and one inverse transform; no
+    /// Poisson problem.
     fn pressure(
         &mut self,
         force: &StaggeredField,
         velocity: &StaggeredField,
         pressure: &mut CentreField,
     ) -> Result<(), StokesError> {
-        check_grid(&self.grid, force.grid(), "the force")?;
-        check_grid(&self.grid, velocity.grid(), "the velocity")?;
-        check_grid(&self.grid, pressure.grid(), "the pressure")?;
+        let fields =
+            [("the force", force.grid()), ("the velocity", velocity.grid()), ("the pressure", pressure.grid())];
+        check_grids(&self.grid, &fields)?;
         let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
         let (fx, fy, u) = (force.x(), force.y(), velocity.x());
 
@@ -199,6 +192,7 @@ impl StokesSolver for ChannelStokes {
         mean = -means / ny as f64;
 
         let row = &mut self.spectrum[..self.rows.width()];
+        let walls = &self.conditions.walls;
         let stress = self.viscosity / (h * h);
         for j in 0..ny {
             if j > 0 {
@@ -208,11 +202,9 @@ impl StokesSolver for ChannelStokes {
             let fx = &fx[j * nx..][..nx];
             let fill = |out: &mut [f64]| {
                 for (i, out) in out.iter_mut().enumerate() {
-                    let below =
-                        if j > 0 { u[(j - 1) * nx + i] } else { 2.0 * self.walls.at(Wall::Bottom, i) - middle[i] };
-                    let above =
-                        if j + 1 < ny { u[(j + 1) * nx + i] } else { 2.0 * self.walls.at(Wall::Top, i) - middle[i] };
-                    let (left, right) = (if i > 0 { i - 1 } else { nx - 1 }, if i + 1 < nx { i + 1 } else { 0 });
+                    let below = if j > 0 { u[(j - 1) * nx + i] } else { 2.0 * walls.at(Wall::Bottom, i) - middle[i] };
+                    let above = if j + 1 < ny { u[(j + 1) * nx + i] } else { 2.0 * walls.at(Wall::Top, i) - middle[i] };
+                    let (left, right) = (stencil::left(i, nx), stencil::right(i, nx));
                     let laplacian = (middle[left] - middle[i])
                         + (middle[right] - middle[i])
                         + (below - middle[i])
@@ -241,14 +233,5 @@ impl StokesSolver for ChannelStokes {
 
     fn work(&self) -> Work {
         self.work
-    }
-}
-
-/// A row of the curl of a force, times `scale`: `(fy[i] - fy[i-1]) - (fx[i] - fx_below[i])`.
-fn curl(out: &mut [f64], fx_below: &[f64], fx: &[f64], fy: &[f64], scale: f64) {
-    let last = fy.len() - 1;
-    out[0] = scale * ((fy[0] - fy[last]) - (fx[0] - fx_below[0]));
-    for (((out, fy), fx), fx_below) in out[1..].iter_mut().zip(fy.windows(2)).zip(&fx[1..]).zip(&fx_below[1..]) {
-        *out = scale * ((fy[1] - fy[0]) - (fx - fx_below));
     }
 }

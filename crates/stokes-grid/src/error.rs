@@ -1,5 +1,7 @@
 //! What can go wrong on a grid.
 
+pub(crate) mod checks;
+
 /// An error of this crate, with the offending values and the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -1,6 +1,9 @@
 //! Fields on a staggered grid.
 
+mod sum;
+
 use crate::{Grid, StokesError};
+pub(crate) use sum::sum;
 
 macro_rules! scalar_field {
     ($(#[$doc:meta])* $name:ident, $rows:ident, $what:literal) => {

@@ -2,8 +2,9 @@
 //!
 //! Each function checks that its fields share a grid and then writes `out`; nothing is allocated.
 
-use crate::checks::check_grid;
-use crate::sums::sum;
+use crate::error::checks::check_grids;
+use crate::field::sum;
+use crate::stencil::{self, left, right};
 use crate::{CentreField, NodeField, StaggeredField, StokesError, Wall, WallMotion};
 
 /// The divergence `du/dx + dv/dy` (1/time) at the centres: round-off for the solvers of this crate.
@@ -12,7 +13,7 @@ use crate::{CentreField, NodeField, StaggeredField, StokesError, Wall, WallMotio
 /// Fields of different grids.
 pub fn divergence(velocity: &StaggeredField, out: &mut CentreField) -> Result<(), StokesError> {
     let grid = *velocity.grid();
-    check_grid(&grid, out.grid(), "the divergence")?;
+    check_grids(&grid, &[("the divergence", out.grid())])?;
     divergence_unchecked(velocity, out);
     Ok(())
 }
@@ -20,13 +21,9 @@ pub fn divergence(velocity: &StaggeredField, out: &mut CentreField) -> Result<()
 /// [`divergence`] of fields known to share a grid.
 pub(crate) fn divergence_unchecked(velocity: &StaggeredField, out: &mut CentreField) {
     let grid = *velocity.grid();
-    let (nx, h) = (grid.nx(), grid.spacing());
-    for (j, out) in out.values_mut().chunks_exact_mut(nx).enumerate() {
-        let u = &velocity.x()[j * nx..][..nx];
-        let (v, v_above) = v_rows(velocity, j);
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = ((u[right(i, nx)] - u[i]) + (v_above[i] - v[i])) / h;
-        }
+    for (j, out) in out.values_mut().chunks_exact_mut(grid.nx()).enumerate() {
+        stencil::divergence(velocity, j, out);
+        out.iter_mut().for_each(|value| *value /= grid.spacing());
     }
 }
 
@@ -40,8 +37,8 @@ pub fn normal_strain_rates(
     yy: &mut CentreField,
 ) -> Result<(), StokesError> {
     let grid = *velocity.grid();
-    check_grid(&grid, xx.grid(), "the strain rate")?;
-    check_grid(&grid, yy.grid(), "the strain rate")?;
+    check_grids(&grid, &[("the strain rate", xx.grid())])?;
+    check_grids(&grid, &[("the strain rate", yy.grid())])?;
     let (nx, h) = (grid.nx(), grid.spacing());
     for (j, (xx, yy)) in xx.values_mut().chunks_exact_mut(nx).zip(yy.values_mut().chunks_exact_mut(nx)).enumerate() {
         let u = &velocity.x()[j * nx..][..nx];
@@ -84,7 +81,7 @@ fn cross_differences(
     combine: impl Fn(f64, f64) -> f64,
 ) -> Result<(), StokesError> {
     let grid = *velocity.grid();
-    check_grid(&grid, out.grid(), "the field at the nodes")?;
+    check_grids(&grid, &[("the field at the nodes", out.grid())])?;
     walls.check(&grid)?;
     let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
     let u = |i: usize, j: usize| velocity.x()[j * nx + i];
@@ -98,7 +95,7 @@ fn cross_differences(
             } else {
                 u(i, j) - u(i, if j > 0 { j - 1 } else { ny - 1 })
             };
-            let v_step = v[i] - v[if i > 0 { i - 1 } else { nx - 1 }];
+            let v_step = v[i] - v[left(i, nx)];
             *out = combine(u_step / h, v_step / h);
         }
     }
@@ -115,7 +112,7 @@ fn cross_differences(
 /// Fields of different grids.
 pub fn streamfunction(velocity: &StaggeredField, out: &mut NodeField) -> Result<(), StokesError> {
     let grid = *velocity.grid();
-    check_grid(&grid, out.grid(), "the streamfunction")?;
+    check_grids(&grid, &[("the streamfunction", out.grid())])?;
     let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
     let psi = out.values_mut();
     if grid.has_walls() {
@@ -190,14 +187,4 @@ fn v_rows(velocity: &StaggeredField, j: usize) -> (&[f64], &[f64]) {
     let nx = grid.nx();
     let above = if j + 1 == grid.node_rows() { 0 } else { j + 1 };
     (&velocity.y()[j * nx..][..nx], &velocity.y()[above * nx..][..nx])
-}
-
-/// The column to the right in a periodic row.
-pub(crate) fn right(i: usize, nx: usize) -> usize {
-    if i + 1 == nx { 0 } else { i + 1 }
-}
-
-/// The column to the left in a periodic row.
-pub(crate) fn left(i: usize, nx: usize) -> usize {
-    if i == 0 { nx - 1 } else { i - 1 }
 }

@@ -76,32 +76,18 @@
 //! [`ChannelStokes`].
 
 mod channel;
-mod channel_modes;
-mod checks;
-mod columns;
-mod drive;
 mod error;
 mod field;
 mod grid;
 mod kinematics;
-mod mean_flow;
-#[cfg(feature = "rayon")]
-mod parallel;
 mod periodic;
 mod projection;
-mod projection_channel;
-mod projection_periodic;
-mod rows;
 mod solver;
-mod sums;
-mod symbol;
+mod stencil;
 mod transform;
 mod two_phase;
-mod viscous_force;
-mod walls;
 
-pub use channel::ChannelStokes;
-pub use drive::Drive;
+pub use channel::{ChannelStokes, Drive, Wall, WallMotion};
 pub use error::StokesError;
 pub use field::{CentreField, NodeField, StaggeredField};
 pub use grid::Grid;
@@ -111,7 +97,5 @@ pub use kinematics::{
 pub use periodic::PeriodicStokes;
 pub use projection::ProjectionStokes;
 pub use solver::{SolveReport, StokesSolver, Work};
-pub use symbol::Symbol;
-pub use transform::RealFft2;
+pub use transform::{RealFft2, Symbol};
 pub use two_phase::TwoPhaseStokes;
-pub use walls::{Wall, WallMotion};

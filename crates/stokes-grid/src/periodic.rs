@@ -1,8 +1,13 @@
 //! The streamfunction solver of a doubly periodic box.
 
-use crate::checks::{check_finite, check_grid, check_viscosity, not_finite};
-use crate::sums::sum;
-use crate::{CentreField, Grid, RealFft2, SolveReport, StaggeredField, StokesError, StokesSolver, Symbol, Work};
+#[cfg(feature = "rayon")]
+mod parallel;
+
+use crate::error::checks::{check_finite, check_grids, check_viscosity, not_finite};
+use crate::field::sum;
+use crate::{
+    CentreField, Grid, RealFft2, SolveReport, StaggeredField, StokesError, StokesSolver, Symbol, Work, stencil,
+};
 
 /// Stokes flow in a doubly periodic box with one viscosity, by its streamfunction psi:
 ///
@@ -18,7 +23,7 @@ use crate::{CentreField, Grid, RealFft2, SolveReport, StaggeredField, StokesErro
 ///
 /// **Sizes.** Every size is correct; even `nx` and numbers of cells with no prime factors but 2, 3, 5, 7 and 11 are
 /// fast.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct PeriodicStokes {
     grid: Grid,
     viscosity: f64,
@@ -29,7 +34,7 @@ pub struct PeriodicStokes {
     first: Vec<f64>,
     previous: Vec<f64>,
     #[cfg(feature = "rayon")]
-    parallel: Option<crate::parallel::ParallelTransform>,
+    parallel: Option<parallel::ParallelTransform>,
     work: Work,
 }
 
@@ -71,13 +76,13 @@ impl PeriodicStokes {
         Ok(())
     }
 
-    /// One transform there and back on one thread. Returns the sums of the force.
+    /// One forward and one inverse transform on one thread. Returns the sums of the force.
     fn solve_serial(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<[f64; 2], StokesError> {
         let (nx, ny) = (self.grid.nx(), self.grid.ny());
         let (fx, fy) = (force.x(), force.y());
         let mut total = [0.0; 2];
         self.transform.forward_rows(|j, row| {
-            curl(force, j, row);
+            stencil::curl(force, j, 1.0, row);
             total[0] += sum(&fx[j * nx..][..nx]);
             total[1] += sum(&fy[j * nx..][..nx]);
         });
@@ -94,22 +99,18 @@ impl PeriodicStokes {
             if !finite {
                 return;
             }
-            let v = &mut v[j * nx..][..nx];
-            for (v, psi) in v.iter_mut().zip(psi.windows(2)) {
-                *v = mean_v - (psi[1] - psi[0]);
-            }
-            v[nx - 1] = mean_v - (psi[0] - psi[nx - 1]);
+            stencil::across(&mut v[j * nx..][..nx], psi, mean_v);
             if j == 0 {
                 first.copy_from_slice(psi);
             } else {
-                difference(&mut u[(j - 1) * nx..][..nx], previous, psi, mean_u);
+                stencil::along(&mut u[(j - 1) * nx..][..nx], previous, psi, mean_u);
             }
             previous.copy_from_slice(psi);
         });
         if !finite {
             return Err(StokesError::Overflow { name: "the velocity" });
         }
-        difference(&mut u[(ny - 1) * nx..], previous, first, mean_u);
+        stencil::along(&mut u[(ny - 1) * nx..], previous, first, mean_u);
         Ok(total)
     }
 
@@ -121,8 +122,8 @@ impl PeriodicStokes {
         velocity: &mut StaggeredField,
     ) -> Result<[f64; 2], StokesError> {
         let (nx, ny) = (self.grid.nx(), self.grid.ny());
-        let parallel = self.parallel.get_or_insert_with(|| crate::parallel::ParallelTransform::new(nx, ny));
-        let total = parallel.forward(force, |j, row| curl(force, j, row));
+        let parallel = self.parallel.get_or_insert_with(|| parallel::ParallelTransform::new(nx, ny));
+        let total = parallel.forward(force, |j, row| stencil::curl(force, j, 1.0, row));
         check_total(total, force)?;
         parallel.filter_columns(&self.biharmonic);
         if parallel.velocity(self.mean_velocity, velocity) {
@@ -149,10 +150,9 @@ impl StokesSolver for PeriodicStokes {
     }
 
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
-        check_grid(&self.grid, force.grid(), "the force")?;
-        check_grid(&self.grid, velocity.grid(), "the velocity")?;
+        check_grids(&self.grid, &[("the force", force.grid()), ("the velocity", velocity.grid())])?;
         #[cfg(feature = "rayon")]
-        let total = if crate::parallel::pays(self.grid.nx() * self.grid.ny()) {
+        let total = if parallel::pays(self.grid.nx() * self.grid.ny()) {
             self.solve_parallel(force, velocity)
         } else {
             self.solve_serial(force, velocity)
@@ -174,27 +174,19 @@ impl StokesSolver for PeriodicStokes {
         velocity: &StaggeredField,
         pressure: &mut CentreField,
     ) -> Result<(), StokesError> {
-        check_grid(&self.grid, force.grid(), "the force")?;
-        check_grid(&self.grid, velocity.grid(), "the velocity")?;
-        check_grid(&self.grid, pressure.grid(), "the pressure")?;
+        let fields =
+            [("the force", force.grid()), ("the velocity", velocity.grid()), ("the pressure", pressure.grid())];
+        check_grids(&self.grid, &fields)?;
         let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
         let poisson = self.poisson.get_or_insert_with(|| Symbol::inverse_laplacian(nx, ny, -h));
-        let (fx, fy) = (force.x(), force.y());
         let out = pressure.values_mut();
         self.transform.filter(
             poisson,
-            |j, row| {
-                let above = (j + 1) % ny * nx;
-                let (fx, fy, fy_above) = (&fx[j * nx..][..nx], &fy[j * nx..][..nx], &fy[above..][..nx]);
-                for (i, out) in row.iter_mut().enumerate() {
-                    let right = if i + 1 == nx { 0 } else { i + 1 };
-                    *out = (fx[right] - fx[i]) + (fy_above[i] - fy[i]);
-                }
-            },
+            |j, row| stencil::divergence(force, j, row),
             |j, row| out[j * nx..][..nx].copy_from_slice(row),
         );
         if !out[0].is_finite() {
-            return Err(not_finite("the pressure", &[("the force", fx), ("the force", fy)]));
+            return Err(not_finite("the pressure", &[("the force", force.x()), ("the force", force.y())]));
         }
         self.work.forward_transforms += 1;
         self.work.inverse_transforms += 1;
@@ -206,30 +198,11 @@ impl StokesSolver for PeriodicStokes {
     }
 }
 
-/// Row `j` of h times the curl of `force`.
-fn curl(force: &StaggeredField, j: usize, row: &mut [f64]) {
-    let (nx, ny) = (force.grid().nx(), force.grid().ny());
-    let (fx, fy) = (force.x(), force.y());
-    let below = (j + ny - 1) % ny * nx;
-    let (fx_below, fx, fy) = (&fx[below..below + nx], &fx[j * nx..][..nx], &fy[j * nx..][..nx]);
-    row[0] = (fy[0] - fy[nx - 1]) - (fx[0] - fx_below[0]);
-    for (((out, fy), fx), fx_below) in row[1..].iter_mut().zip(fy.windows(2)).zip(&fx[1..]).zip(&fx_below[1..]) {
-        *out = (fy[1] - fy[0]) - (fx - fx_below);
-    }
-}
-
 /// The sum of a row with a value that is not finite is not finite.
 fn check_total(total: [f64; 2], force: &StaggeredField) -> Result<(), StokesError> {
     if total.into_iter().all(f64::is_finite) {
         Ok(())
     } else {
         Err(not_finite("the sum of the force", &[("the force", force.x()), ("the force", force.y())]))
-    }
-}
-
-/// `out = mean + upper - lower`.
-fn difference(out: &mut [f64], lower: &[f64], upper: &[f64], mean: f64) {
-    for ((out, lower), upper) in out.iter_mut().zip(lower).zip(upper) {
-        *out = mean + (upper - lower);
     }
 }

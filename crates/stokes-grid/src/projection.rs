@@ -1,10 +1,13 @@
 //! The thesis' projection method.
 
-use crate::checks::{check_grid, check_viscosity, not_finite};
-use crate::projection_channel::ChannelProjection;
-use crate::projection_periodic::PeriodicProjection;
-use crate::sums::sum;
+mod channel;
+mod periodic;
+
+use crate::error::checks::{check_grids, check_viscosity, not_finite};
+use crate::field::sum;
 use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
+use channel::ChannelProjection;
+use periodic::PeriodicProjection;
 
 /// Stokes flow with one viscosity by projection, thesis (2.21)-(2.30), in a periodic box or in a channel:
 ///
@@ -25,7 +28,7 @@ use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, 
 ///
 /// **Sizes.** Every size is correct; in both directions numbers of cells with no prime factors but 2, 3, 5, 7 and 11
 /// are fast, and `nx` should be even.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ProjectionStokes {
     grid: Grid,
     viscosity: f64,
@@ -33,7 +36,7 @@ pub struct ProjectionStokes {
     work: Work,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 enum Region {
     Periodic(Box<PeriodicProjection>),
     Channel(Box<ChannelProjection>),
@@ -60,9 +63,7 @@ impl ProjectionStokes {
     /// # Errors
     /// A periodic box, or a value that is not finite.
     pub fn set_drive(&mut self, drive: Drive) -> Result<(), StokesError> {
-        drive.check()?;
-        self.channel()?.set_drive(drive);
-        Ok(())
+        self.channel()?.conditions.set_drive(drive)
     }
 
     /// Moves the walls of a channel in the solutions to come.
@@ -70,11 +71,7 @@ impl ProjectionStokes {
     /// # Errors
     /// A periodic box, or walls of a channel with another number of cells.
     pub fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
-        let grid = self.grid;
-        let channel = self.channel()?;
-        walls.check(&grid)?;
-        channel.set_walls(walls);
-        Ok(())
+        self.channel()?.set_walls(walls)
     }
 
     fn channel(&mut self) -> Result<&mut ChannelProjection, StokesError> {
@@ -85,8 +82,7 @@ impl ProjectionStokes {
     }
 
     fn check(&self, force: &StaggeredField, velocity: &Grid) -> Result<(), StokesError> {
-        check_grid(&self.grid, force.grid(), "the force")?;
-        check_grid(&self.grid, velocity, "the velocity")?;
+        check_grids(&self.grid, &[("the force", force.grid()), ("the velocity", velocity)])?;
         let inner = if self.grid.has_walls() {
             self.grid.nx()..self.grid.nx() * self.grid.ny()
         } else {
@@ -113,14 +109,14 @@ impl StokesSolver for ProjectionStokes {
     fn walls(&self) -> &WallMotion {
         static AT_REST: WallMotion = WallMotion::AT_REST;
         match &self.region {
-            Region::Channel(channel) => channel.walls(),
+            Region::Channel(channel) => &channel.conditions.walls,
             Region::Periodic(_) => &AT_REST,
         }
     }
 
     fn drive(&self) -> Drive {
         match &self.region {
-            Region::Channel(channel) => channel.drive(),
+            Region::Channel(channel) => channel.conditions.drive,
             Region::Periodic(_) => Drive::default(),
         }
     }
@@ -146,7 +142,7 @@ impl StokesSolver for ProjectionStokes {
         pressure: &mut CentreField,
     ) -> Result<(), StokesError> {
         self.check(force, velocity.grid())?;
-        check_grid(&self.grid, pressure.grid(), "the pressure")?;
+        check_grids(&self.grid, &[("the pressure", pressure.grid())])?;
         match &mut self.region {
             Region::Periodic(periodic) => periodic.pressure(force, pressure, &mut self.work),
             Region::Channel(channel) => channel.pressure(force, pressure, &mut self.work)?,

@@ -1,10 +1,16 @@
 //! Two-dimensional transforms of real fields.
 
+mod columns;
+mod rows;
+mod symbol;
+
 use num_complex::Complex64;
 
-use crate::columns::ColumnTransform;
-use crate::rows::RowTransform;
-use crate::{StokesError, Symbol};
+use crate::StokesError;
+pub(crate) use columns::ColumnTransform;
+pub(crate) use rows::RowTransform;
+pub use symbol::Symbol;
+pub(crate) use symbol::second_difference;
 
 /// A plan for the discrete Fourier transform of real `nx` x `ny` arrays (row after row, x contiguous).
 ///
@@ -15,12 +21,12 @@ use crate::{StokesError, Symbol};
 /// and entries with m > nx / 2 follow from `F[nx - m, ny - n] = conj(F[m, n])`. Neither direction is normalised:
 /// forward and inverse one after the other multiply by `nx ny`.
 ///
-/// Rows are transformed by `realfft`; columns are gathered a few at a time into a buffer that stays in the cache, so
+/// Rows are transformed one by one; columns are gathered a few at a time into a buffer that stays in the cache, so
 /// that no pass walks through memory with a large stride and nothing is transposed as a whole.
 ///
 /// Every size is correct. Sizes whose only prime factors are 2, 3, 5, 7 and 11 are fast; an odd `nx` takes about a
 /// third longer, and other prime factors take two to nine times as long (measured from 235 to 1009).
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct RealFft2 {
     nx: usize,
     ny: usize,

@@ -1,8 +1,10 @@
 //! Stokes flow with a viscosity that varies in space.
 
-use crate::checks::{check_grid, check_viscosity};
-use crate::viscous_force::ViscousForce;
+mod viscous_force;
+
+use crate::error::checks::{check_grids, check_viscosity};
 use crate::{CentreField, Drive, NodeField, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
+use viscous_force::ViscousForce;
 
 /// Stokes flow with a viscosity eta(x, y) that varies in space,
 ///
@@ -40,7 +42,7 @@ use crate::{CentreField, Drive, NodeField, SolveReport, StaggeredField, StokesEr
 /// assert!(report.residual < 1e-6 && report.iterations < 80);
 /// # Ok::<(), stokes_grid::StokesError>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct TwoPhaseStokes<S> {
     solver: S,
     force: ViscousForce,
@@ -133,7 +135,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     ) -> Result<(), StokesError> {
         self.known = 0;
         for (own, solution) in self.previous.iter_mut().zip(solutions) {
-            check_grid(self.solver.grid(), solution.grid(), "a solution")?;
+            check_grids(self.solver.grid(), &[("a solution", solution.grid())])?;
             copy(own, solution);
             self.known += 1;
         }
@@ -184,8 +186,8 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// # Errors
     /// Fields of another grid, or a value that is not positive and finite; the viscosity is then left as it was.
     pub fn set_viscosity_fields(&mut self, centres: &CentreField, nodes: &NodeField) -> Result<(), StokesError> {
-        check_grid(self.solver.grid(), centres.grid(), "the viscosity at the centres")?;
-        check_grid(self.solver.grid(), nodes.grid(), "the viscosity at the nodes")?;
+        let fields = [("the viscosity at the centres", centres.grid()), ("the viscosity at the nodes", nodes.grid())];
+        check_grids(self.solver.grid(), &fields)?;
         centres.values().iter().chain(nodes.values()).try_for_each(|&value| check_viscosity(value))?;
         let (at_centres, at_nodes) = self.force.viscosity_mut();
         at_centres.copy_from_slice(centres.values());
@@ -256,8 +258,7 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
     }
 
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
-        check_grid(self.solver.grid(), force.grid(), "the force")?;
-        check_grid(self.solver.grid(), velocity.grid(), "the velocity")?;
+        check_grids(self.solver.grid(), &[("the force", force.grid()), ("the velocity", velocity.grid())])?;
         self.history.clear();
         copy(&mut self.solution, &self.imposed);
         self.fill_residual(force);
@@ -309,9 +310,9 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
         velocity: &StaggeredField,
         pressure: &mut CentreField,
     ) -> Result<(), StokesError> {
-        check_grid(self.solver.grid(), force.grid(), "the force")?;
-        check_grid(self.solver.grid(), velocity.grid(), "the velocity")?;
-        check_grid(self.solver.grid(), pressure.grid(), "the pressure")?;
+        let fields =
+            [("the force", force.grid()), ("the velocity", velocity.grid()), ("the pressure", pressure.grid())];
+        check_grids(self.solver.grid(), &fields)?;
         copy(&mut self.solution, velocity);
         self.fill_residual(force);
         let Self { solver, residual, direction, image, imposed, imposed_pressure: own, .. } = self;

@@ -8,10 +8,11 @@
 
 use std::f64::consts::TAU;
 
+use fourier::spectrum::largest_wave;
 use num_complex::Complex64;
 
 use crate::{
-    curve::{Curve, REFINEMENT, Transforms, largest_wave},
+    curve::{Curve, REFINEMENT, Transforms},
     greens::{Kernels, weighted},
 };
 

@@ -5,6 +5,7 @@ mod transform;
 
 use std::f64::consts::TAU;
 
+use fourier::spectrum::{copy_band, differentiate, largest_wave};
 use num_complex::Complex64;
 
 use crate::{
@@ -12,7 +13,7 @@ use crate::{
     error::{same_length, within},
 };
 pub use calculus::{PeriodicCalculus, TensionPlacement};
-pub(crate) use transform::{Transform, copy_band, differentiate, largest_wave};
+pub(crate) use transform::Transform;
 
 /// Fine nodes per node, where a flow is needed close to a curve.
 pub(crate) const REFINEMENT: usize = 4;

@@ -35,6 +35,9 @@ pub enum LayerError {
     /// A region without images where they are needed.
     #[error("the double layer as a matrix is for boxes and channels: use `InterfaceFlow` in the plane")]
     NoPeriod,
+    /// A transform of another length than planned for.
+    #[error(transparent)]
+    Transform(#[from] fourier::FourierError),
     /// Slices of different length.
     #[error("{name} has {found} entries where {expected} are needed")]
     WrongLength {

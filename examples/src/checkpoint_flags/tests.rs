@@ -1,6 +1,6 @@
 use super::*;
 use motile::ib_core::StepSize;
-use motile::setup::{GridMethod, Method, Setup};
+use motile::{GridMethod, Method, Setup};
 
 #[test]
 fn a_run_in_two_parts_is_a_whole_one() {

@@ -2,7 +2,7 @@ use super::*;
 use crate::{BoxFlags, ChannelFlags, DropletFlags, MethodFlags, OutputFlags, Preset};
 use clap::CommandFactory as _;
 use motile::ib_core::{AnyKernel, StepSize};
-use motile::setup::{DropletSetup, Exclusion, GridMethod, Method, MethodKind, Region, Setup, Start};
+use motile::{DropletSetup, Exclusion, GridMethod, Method, MethodKind, Region, Setup, Start};
 
 #[derive(Debug, Parser)]
 struct Flags {

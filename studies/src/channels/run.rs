@@ -6,8 +6,8 @@ use motile::active_interface::{
     trajectory::{RegimeCriteria, TrajectoryRecorder},
 };
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene};
-use motile::setup::{Built, DropletSetup, GridMethod, Method, Particles, Region, Setup};
 use motile::stokes_grid::Drive;
+use motile::{Built, DropletSetup, GridMethod, Method, Particles, Region, Setup};
 use motile_examples::{Steadiness, Summary};
 
 /// Excluded volume of the runs for speeds, and of those for amplitudes: the thesis does not give its own, and which

@@ -3,8 +3,8 @@
 use anyhow::Result;
 use motile::elastic_solids::{Solid, mesh::fitted_strip};
 use motile::ib_core::{Body, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
-use motile::setup::{DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
+use motile::{DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
 use motile_examples::Summary;
 
 use crate::step_cost::phases::Case;

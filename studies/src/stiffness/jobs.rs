@@ -1,7 +1,7 @@
 //! Which runs the study consists of.
 
 use clap::ValueEnum;
-use motile::setup::MeshKind;
+use motile::MeshKind;
 
 use crate::stiffness::run::WallMaterial;
 

@@ -13,11 +13,11 @@ use motile::elastic_solids::{
     solid::Observables,
 };
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
-use motile::setup::{
+use motile::stokes_grid::Drive;
+use motile::{
     Built, ChannelShape, DropletSetup, Exclusion, GridMethod, MarkerMotion, Material, MeshKind, Method, Particles,
     Region, Setup, SolidSetup, Surface,
 };
-use motile::stokes_grid::Drive;
 use motile_examples::{Decided, Passage, Steadiness, Summary};
 
 use crate::stiffness::history::History;

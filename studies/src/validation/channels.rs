@@ -1,7 +1,7 @@
 //! Studies of channels.
 
 use motile::ib_core::{AnyKernel, StepSize};
-use motile::setup::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
+use motile::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 use motile_tests::validation::swimmers::{speeds, steady};
 use motile_tests::validation::{Case, StudyError, Table, channel, lateral, order};

@@ -1,7 +1,7 @@
 //! Droplets of another viscosity than the exterior fluid, on the grid.
 
 use motile::active_interface::Flux;
-use motile::setup::{Contrast, DropletSetup, GridMethod, Method, Particles, Region, Setup};
+use motile::{Contrast, DropletSetup, GridMethod, Method, Particles, Region, Setup};
 use motile_tests::validation::contrast::{
     CostScene, Droplet, Errors, Exact, cold_iterations, field_errors, iterations_in_a_run, layer_errors, ratio_ten,
 };

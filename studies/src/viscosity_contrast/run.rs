@@ -3,7 +3,7 @@
 use anyhow::Result;
 use motile::active_interface::{ActiveDroplet, Convention, observables::InterfaceState, observe};
 use motile::ib_core::{Handle, Hydrodynamics, Scene, SceneError};
-use motile::setup::{Built, DropletSetup, IntegralMethod, Method, Region, Setup};
+use motile::{Built, DropletSetup, IntegralMethod, Method, Region, Setup};
 use motile_examples::Summary;
 
 /// Side of the box (R0).

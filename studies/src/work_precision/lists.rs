@@ -1,7 +1,7 @@
 //! Which settings are tried in which scene.
 
+use motile::Contrast;
 use motile::ib_core::{AnyKernel, StepSize};
-use motile::setup::Contrast;
 
 use crate::work_precision::settings::{Flow, Settings, Stepper};
 use crate::work_precision::studies::Study;

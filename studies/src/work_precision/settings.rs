@@ -1,7 +1,7 @@
 //! One way of computing a scene.
 
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
-use motile::setup::{Contrast, GridMethod, IntegralMethod, Method, Setup};
+use motile::{Contrast, GridMethod, IntegralMethod, Method, Setup};
 use motile_examples::Summary;
 use serde_json::Value;
 

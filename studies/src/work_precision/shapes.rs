@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Result, anyhow, bail};
+use motile::AnyFlow;
 use motile::active_interface::{ActiveDroplet, Curve, Motion, curve::polygon_moments};
 use motile::boundary_integral::{self, BoundaryIntegral, PeriodicCalculus, Region, TensionPlacement};
 use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
 use motile::ib_core::{AnyKernel, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Scene, Vec2};
-use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes};
 use motile_tests::validation::{Case, Reference, ReferenceFile, fixed_shapes};
 

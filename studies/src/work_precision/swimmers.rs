@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 use anyhow::{Result, anyhow};
 use motile::active_interface::ActiveDroplet;
 use motile::ib_core::{StepSize, System};
-use motile::setup::{AnyFlow, DropletSetup, Exclusion, Particles, Region, Setup};
 use motile::stokes_grid::Drive;
+use motile::{AnyFlow, DropletSetup, Exclusion, Particles, Region, Setup};
 use motile_tests::validation::{Reference, ReferenceFile};
 
 use crate::work_precision::cost::{Cost, march};

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use motile::active_interface::{ActiveDroplet, Flux, curve::polygon_area};
 use motile::ib_core::{Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, StepSize, System, Vec2};
-use motile::setup::{AnyFlow, GridMethod, IntegralMethod, MarkerMotion, Method, Particles, Setup};
+use motile::{AnyFlow, GridMethod, IntegralMethod, MarkerMotion, Method, Particles, Setup};
 
 use crate::hard_cases::{CaseError, Ending, Look, Outcome, Way};
 

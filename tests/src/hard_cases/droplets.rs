@@ -1,8 +1,8 @@
 //! Single droplets: strong activity, contrasts of viscosity, coarse and odd grids, narrow places.
 
 use motile::ib_core::Body;
-use motile::setup::{Built, DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
 use motile::stokes_grid::Drive;
+use motile::{Built, DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
 
 use crate::hard_cases::drive::{ADAPTIVE, by, run, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};

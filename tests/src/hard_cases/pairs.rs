@@ -1,7 +1,7 @@
 //! Two droplets.
 
-use motile::setup::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
 use motile::stokes_grid::Drive;
+use motile::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
 
 use crate::hard_cases::drive::{by, run_way};
 use crate::hard_cases::{Ending, Recipe, Trial, Way, expand};

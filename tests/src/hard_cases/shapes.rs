@@ -1,9 +1,9 @@
 //! Droplets without particles of difficult shapes, and some that are carried far.
 
+use motile::AnyFlow;
 use motile::active_interface::{ActiveDroplet, Curve};
 use motile::boundary_integral::{BoundaryIntegral, Region, Settings};
 use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, Scene, Vec2};
-use motile::setup::AnyFlow;
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
 
 use crate::hard_cases::drive::{ADAPTIVE, run, run_way};

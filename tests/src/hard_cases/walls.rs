@@ -2,10 +2,8 @@
 
 use motile::elastic_solids::{Mesher, Moduli, Solid, TriangleMesh, channel::StraightChannel, forces::Springs};
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
-use motile::setup::{
-    AnyFlow, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup, Surface,
-};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid};
+use motile::{AnyFlow, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup, Surface};
 
 use crate::hard_cases::drive::{by, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};

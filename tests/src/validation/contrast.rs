@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::Curve;
 use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
-use motile::setup::{AnyFlow, GridMethod, IntegralMethod, Method, Region};
+use motile::{AnyFlow, GridMethod, IntegralMethod, Method, Region};
 
 use crate::validation::StudyError;
 use crate::validation::scene::{flow, open_channel};

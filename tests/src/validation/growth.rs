@@ -8,7 +8,7 @@ use motile::active_interface::{
     theory::{LinearTheory, RoundDroplet},
 };
 use motile::ib_core::{Scene, StepSize, Vec2};
-use motile::setup::{AnyFlow, IntegralMethod, MarkerMotion, Method, Particles, Region, Setup};
+use motile::{AnyFlow, IntegralMethod, MarkerMotion, Method, Particles, Region, Setup};
 
 use crate::validation::StudyError;
 use crate::validation::scene::flow;

@@ -2,7 +2,7 @@
 
 use motile::active_interface::DropletWarning;
 use motile::ib_core::StepSize;
-use motile::setup::{Built, DropletSetup, GridMethod, Method, Particles, Setup, Start};
+use motile::{Built, DropletSetup, GridMethod, Method, Particles, Setup, Start};
 
 use crate::validation::StudyError;
 use crate::validation::scene::on_grid;

@@ -2,8 +2,8 @@
 
 use motile::boundary_integral::{self, BoundaryIntegral, Settings, forcing};
 use motile::ib_core::SmearedContrast;
-use motile::setup::{AnyFlow, Contrast, Exclusion, GridMethod, IntegralMethod, Method, Region, Setup};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
+use motile::{AnyFlow, Contrast, Exclusion, GridMethod, IntegralMethod, Method, Region, Setup};
 
 use crate::validation::StudyError;
 

@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::{Observables, observables::net_flux};
-use motile::ib_core::{Every, Hydrodynamics, Scene, StepSize, System, wall_gap};
-use motile::setup::{AnyFlow, Built, Method, Region, Setup};
+use motile::ib_core::{Every, Hydrodynamics, Scene, StepSize, System, gap::wall_gap};
 use motile::stokes_grid::flux;
+use motile::{AnyFlow, Built, Method, Region, Setup};
 
 use crate::validation::channel::solver;
 use crate::validation::fixed_shapes::couple;

@@ -1,14 +1,13 @@
 //! Concentrations to start from.
 
 use std::f64::consts::TAU;
-use std::fmt;
-use std::sync::Arc;
 
 use ib_core::Vec2;
 
 use crate::InterfaceError;
-use crate::curve::polygon::{cross, edges};
+use crate::curve::polygon::edges;
 use crate::error::{finite, positive};
+use crate::function::Function;
 
 /// A concentration of particles along a closed curve, to start a run from.
 ///
@@ -21,33 +20,15 @@ use crate::error::{finite, positive};
 /// assert!(numbers[0] / length < 0.2 && (numbers[50] / length - 200.0).abs() < 0.2);
 /// # Ok::<(), active_interface::InterfaceError>(())
 /// ```
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct InitialConcentration(Kind);
 
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 enum Kind {
     Polarised { mean: f64, heading: f64 },
     Perturbed { mean: f64, amplitude: f64, seed: u64 },
-    PolarAngle(Arc<dyn Fn(f64) -> f64 + Send + Sync>),
-    ArcFraction(Arc<dyn Fn(f64) -> f64 + Send + Sync>),
-}
-
-impl fmt::Debug for InitialConcentration {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.0 {
-            Kind::Polarised { mean, heading } => {
-                f.debug_struct("Polarised").field("mean", mean).field("heading", heading).finish()
-            }
-            Kind::Perturbed { mean, amplitude, seed } => f
-                .debug_struct("Perturbed")
-                .field("mean", mean)
-                .field("amplitude", amplitude)
-                .field("seed", seed)
-                .finish(),
-            Kind::PolarAngle(_) => f.write_str("PolarAngle"),
-            Kind::ArcFraction(_) => f.write_str("ArcFraction"),
-        }
-    }
+    PolarAngle(Function<f64>),
+    ArcFraction(Function<f64>),
 }
 
 /// Fourier modes of a seeded perturbation.
@@ -98,13 +79,13 @@ impl InitialConcentration {
     /// A concentration (particles per length) as a function of the polar angle about the centroid, from -pi to pi, for
     /// curves on which it is single-valued. Averaged over each segment by Simpson's rule and not scaled.
     pub fn by_polar_angle(concentration: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
-        Self(Kind::PolarAngle(Arc::new(concentration)))
+        Self(Kind::PolarAngle(Function::new(concentration)))
     }
 
     /// A concentration (particles per length) as a function of the arc length from the first marker over the
     /// perimeter, from 0 to 1. Averaged over each segment by Simpson's rule and not scaled.
     pub fn by_arc_fraction(concentration: impl Fn(f64) -> f64 + Send + Sync + 'static) -> Self {
-        Self(Kind::ArcFraction(Arc::new(concentration)))
+        Self(Kind::ArcFraction(Function::new(concentration)))
     }
 
     /// The particle numbers of the segments of the closed polygon through `markers` (counter-clockwise), segment k from
@@ -121,9 +102,7 @@ impl InitialConcentration {
             Kind::Polarised { heading, .. } => polarised(markers, centre, *heading),
             Kind::Perturbed { amplitude, seed, .. } => perturbed(&lengths, perimeter, *amplitude, *seed),
             Kind::PolarAngle(f) => edges(markers)
-                .map(|(a, b)| {
-                    simpson(f.as_ref(), [a, (a + b) * 0.5, b].map(|p| (p.y - centre.y).atan2(p.x - centre.x)))
-                })
+                .map(|(a, b)| simpson(f, [a, (a + b) * 0.5, b].map(|p| (p.y - centre.y).atan2(p.x - centre.x))))
                 .collect(),
             Kind::ArcFraction(f) => {
                 let mut end = 0.0;
@@ -132,7 +111,7 @@ impl InitialConcentration {
                     .map(|length| {
                         let start = end;
                         end += length / perimeter;
-                        simpson(f.as_ref(), [start, 0.5 * (start + end), end.min(1.0)])
+                        simpson(f, [start, 0.5 * (start + end), end.min(1.0)])
                     })
                     .collect()
             }
@@ -155,7 +134,7 @@ impl InitialConcentration {
     }
 }
 
-fn simpson(f: &(dyn Fn(f64) -> f64 + Send + Sync), [a, middle, b]: [f64; 3]) -> f64 {
+fn simpson(f: &Function<f64>, [a, middle, b]: [f64; 3]) -> f64 {
     (f(a) + 4.0 * f(middle) + f(b)) / 6.0
 }
 
@@ -164,7 +143,7 @@ fn polarised(markers: &[Vec2], centre: Vec2, heading: f64) -> Vec<f64> {
     edges(markers)
         .map(|(a, b)| {
             let (a, b) = (a - centre, b - centre);
-            let width = cross(a, b).atan2(a.dot(&b));
+            let width = a.perp(&b).atan2(a.dot(&b));
             let middle = a.y.atan2(a.x) + 0.5 * width - heading;
             // mean of cos over the interval = cos(middle) sin(width/2)/(width/2)
             let half = 0.5 * width;

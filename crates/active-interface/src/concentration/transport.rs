@@ -1,8 +1,7 @@
 //! Particles carried along a closed curve by a flow and by diffusion.
 
 use super::flux::{Flux, weno5};
-use crate::error::{all_finite, all_positive, not_negative};
-use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
+use crate::tridiagonal::CyclicTridiagonal;
 
 /// Conservative transport of particles along a closed curve of M segments.
 ///
@@ -18,7 +17,8 @@ use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
 /// round-off.
 ///
 /// All velocities, fluxes and diffusivities are lists of M values, one a marker; numbers and lengths are lists of M
-/// values, one a segment. Nothing is allocated after construction.
+/// values, one a segment. What is not finite stays so: the state that follows is refused when it is read. Nothing is
+/// allocated after construction.
 #[derive(Debug, Clone)]
 pub(crate) struct Transport {
     flux: Flux,
@@ -29,9 +29,6 @@ pub(crate) struct Transport {
     upper: Vec<f64>,
     solver: CyclicTridiagonal,
 }
-
-/// What a number, length or velocity that is not finite shows up in.
-const FLUXES: &str = "the fluxes of particles";
 
 impl Transport {
     /// A plan for `segments` segments, at least as many as a reconstruction takes.
@@ -62,16 +59,13 @@ impl Transport {
     /// relative to the markers (length per time; positive towards higher marker numbers).
     ///
     /// Face values are not allowed to be negative: where a reconstruction undershoots zero nothing flows.
-    ///
-    /// # Errors
-    /// Fluxes that are not finite (`rate` is then as it was).
     pub(crate) fn add_advection(
         &mut self,
         numbers: &[f64],
         lengths: &[f64],
         relative_velocities: &[f64],
         rate: &mut [f64],
-    ) -> Result<(), InterfaceError> {
+    ) {
         write_concentrations(numbers, lengths, &mut self.concentrations);
         let c = &self.concentrations;
         let m = c.len();
@@ -90,16 +84,11 @@ impl Transport {
             };
             *flux = face * velocity;
         }
-        all_finite(FLUXES, &self.fluxes)?;
         add_flux_differences(&self.fluxes, 1.0, rate);
-        Ok(())
     }
 
     /// Adds `factor` times the diffusive part of dn_k/dt to `out`, for the diffusivities D_k at the markers (length
     /// squared per time).
-    ///
-    /// # Errors
-    /// Fluxes that are not finite (`out` is then as it was).
     pub(crate) fn add_diffusion(
         &mut self,
         lengths: &[f64],
@@ -107,31 +96,21 @@ impl Transport {
         numbers: &[f64],
         factor: f64,
         out: &mut [f64],
-    ) -> Result<(), InterfaceError> {
+    ) {
         write_concentrations(numbers, lengths, &mut self.concentrations);
-        self.diffuse(lengths, diffusivities)?;
+        self.diffuse(lengths, diffusivities);
         add_flux_differences(&self.fluxes, factor, out);
-        Ok(())
     }
 
     /// Replaces the particle numbers n by the solution y of y - `factor` L y = n, where L is the operator of
     /// [`Transport::add_diffusion`] and `factor` (time) and the diffusivities are not negative.
     ///
     /// The result is n plus a difference of fluxes, so that the total is kept to round-off; where all n are positive,
-    /// so are all y, but for round-off.
-    ///
-    /// # Errors
-    /// Lengths that are not positive, a negative factor, a singular system (negative
-    /// diffusivities), fluxes that are not finite (`numbers` is then as it was).
-    pub(crate) fn solve_diffusion(
-        &mut self,
-        lengths: &[f64],
-        diffusivities: &[f64],
-        factor: f64,
-        numbers: &mut [f64],
-    ) -> Result<(), InterfaceError> {
-        not_negative("the factor of the implicit diffusion", factor)?;
-        all_positive("the segment lengths", lengths)?;
+    /// so are all y, but for round-off. Not a number where a length is not positive.
+    pub(crate) fn solve_diffusion(&mut self, lengths: &[f64], diffusivities: &[f64], factor: f64, numbers: &mut [f64]) {
+        if !lengths.iter().all(|&length| length > 0.0) {
+            return numbers.fill(f64::NAN);
+        }
         let m = self.len();
         // Unknowns are the concentrations: l_k c_k - factor (g_{k+1} (c_{k+1} - c_k) - g_k (c_k - c_{k-1})) = n_k, a
         // symmetric matrix whose diagonal dominates.
@@ -144,19 +123,17 @@ impl Transport {
             self.diagonal[k] = length - self.lower[k] - self.upper[k];
         }
         self.concentrations.copy_from_slice(numbers);
-        self.solver.solve(&self.lower, &self.diagonal, &self.upper, &mut self.concentrations)?;
-        self.diffuse(lengths, diffusivities)?;
+        self.solver.solve(&self.lower, &self.diagonal, &self.upper, &mut self.concentrations);
+        self.diffuse(lengths, diffusivities);
         add_flux_differences(&self.fluxes, factor, numbers);
-        Ok(())
     }
 
     /// Diffusive fluxes of the concentrations in the scratch.
-    fn diffuse(&mut self, lengths: &[f64], diffusivities: &[f64]) -> Result<(), InterfaceError> {
+    fn diffuse(&mut self, lengths: &[f64], diffusivities: &[f64]) {
         let (c, m) = (&self.concentrations, self.concentrations.len());
         for (k, (flux, diffusivity)) in self.fluxes.iter_mut().zip(diffusivities).enumerate() {
             *flux = -diffusivity * (c[k] - c[before(k, 1, m)]) / spacing_at(lengths, k);
         }
-        all_finite(FLUXES, &self.fluxes)
     }
 }
 

@@ -3,7 +3,6 @@
 use ib_core::Vec2;
 
 use crate::InterfaceError;
-use crate::curve::polygon::cross;
 use crate::error::{all_points_finite, enough};
 
 /// Finds where a closed polygon crosses or touches itself, in a time proportional to the number of its points where
@@ -16,26 +15,20 @@ use crate::error::{all_points_finite, enough};
 /// Polygons that are star-shaped about the mean of their points, such as those of most droplets, need no table: one
 /// pass over the points is enough.
 #[derive(Debug, Clone, Default)]
-pub struct CrossingFinder {
+pub(crate) struct CrossingFinder {
     cells: Vec<(i64, i64)>,
     starts: Vec<usize>,
     entries: Vec<usize>,
 }
 
 impl CrossingFinder {
-    /// A finder without scratch yet.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// The first pair of segments that meet although they are not neighbours, or that are neighbours and fold back
     /// onto each other: each by the number of its first point, the smaller first; of several pairs the one with the
     /// smallest first, then second number. `None` for a simple polygon.
     ///
     /// # Errors
     /// Fewer than three points, points that are not finite.
-    pub fn first_crossing(&mut self, points: &[Vec2]) -> Result<Option<(usize, usize)>, InterfaceError> {
+    pub(crate) fn first_crossing(&mut self, points: &[Vec2]) -> Result<Option<(usize, usize)>, InterfaceError> {
         enough("points of a polygon", points.len(), 3)?;
         all_points_finite("the points of the polygon", points)?;
         if is_star_shaped(points) {
@@ -110,7 +103,7 @@ impl CrossingFinder {
 /// # Errors
 /// Fewer than three points, points that are not finite.
 pub fn first_crossing(points: &[Vec2]) -> Result<Option<(usize, usize)>, InterfaceError> {
-    CrossingFinder::new().first_crossing(points)
+    CrossingFinder::default().first_crossing(points)
 }
 
 fn bucket(cell: (i64, i64), mask: usize) -> usize {
@@ -127,7 +120,7 @@ fn is_star_shaped(points: &[Vec2]) -> bool {
     let mut before = points[points.len() - 1] - centre;
     for point in points {
         let here = point - centre;
-        least = least.min(cross(before, here));
+        least = least.min(before.perp(&here));
         widest = widest.max(here.norm_squared());
         turns += usize::from(before.y < 0.0 && here.y >= 0.0);
         before = here;
@@ -138,14 +131,14 @@ fn is_star_shaped(points: &[Vec2]) -> bool {
 
 /// Whether an edge is followed by one that runs back along it, or has no length.
 fn folds_back(first: Vec2, second: Vec2) -> bool {
-    (cross(first, second) == 0.0 && first.dot(&second) < 0.0) || first == Vec2::zeros() || second == Vec2::zeros()
+    (first.perp(&second) == 0.0 && first.dot(&second) < 0.0) || first == Vec2::zeros() || second == Vec2::zeros()
 }
 
 /// Whether the segments pq and rs have a point in common.
 fn segments_meet(p: Vec2, q: Vec2, r: Vec2, s: Vec2) -> bool {
     let (along, other) = (q - p, s - r);
-    let (a, b) = (cross(along, r - p), cross(along, s - p));
-    let (c, d) = (cross(other, p - r), cross(other, q - r));
+    let (a, b) = (along.perp(&(r - p)), along.perp(&(s - p)));
+    let (c, d) = (other.perp(&(p - r)), other.perp(&(q - r)));
     if a == 0.0 && b == 0.0 {
         // On one line: compare along it.
         let (from, to) = (along.dot(&(r - p)), along.dot(&(s - p)));

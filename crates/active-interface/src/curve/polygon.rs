@@ -5,11 +5,6 @@ use ib_core::Vec2;
 use crate::InterfaceError;
 use crate::error::{all_points_finite, enough};
 
-/// Cross product a_x b_y - a_y b_x.
-pub(crate) fn cross(a: Vec2, b: Vec2) -> f64 {
-    a.x * b.y - a.y * b.x
-}
-
 /// The edges of a closed polygon, as pairs of end points.
 pub(crate) fn edges(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
     points.iter().zip(points.iter().cycle().skip(1)).map(|(&a, &b)| (a, b))
@@ -32,7 +27,7 @@ pub struct AreaMoments {
 
 pub(crate) fn raw_area(points: &[Vec2]) -> f64 {
     let Some(&origin) = points.first() else { return 0.0 };
-    0.5 * edges(points).map(|(a, b)| cross(a - origin, b - origin)).sum::<f64>()
+    0.5 * edges(points).map(|(a, b)| (a - origin).perp(&(b - origin))).sum::<f64>()
 }
 
 pub(crate) fn raw_perimeter(points: &[Vec2]) -> f64 {
@@ -46,7 +41,7 @@ pub(crate) fn raw_moments(points: &[Vec2]) -> AreaMoments {
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     for (a, b) in edges(points) {
         let (a, b) = (a - origin, b - origin);
-        let twice = cross(a, b);
+        let twice = a.perp(&b);
         area += twice / 2.0;
         first += (a + b) * (twice / 6.0);
         xx += twice * (a.x * a.x + a.x * b.x + b.x * b.x) / 12.0;

@@ -2,7 +2,7 @@
 
 use ib_core::Vec2;
 
-use crate::curve::polygon::{cross, edges};
+use crate::curve::polygon::edges;
 use crate::{InterfaceError, tridiagonal::CyclicTridiagonal};
 
 /// The twice continuously differentiable cubic spline through the points of a closed polygon, in the length of the
@@ -33,7 +33,7 @@ impl PeriodicSpline {
         for axis in 0..2 {
             let slope = |k: usize| (points[(k + 1) % m][axis] - points[k][axis]) / chords[k];
             let mut x: Vec<f64> = (0..m).map(|k| slope(k) - slope(before(k))).collect();
-            plan.solve(&lower, &diagonal, &upper, &mut x)?;
+            plan.solve(&lower, &diagonal, &upper, &mut x);
             for (bend, x) in bends.iter_mut().zip(x) {
                 bend[axis] = x;
             }
@@ -75,7 +75,7 @@ impl PeriodicSpline {
             let h = self.knots[k + 1] - self.knots[k];
             for (x, weight) in nodes {
                 let (position, derivative) = self.piece(k, x);
-                sum += 0.5 * weight * h * cross(position - origin, derivative);
+                sum += 0.5 * weight * h * (position - origin).perp(&derivative);
             }
         }
         sum

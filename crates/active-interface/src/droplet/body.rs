@@ -2,16 +2,25 @@
 
 use std::f64::consts::PI;
 
-use ib_core::{Body, BodyError, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
+use ib_core::{
+    Body, BodyError, MarkerKind, Medium, Vec2,
+    body::{StepInfo, StepLimits},
+    checkpoint::SavedState,
+};
 
-use super::geometry::{equidistribute, outward, signed_area};
+use super::geometry::{Geometry, equidistribute, outward};
 use super::redistribution::redistribute;
+use super::shape::Shape;
+use super::spectral::SpectralCurve;
 use super::{MINIMUM_MARKERS, finest_response};
 use crate::{
     ActiveDroplet, InterfaceError, Motion,
     concentration::{Repair, Transport, repair_positivity},
+    curve::polygon::raw_area,
 };
 
+/// Concentrations (particles per length) whose tensions tell a law, in whatever units it is.
+const LAW_SAMPLES: [f64; 12] = [0.0, 0.01, 0.1, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 30.0, 100.0, 1000.0];
 /// Part of all particles in one segment from which on they have collapsed.
 const COLLAPSED: f64 = 0.15;
 
@@ -35,19 +44,19 @@ impl Body for ActiveDroplet {
     }
 
     fn marker_count(&self) -> usize {
-        self.markers.len()
+        self.shape.markers.len()
     }
 
     fn write_markers(&self, positions: &mut [Vec2]) {
-        positions.copy_from_slice(&self.markers);
+        positions.copy_from_slice(&self.shape.markers);
     }
 
     fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        self.fit(medium)?;
-        let count = self.markers.len();
-        let mut before = self.tensions[count - 1] * self.geometry.directions[count - 1];
+        self.fit(medium);
+        let count = self.shape.markers.len();
+        let mut before = self.tensions[count - 1] * self.shape.geometry.directions[count - 1];
         for (k, force) in forces.iter_mut().enumerate() {
-            let here = self.tensions[k] * self.geometry.directions[k];
+            let here = self.tensions[k] * self.shape.geometry.directions[k];
             *force = here - before;
             before = here;
         }
@@ -58,43 +67,45 @@ impl Body for ActiveDroplet {
     }
 
     fn state_len(&self) -> usize {
-        2 * self.markers.len() + self.numbers.len()
+        2 * self.shape.markers.len() + self.numbers.len()
     }
 
     fn write_state(&self, state: &mut [f64]) {
-        let (positions, numbers) = state.split_at_mut(2 * self.markers.len());
-        for (pair, marker) in positions.chunks_exact_mut(2).zip(&self.markers) {
+        let (positions, numbers) = state.split_at_mut(2 * self.shape.markers.len());
+        for (pair, marker) in positions.chunks_exact_mut(2).zip(&self.shape.markers) {
             pair.copy_from_slice(marker.as_slice());
         }
         numbers.copy_from_slice(&self.numbers);
     }
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
-        // The count differs from the present one only where a step with insertion is taken back.
+        // The count differs from the present one only where a step with insertion is rejected.
         let count = if self.transport.is_some() { state.len() / 3 } else { state.len() / 2 };
         if let Some(index) = state.iter().position(|value| !value.is_finite()) {
             let what = if index < 2 * count { "marker coordinate" } else { "particle number" };
             return Err(BodyError::NonFinite { what, index, value: state[index] });
         }
         let (positions, numbers) = state.split_at(2 * count);
-        self.resize(count)?;
-        for (marker, pair) in self.markers.iter_mut().zip(positions.chunks_exact(2)) {
-            *marker = Vec2::new(pair[0], pair[1]);
+        self.resize(count);
+        if !self.shape.is_at(positions) {
+            std::mem::swap(&mut self.shape, &mut self.other);
+            self.shape.move_to(positions, self.spectral.as_mut());
         }
         self.numbers.copy_from_slice(numbers);
-        Ok(self.update()?)
+        self.update_tensions();
+        Ok(())
     }
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
-        let count = self.markers.len();
+        let count = self.shape.markers.len();
         self.motions.resize(count, Vec2::zeros());
         self.slip.resize(count, 0.0);
         match self.motion {
             Motion::Equidistributed { relaxation, .. } => {
                 let (motions, slip) = (&mut self.motions, &mut self.slip);
                 match self.spectral.as_mut() {
-                    Some(curve) => curve.equidistribute(&self.geometry, velocities, relaxation, motions, slip),
-                    None => equidistribute(&self.geometry, velocities, relaxation, motions, slip),
+                    Some(curve) => curve.equidistribute(&self.shape.geometry, velocities, relaxation, motions, slip),
+                    None => equidistribute(&self.shape.geometry, velocities, relaxation, motions, slip),
                 }
             }
             Motion::WithFluid => {
@@ -103,7 +114,8 @@ impl Body for ActiveDroplet {
             }
         }
         if let Some(band) = self.band.as_mut() {
-            band.apply(&mut self.motions);
+            // As long as the droplet since `fit`.
+            let _ = band.apply(&mut self.motions);
         }
         let (positions, numbers) = rate.split_at_mut(2 * count);
         for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {
@@ -111,24 +123,18 @@ impl Body for ActiveDroplet {
         }
         numbers.fill(0.0);
         if let Some(transport) = self.transport.as_mut() {
+            let lengths = &self.shape.geometry.lengths;
+            transport.add_advection(&self.numbers, lengths, &self.slip, numbers);
             // What the stabiliser adds implicitly is taken off here.
-            let lengths = &self.geometry.lengths;
-            let advected = transport.add_advection(&self.numbers, lengths, &self.slip, numbers);
-            let stabilised = if self.stabiliser.len() == count {
-                transport.add_diffusion(lengths, &self.stabiliser, &self.numbers, -1.0, numbers)
-            } else {
-                Ok(())
-            };
-            // Fluxes that are not finite: the state that this leads to is refused when it is read.
-            if advected.is_err() || stabilised.is_err() {
-                numbers.fill(f64::NAN);
+            if self.stabiliser.len() == count {
+                transport.add_diffusion(lengths, &self.stabiliser, &self.numbers, -1.0, numbers);
             }
         }
     }
 
     fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
-        let count = self.markers.len();
-        self.fit(medium)?;
+        let count = self.shape.markers.len();
+        self.fit(medium);
         self.diffusivities.resize(count, 0.0);
         self.diffusivities.fill(self.diffusion);
         self.stabiliser.clear();
@@ -149,28 +155,19 @@ impl Body for ActiveDroplet {
     }
 
     fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
-        self.read_other(state);
-        let split = 2 * self.markers.len();
+        let (positions, numbers) = state.split_at(2 * self.shape.markers.len());
+        let out = &mut out[positions.len()..];
         if let Some(transport) = self.transport.as_mut() {
-            let lengths = &self.other_geometry.lengths;
-            let added =
-                transport.add_diffusion(lengths, &self.diffusivities, &state[split..], factor, &mut out[split..]);
-            if added.is_err() {
-                out[split..].fill(f64::NAN);
-            }
+            let geometry = geometry_at(&self.shape, &mut self.other, self.spectral.as_mut(), positions);
+            transport.add_diffusion(&geometry.lengths, &self.diffusivities, numbers, factor, out);
         }
     }
 
     fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
-        self.read_other(state);
-        let split = 2 * self.markers.len();
+        let (positions, numbers) = state.split_at_mut(2 * self.shape.markers.len());
         if let Some(transport) = self.transport.as_mut() {
-            let lengths = &self.other_geometry.lengths;
-            // A state that is not finite or has collapsed segments is refused when it is read.
-            let solved = transport.solve_diffusion(lengths, &self.diffusivities, factor, &mut state[split..]);
-            if solved.is_err() {
-                state[split..].fill(f64::NAN);
-            }
+            let geometry = geometry_at(&self.shape, &mut self.other, self.spectral.as_mut(), positions);
+            transport.solve_diffusion(&geometry.lengths, &self.diffusivities, factor, numbers);
         }
     }
 
@@ -182,32 +179,32 @@ impl Body for ActiveDroplet {
                     let (tensions, count) = (&self.tensions, self.tensions.len());
                     let strength =
                         |k: usize| 0.5 * rate * (tensions[k] + tensions[if k == 0 { count - 1 } else { k - 1 }]);
-                    self.filter.apply(&mut self.markers, &self.geometry, spacing, strength)?;
-                    self.update()?;
+                    self.filter.apply(&mut self.shape.markers, &self.shape.geometry, spacing, strength);
+                    self.update();
                 }
             }
             Motion::Equidistributed { .. } => {}
             Motion::WithFluid => {
                 let (inserted, removed) =
-                    redistribute(&mut self.markers, &mut self.numbers, self.target_spacing, MINIMUM_MARKERS);
+                    redistribute(&mut self.shape.markers, &mut self.numbers, self.target_spacing, MINIMUM_MARKERS);
                 self.last_redistributed = (inserted, removed);
                 if inserted + removed > 0 {
-                    self.resize(self.markers.len())?;
-                    self.update()?;
+                    self.resize(self.shape.markers.len());
+                    self.update();
                 }
             }
         }
         if self.keeps_area {
-            self.restore_area()?;
+            self.restore_area();
         }
         if self.transport.is_some() {
             self.last_repair = repair_positivity(&mut self.numbers)?;
             if self.last_repair.segments > 0 {
-                self.update()?;
+                self.update_tensions();
             }
         }
-        if let Some((first, second)) = self.crossing.first_crossing(&self.markers)? {
-            let place = self.markers[first];
+        if let Some((first, second)) = self.crossing.first_crossing(&self.shape.markers)? {
+            let place = self.shape.markers[first];
             return Err(BodyError::SelfCrossing { x: place.x, y: place.y, first, second });
         }
         self.check_bounds()
@@ -226,10 +223,30 @@ impl Body for ActiveDroplet {
 
     /// The radius of a circle of the same area for positions, the mean for particle numbers.
     fn write_scales(&self, scales: &mut [f64]) {
-        let (positions, numbers) = scales.split_at_mut(2 * self.markers.len());
+        let (positions, numbers) = scales.split_at_mut(2 * self.shape.markers.len());
         positions.fill((self.initial_area / PI).sqrt());
         let mean = self.numbers.iter().sum::<f64>() / self.numbers.len().max(1) as f64;
         numbers.fill(if mean > 0.0 { mean } else { 1.0 });
+    }
+
+    /// Viscosity, tension law and diffusion; the number of markers unless the fluid carries them along.
+    fn properties(&self) -> Vec<(String, f64)> {
+        let mut properties = Vec::new();
+        let mut push = |name: &str, value: f64| properties.push((name.to_owned(), value));
+        if let Some(viscosity) = self.viscosity_inside {
+            push("the viscosity inside", viscosity);
+        }
+        if self.transport.is_some() {
+            push("the diffusion constant", self.diffusion);
+        }
+        for concentration in LAW_SAMPLES {
+            let name = format!("the tension at a concentration of {concentration}");
+            push(&name, self.tension.value(concentration));
+        }
+        if !matches!(self.motion, Motion::WithFluid) {
+            push("the number of markers", self.marker_count() as f64);
+        }
+        properties
     }
 
     fn save(&self) -> SavedState {
@@ -238,7 +255,7 @@ impl Body for ActiveDroplet {
         self.write_state(&mut reals);
         reals.extend_from_slice(&self.slip);
         reals.extend([*target_spacing, *initial_area, *initial_number, repair.moved]);
-        let counts = [self.markers.len(), repair.segments, repair.furthest, redistributed.0, redistributed.1];
+        let counts = [self.shape.markers.len(), repair.segments, repair.furthest, redistributed.0, redistributed.1];
         SavedState { reals, counts: counts.map(|count| count as u64).to_vec() }
     }
 
@@ -256,9 +273,9 @@ impl Body for ActiveDroplet {
         }
         let (state, rest) = saved.reals.split_at((per_marker - 1) * count);
         let (slip, numbers) = rest.split_at(count);
-        self.resize(count)?;
+        self.resize(count);
         self.read_state(state)?;
-        self.fit(medium)?;
+        self.fit(medium);
         self.slip.copy_from_slice(slip);
         (self.target_spacing, self.initial_area, self.initial_number) = (numbers[0], numbers[1], numbers[2]);
         self.repair = Repair { segments: segments as usize, moved: numbers[3], furthest: furthest as usize };
@@ -267,13 +284,28 @@ impl Body for ActiveDroplet {
     }
 }
 
+/// The geometry at the marker positions of a state: that of the present shape where it is there, that of the other one
+/// where it is not.
+fn geometry_at<'a>(
+    present: &'a Shape,
+    other: &'a mut Shape,
+    spectral: Option<&mut SpectralCurve>,
+    positions: &[f64],
+) -> &'a Geometry {
+    if present.is_at(positions) {
+        return &present.geometry;
+    }
+    other.move_to(positions, spectral);
+    &other.geometry
+}
+
 impl ActiveDroplet {
     /// Area and particles are what they were, and no tension law without a plateau has gathered the particles in a
     /// point.
     fn check_bounds(&self) -> Result<(), BodyError> {
         let total: f64 = self.numbers.iter().sum();
         let changes = [
-            ("the area", signed_area(&self.markers) / self.initial_area - 1.0),
+            ("the area", raw_area(&self.shape.markers) / self.initial_area - 1.0),
             ("the number of particles", if total > 0.0 { total / self.initial_number - 1.0 } else { 0.0 }),
         ];
         for ((what, change), bound) in changes.into_iter().zip(self.bounds) {
@@ -281,7 +313,7 @@ impl ActiveDroplet {
                 return Err(BodyError::NotConserved { what, change, bound });
             }
         }
-        if self.collapsible && total > 0.0 {
+        if total > 0.0 && self.tension.warning().is_some() {
             let most = self.numbers.iter().fold(0.0_f64, |a, &b| a.max(b));
             if most > COLLAPSED * total {
                 return Err(InterfaceError::Collapse { part: most / total }.into());
@@ -290,49 +322,28 @@ impl ActiveDroplet {
         Ok(())
     }
 
-    /// Makes all lists fit `count` markers.
-    fn resize(&mut self, count: usize) -> Result<(), InterfaceError> {
-        self.markers.resize(count, Vec2::zeros());
+    /// Makes all lists but those of the shape fit `count` markers.
+    fn resize(&mut self, count: usize) {
         if let Some(transport) = &self.transport {
             self.numbers.resize(count, 0.0);
             if transport.len() != count {
                 self.transport = Some(Transport::new(count, transport.flux()));
             }
         }
-        if self.diffusivities.len() != count {
-            self.diffusivities.resize(count, self.diffusion);
-        }
-        if self.slip.len() != count {
-            self.slip.resize(count, 0.0);
-        }
-        Ok(())
-    }
-
-    /// The geometry of a state of the present length that is not the droplet's own.
-    fn read_other(&mut self, state: &[f64]) {
-        if self.transport.is_none() {
-            return;
-        }
-        self.other_markers.clear();
-        self.other_markers
-            .extend(state[..2 * self.markers.len()].chunks_exact(2).map(|pair| Vec2::new(pair[0], pair[1])));
-        self.other_geometry.update(&self.other_markers);
-        if let Some(spectral) = self.spectral.as_mut() {
-            spectral.refine(&self.other_markers, &mut self.other_geometry);
-        }
+        self.diffusivities.resize(count, self.diffusion);
+        self.slip.resize(count, 0.0);
     }
 
     /// Moves all markers along their normals by the same distance so that the area is the initial one (twice, the
     /// second time for the quadratic part).
-    fn restore_area(&mut self) -> Result<(), InterfaceError> {
+    fn restore_area(&mut self) {
         for _ in 0..2 {
-            let missing = self.initial_area - signed_area(&self.markers);
-            let total: f64 = self.geometry.weights.iter().sum();
-            for (marker, tau) in self.markers.iter_mut().zip(&self.geometry.tangents) {
+            let missing = self.initial_area - raw_area(&self.shape.markers);
+            let total: f64 = self.shape.geometry.weights.iter().sum();
+            for (marker, tau) in self.shape.markers.iter_mut().zip(&self.shape.geometry.tangents) {
                 *marker += missing / total * outward(*tau);
             }
-            self.update()?;
+            self.update();
         }
-        Ok(())
     }
 }

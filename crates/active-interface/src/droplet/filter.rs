@@ -1,28 +1,28 @@
-//! The filter of wiggles that the grid does not see.
+//! The filter of modes above the cut-off of the kernel, which the grid does not see.
 
 use ib_core::Vec2;
 
 use super::geometry::{Geometry, outward};
-use crate::{InterfaceError, tridiagonal::CirculantTridiagonal};
+use crate::tridiagonal::CirculantTridiagonal;
 
-/// Largest part of a wiggle that one pass takes away.
+/// Largest part of a mode that one pass takes away.
 const STRONGEST: f64 = 0.5;
 /// Most passes a step; steps that would need more do not see what the filter is for.
 const MOST_PASSES: f64 = 20.0;
 
-/// Relaxes wiggles of markers shorter than the kernel (docs/method.md, section 4). The kernel's transform vanishes at
+/// Relaxes modes of the markers shorter than the kernel (docs/method.md, section 4). The kernel's transform vanishes at
 /// the wave number 2 pi / h, so that tension does not see them while the converging surface flow amplifies them.
 ///
 /// `e = (1 - S)^2 X`, `S = (1 - l^2 d_ss)^-1`, l = h/2; each marker moves by `-a (e . n) n`, `a = dt gamma / (2 eta
 /// h)`, in as many passes as make a at most a half in each, so that what the filter does in a time does not depend on
 /// the length of steps; the area that this would change is put back evenly.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct WiggleFilter {
+pub(crate) struct ShortWaveFilter {
     once: Vec<Vec2>,
     twice: Vec<Vec2>,
 }
 
-impl WiggleFilter {
+impl ShortWaveFilter {
     /// Filters equally spaced `markers`; `strength(k)` is the rate gamma/(2 eta h) times the step at marker k.
     pub(crate) fn apply(
         &mut self,
@@ -30,20 +30,19 @@ impl WiggleFilter {
         geometry: &Geometry,
         spacing: f64,
         strength: impl Fn(usize) -> f64,
-    ) -> Result<(), InterfaceError> {
-        let smoothing = CirculantTridiagonal::smoothing(0.5 * spacing, geometry.mean_length())?;
+    ) {
+        let smoothing = CirculantTridiagonal::smoothing(0.5 * spacing, geometry.mean_length());
         for list in [&mut self.once, &mut self.twice] {
             list.resize(markers.len(), Vec2::zeros());
         }
         let strongest = (0..markers.len()).map(&strength).fold(0.0, f64::max);
         if !(strongest > 0.0 && strongest.is_finite()) {
-            return Ok(());
+            return;
         }
         let passes = (strongest / STRONGEST).ceil().min(MOST_PASSES);
         for _ in 0..passes as usize {
             self.pass(markers, geometry, &smoothing, |k| (strength(k).max(0.0) / passes).min(STRONGEST));
         }
-        Ok(())
     }
 
     fn pass(
@@ -66,10 +65,10 @@ impl WiggleFilter {
             }
         }
         let (mut swept, mut total) = (0.0, 0.0);
-        for (k, (wiggle, tau)) in self.once.iter_mut().zip(&geometry.tangents).enumerate() {
+        for (k, (short, tau)) in self.once.iter_mut().zip(&geometry.tangents).enumerate() {
             let normal = outward(*tau);
-            let shift = -strength(k) * wiggle.dot(&normal);
-            *wiggle = shift * normal;
+            let shift = -strength(k) * short.dot(&normal);
+            *short = shift * normal;
             swept += shift * geometry.weights[k];
             total += geometry.weights[k];
         }

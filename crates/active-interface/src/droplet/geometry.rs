@@ -3,31 +3,37 @@
 use ib_core::Vec2;
 
 /// Geometry of a closed polygon, marker k followed by segment k.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Geometry {
     /// Lengths of the segments (length).
     pub(crate) lengths: Vec<f64>,
     /// Unit vectors along the segments.
     pub(crate) directions: Vec<Vec2>,
-    /// `(X_{k+1} - X_{k-1}) / 2` at the markers (length): turned by a right angle clockwise it is the outward normal
-    /// times the arc weight, of which the polygon's area rate is exactly `sum X_k' . n_k w_k`.
-    pub(crate) chords: Vec<Vec2>,
-    /// Lengths of the chords, the arc weights w_k (length).
+    /// Arc weights w_k of the markers (length): of a polygon the lengths of the half chords `(X_{k+1} - X_{k-1}) / 2`,
+    /// with which the rate of its area is exactly `sum X_k' . n_k w_k`.
     pub(crate) weights: Vec<f64>,
-    /// Unit tangents at the markers, along the chords; the outward normal is (tau_y, -tau_x).
+    /// Unit tangents at the markers, along the half chords; the outward normal is (tau_y, -tau_x).
     pub(crate) tangents: Vec<Vec2>,
+    /// |X_alpha| at the markers (length); only of smooth curves, see [`super::spectral::SpectralCurve`].
+    pub(crate) stretch: Vec<f64>,
     /// Sum of the lengths of the segments (length).
     pub(crate) perimeter: f64,
 }
 
 impl Geometry {
-    pub(crate) fn update(&mut self, markers: &[Vec2]) {
-        let count = markers.len();
-        for list in [&mut self.directions, &mut self.chords, &mut self.tangents] {
+    /// Makes all lists fit `count` markers.
+    pub(crate) fn resize(&mut self, count: usize) {
+        for list in [&mut self.directions, &mut self.tangents] {
             list.resize(count, Vec2::zeros());
         }
         self.lengths.resize(count, 0.0);
         self.weights.resize(count, 0.0);
+    }
+
+    /// The geometry of the polygon through the markers.
+    pub(crate) fn update(&mut self, markers: &[Vec2]) {
+        let count = markers.len();
+        self.resize(count);
         self.perimeter = 0.0;
         for k in 0..count {
             let (before, here) = (markers[if k == 0 { count - 1 } else { k - 1 }], markers[k]);
@@ -39,7 +45,6 @@ impl Geometry {
             self.directions[k] = segment / length;
             let chord = 0.5 * (after - before);
             let weight = chord.norm();
-            self.chords[k] = chord;
             self.weights[k] = weight;
             self.tangents[k] = chord / weight;
         }
@@ -54,18 +59,6 @@ impl Geometry {
 #[inline]
 pub(crate) fn outward(tangent: Vec2) -> Vec2 {
     Vec2::new(tangent.y, -tangent.x)
-}
-
-/// Area of the polygon (length squared), positive if counter-clockwise.
-pub(crate) fn signed_area(markers: &[Vec2]) -> f64 {
-    // Relative to the first marker: no cancellation for droplets that have travelled far.
-    let Some(&origin) = markers.first() else { return 0.0 };
-    let mut twice = 0.0;
-    for pair in markers.windows(2) {
-        let (a, b) = (pair[0] - origin, pair[1] - origin);
-        twice += a.x * b.y - a.y * b.x;
-    }
-    0.5 * twice
 }
 
 /// Velocities of markers that follow the interface normally and stay equally spaced (docs/method.md, section 4):

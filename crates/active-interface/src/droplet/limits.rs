@@ -1,6 +1,9 @@
 //! The stable time steps of a droplet.
 
-use ib_core::{Medium, StepCause, StepLimit, StepLimits};
+use ib_core::{
+    Medium,
+    body::{StepCause, StepLimit, StepLimits},
+};
 
 use super::{ActiveDroplet, Motion};
 
@@ -28,7 +31,7 @@ impl ActiveDroplet {
             let slip = self.slip.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
             // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, holds up to about
             // two segments a step.
-            let dt = 1.8 * self.geometry.mean_length() / slip;
+            let dt = 1.8 * self.shape.geometry.mean_length() / slip;
             limits.push(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
         }
         limits

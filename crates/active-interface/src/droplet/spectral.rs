@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use fourier::ComplexTransform;
+use fourier::PeriodicSeries;
 use ib_core::Vec2;
-use num_complex::Complex;
+use num_complex::Complex64;
 
 use super::geometry::{Geometry, outward};
 
@@ -14,93 +14,62 @@ use super::geometry::{Geometry, outward};
 /// lengths, directions and normals are of second order in the spacing. Here all of them come from X_alpha.
 #[derive(Debug, Clone)]
 pub(crate) struct SpectralCurve {
-    plan: ComplexTransform,
-    spectrum: Vec<Complex<f64>>,
-    work: Vec<Complex<f64>>,
-    /// |X_alpha| at the markers (length).
-    stretch: Vec<f64>,
+    vectors: PeriodicSeries,
+    numbers: PeriodicSeries,
 }
 
-fn complex(v: Vec2) -> Complex<f64> {
-    Complex::new(v.x, v.y)
+fn complex(v: Vec2) -> Complex64 {
+    Complex64::new(v.x, v.y)
 }
 
-fn vector(z: Complex<f64>) -> Vec2 {
+fn vector(z: Complex64) -> Vec2 {
     Vec2::new(z.re, z.im)
+}
+
+/// Takes the series through samples, of which there are as many as markers, so that the call cannot fail.
+fn analyse(series: &mut PeriodicSeries, samples: impl ExactSizeIterator<Item = Complex64>) {
+    let _ = series.analyse(samples);
 }
 
 impl SpectralCurve {
     pub(crate) fn new(count: usize) -> Self {
-        let zeros = vec![Complex::default(); count];
-        Self { plan: ComplexTransform::new(count), spectrum: zeros.clone(), work: zeros, stretch: vec![0.0; count] }
+        let series = PeriodicSeries::new(count);
+        Self { vectors: series.clone(), numbers: series }
     }
 
     pub(crate) fn len(&self) -> usize {
-        self.stretch.len()
+        self.vectors.len()
     }
 
-    /// Signed wave number of entry m; 0 for the one in the middle, whose sign is undefined.
-    fn wave(&self, m: usize) -> f64 {
-        let count = self.len();
-        if 2 * m < count {
-            m as f64
-        } else if 2 * m == count {
-            0.0
-        } else {
-            m as f64 - count as f64
-        }
-    }
-
-    fn transform(&mut self) {
-        // The lengths are this plan's own, so that the call cannot fail.
-        let _ = self.plan.forward(&mut self.spectrum);
-    }
-
-    /// Fills `work` with the values of the series `spectrum` times `factor(wave number)`.
-    fn evaluate(&mut self, factor: impl Fn(f64) -> Complex<f64>) {
-        let scale = 1.0 / self.len() as f64;
-        for m in 0..self.len() {
-            self.work[m] = self.spectrum[m] * factor(self.wave(m)) * scale;
-        }
-        let _ = self.plan.inverse(&mut self.work);
-    }
-
-    /// Replaces lengths, directions (at the middle of the segments), tangents and weights of `geometry` by those of the
-    /// smooth curve.
-    pub(crate) fn refine(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
-        let (count, half) = (self.len(), PI / self.len() as f64);
+    /// The geometry of the smooth curve through the markers; directions are those at the middle of the segments.
+    pub(crate) fn update(&mut self, markers: &[Vec2], geometry: &mut Geometry) {
+        geometry.resize(self.len());
+        geometry.stretch.resize(self.len(), 0.0);
+        let spacing = TAU / self.len() as f64;
         // Relative to one marker, so that droplets that have travelled far lose no digits.
-        for (entry, marker) in self.spectrum.iter_mut().zip(markers) {
-            *entry = complex(marker - markers[0]);
-        }
-        self.transform();
-        self.evaluate(|wave| Complex::new(0.0, wave) * Complex::cis(wave * half));
-        for (direction, tangent) in geometry.directions.iter_mut().zip(&self.work) {
-            *direction = vector(tangent / tangent.norm());
-        }
-        self.evaluate(|wave| Complex::new(0.0, wave));
-        let spacing = TAU / count as f64;
-        for k in 0..count {
-            let (tangent, stretch) = (self.work[k], self.work[k].norm());
-            self.stretch[k] = stretch;
+        analyse(&mut self.vectors, markers.iter().map(|marker| complex(marker - markers[0])));
+        self.vectors.differentiate();
+        for (k, &tangent) in self.vectors.values().iter().enumerate() {
+            let stretch = tangent.norm();
+            geometry.stretch[k] = stretch;
             geometry.tangents[k] = vector(tangent / stretch);
             geometry.weights[k] = stretch * spacing;
-            geometry.chords[k] = vector(tangent) * spacing;
+        }
+        self.vectors.shift(0.5 * spacing);
+        for (direction, tangent) in geometry.directions.iter_mut().zip(self.vectors.values()) {
+            *direction = vector(tangent / tangent.norm());
         }
         // Arc length of a segment: the integral of |X_alpha| over it, mode by mode.
-        for (entry, stretch) in self.spectrum.iter_mut().zip(&self.stretch) {
-            *entry = Complex::new(*stretch, 0.0);
-        }
-        self.transform();
-        self.evaluate(|wave| {
+        analyse(&mut self.numbers, geometry.stretch.iter().map(|&stretch| stretch.into()));
+        self.numbers.multiply(|wave| {
             if wave == 0.0 {
-                Complex::new(spacing, 0.0)
+                spacing.into()
             } else {
-                (Complex::cis(wave * spacing) - 1.0) / Complex::new(0.0, wave)
+                (Complex64::cis(wave * spacing) - 1.0) / Complex64::new(0.0, wave)
             }
         });
         geometry.perimeter = 0.0;
-        for (length, value) in geometry.lengths.iter_mut().zip(&self.work) {
+        for (length, value) in geometry.lengths.iter_mut().zip(self.numbers.values()) {
             *length = value.re;
             geometry.perimeter += value.re;
         }
@@ -109,16 +78,13 @@ impl SpectralCurve {
     /// Turns forces that are integrals of a density from the middle of one segment to that of the next into the density
     /// at the marker times the spacing; their sum stays zero.
     pub(crate) fn sharpen(&mut self, forces: &mut [Vec2]) {
-        for (entry, force) in self.spectrum.iter_mut().zip(forces.iter()) {
-            *entry = complex(*force);
-        }
-        self.transform();
+        analyse(&mut self.vectors, forces.iter().map(|&force| complex(force)));
         let half = PI / self.len() as f64;
-        self.evaluate(|wave| {
+        self.vectors.multiply(|wave| {
             let x = wave * half;
-            Complex::new(if x == 0.0 { 1.0 } else { x / x.sin() }, 0.0)
+            (if x == 0.0 { 1.0 } else { x / x.sin() }).into()
         });
-        for (force, value) in forces.iter_mut().zip(&self.work) {
+        for (force, value) in forces.iter_mut().zip(self.vectors.values()) {
             *force = vector(*value);
         }
     }
@@ -140,26 +106,20 @@ impl SpectralCurve {
             mean_tangential += u.dot(tau) / count;
         }
         let mean_normal = flux / total;
-        for (((u, tau), out), entry) in
-            velocities.iter().zip(&geometry.tangents).zip(motion.iter_mut()).zip(&mut self.spectrum)
-        {
+        for ((u, tau), out) in velocities.iter().zip(&geometry.tangents).zip(motion.iter_mut()) {
             let normal = outward(*tau);
             *out = (u.dot(&normal) - mean_normal) * normal;
-            *entry = complex(*out);
         }
-        self.transform();
-        self.evaluate(|wave| Complex::new(0.0, wave));
+        analyse(&mut self.vectors, motion.iter().map(|&normal| complex(normal)));
+        self.vectors.differentiate();
         // dW/dalpha up to its mean, which the integration leaves out.
-        for (((entry, derivative), tau), stretch) in
-            self.spectrum.iter_mut().zip(&self.work).zip(&geometry.tangents).zip(&self.stretch)
-        {
-            *entry = Complex::new(-vector(*derivative).dot(tau) - relaxation * stretch, 0.0);
-        }
-        self.transform();
-        self.evaluate(|wave| if wave == 0.0 { Complex::default() } else { 1.0 / Complex::new(0.0, wave) });
-        for (k, out) in motion.iter_mut().enumerate() {
+        let slopes = self.vectors.values().iter().zip(&geometry.tangents).zip(&geometry.stretch);
+        let slopes = slopes.map(|((derivative, tau), stretch)| -vector(*derivative).dot(tau) - relaxation * stretch);
+        analyse(&mut self.numbers, slopes.map(Complex64::from));
+        self.numbers.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { 1.0 / Complex64::new(0.0, wave) });
+        for (k, (out, value)) in motion.iter_mut().zip(self.numbers.values()).enumerate() {
             let tau = geometry.tangents[k];
-            let w = self.work[k].re + mean_tangential;
+            let w = value.re + mean_tangential;
             *out += w * tau;
             slip[k] = velocities[k].dot(&tau) - w;
         }

@@ -1,7 +1,6 @@
 //! What a droplet warns of.
 
 use super::PECLET_LIMIT;
-use crate::tension::TensionWarning;
 
 /// What a user should know of a run, though it can go on.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -18,7 +17,13 @@ pub enum DropletWarning {
         /// The spacing that would do (length).
         spacing: f64,
     },
-    /// The tension law has no plateau.
-    #[error(transparent)]
-    Tension(#[from] TensionWarning),
+    /// The tension law has no plateau: contraction is stronger than repulsion at every concentration.
+    #[error(
+        "the activity {activity} is not balanced by the excluded volume at any concentration: there is no plateau, the \
+         particles collapse towards a point (use |activity| below the strength of the excluded volume)"
+    )]
+    NoPlateau {
+        /// The activity zeta delta-mu (force times length).
+        activity: f64,
+    },
 }

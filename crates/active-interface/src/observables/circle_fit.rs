@@ -4,7 +4,6 @@ use ib_core::Vec2;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::InterfaceError;
-use crate::curve::polygon::cross;
 use crate::error::{all_points_finite, enough};
 
 /// Signed curvature (1/length) of the circle with the least sum of squared distances, times `weights`, from the points of an open arc, in
@@ -33,7 +32,7 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
         .windows(3)
         .map(|p| {
             let (a, b) = (p[1] - p[0], p[2] - p[1]);
-            cross(a, b).atan2(a.dot(&b))
+            a.perp(&b).atan2(a.dot(&b))
         })
         .sum();
     let arc: f64 = local.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>() - 0.5 * (first.norm() + last.norm());

@@ -6,7 +6,7 @@ use ib_core::Vec2;
 
 use super::frame::Frame;
 use super::squirmer::polar_weights;
-use crate::curve::polygon::{cross, edges};
+use crate::curve::polygon::edges;
 use crate::error::{all_finite, length};
 use crate::{InterfaceError, curve::polygon_moments};
 
@@ -88,7 +88,7 @@ pub fn concentration_modes(
     let samples = edges(markers).zip(numbers).map(|((a, b), number)| {
         let chord = (b - a).norm();
         let (a, b) = (frame.coordinates(a), frame.coordinates(b));
-        let width = cross(a, b).atan2(a.dot(&b));
+        let width = a.perp(&b).atan2(a.dot(&b));
         (a.y.atan2(a.x) + 0.5 * width, width, number / chord)
     });
     let mut modes = FourierModes::sum(count, samples);

@@ -2,7 +2,7 @@
 
 use ib_core::Vec2;
 
-use crate::curve::polygon::{AreaMoments, cross};
+use crate::curve::polygon::AreaMoments;
 use crate::error::{all_points_finite, finite, length};
 use crate::{InterfaceError, curve::polygon_moments};
 
@@ -51,7 +51,7 @@ impl Frame {
     /// Components of the vector `v` along the axes.
     #[must_use]
     pub fn components(&self, v: Vec2) -> Vec2 {
-        Vec2::new(self.direction.dot(&v), cross(self.direction, v))
+        Vec2::new(self.direction.dot(&v), self.direction.perp(&v))
     }
 
     /// Coordinates of the point `p` in the frame (length).

@@ -143,10 +143,7 @@ impl Observables {
         let mixed = self.moments.mixed_quadrupole();
         let f2 = self.moments.dipole;
         let f3 = self.moments.quadrupole;
-        let [maximum, minimum] = match self.concentration_range {
-            Some(range) => range.map(Some),
-            None => [None, None],
-        };
+        let [maximum, minimum] = [0, 1].map(|i| self.concentration_range.map(|range| range[i]));
         let region = self.active_region;
         let known = Some;
         let mut entries = vec![
@@ -193,12 +190,8 @@ impl Observables {
             ("n_yyx", known(mixed[1][1][0])),
         ];
         let relative = |modes: &FourierModes, k: usize| (modes.mean != 0.0).then(|| modes.amplitude(k) / modes.mean);
-        for (k, name) in SHAPE_MODES {
-            entries.push((name, relative(&self.shape_modes, k)));
-        }
-        for (k, name) in CONCENTRATION_MODES {
-            entries.push((name, relative(&self.concentration_modes, k)));
-        }
+        entries.extend((2..).zip(SHAPE_MODES).map(|(k, name)| (name, relative(&self.shape_modes, k))));
+        entries.extend((1..).zip(CONCENTRATION_MODES).map(|(k, name)| (name, relative(&self.concentration_modes, k))));
         entries
     }
 
@@ -209,16 +202,15 @@ impl Observables {
     }
 }
 
-const SHAPE_MODES: [(usize, &str); 5] =
-    [(2, "shape_mode_2"), (3, "shape_mode_3"), (4, "shape_mode_4"), (5, "shape_mode_5"), (6, "shape_mode_6")];
-
-const CONCENTRATION_MODES: [(usize, &str); 6] = [
-    (1, "concentration_mode_1"),
-    (2, "concentration_mode_2"),
-    (3, "concentration_mode_3"),
-    (4, "concentration_mode_4"),
-    (5, "concentration_mode_5"),
-    (6, "concentration_mode_6"),
+/// Names of the modes that are entries; of the shape from k = 2 on, of the concentration from k = 1 on.
+const SHAPE_MODES: [&str; 5] = ["shape_mode_2", "shape_mode_3", "shape_mode_4", "shape_mode_5", "shape_mode_6"];
+const CONCENTRATION_MODES: [&str; 6] = [
+    "concentration_mode_1",
+    "concentration_mode_2",
+    "concentration_mode_3",
+    "concentration_mode_4",
+    "concentration_mode_5",
+    "concentration_mode_6",
 ];
 
 #[cfg(test)]

@@ -5,7 +5,6 @@ use std::f64::consts::PI;
 use ib_core::Vec2;
 
 use super::frame::{Frame, raw_centroid_velocity};
-use crate::curve::polygon::cross;
 use crate::error::{all_points_finite, length};
 use crate::{InterfaceError, curve::polygon_moments};
 
@@ -39,7 +38,7 @@ impl SquirmerFit {
 /// Polar angle, measured from the first axis of the frame, and the weight of each marker in integrals over it.
 pub(crate) fn polar_weights<'a>(markers: &'a [Vec2], frame: &'a Frame) -> impl Iterator<Item = (f64, f64)> + 'a {
     let m = markers.len();
-    let turn = |from: Vec2, to: Vec2| cross(from, to).atan2(from.dot(&to));
+    let turn = |from: Vec2, to: Vec2| from.perp(&to).atan2(from.dot(&to));
     (0..m).map(move |k| {
         let before = frame.coordinates(markers[(k + m - 1) % m]);
         let here = frame.coordinates(markers[k]);

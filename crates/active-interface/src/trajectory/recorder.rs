@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use ib_core::{Handle, Hydrodynamics, Observer, System, wall_gap};
+use ib_core::{Handle, Hydrodynamics, Observer, System, gap::wall_gap};
 
 use crate::{
     ActiveDroplet, Convention, InterfaceError, Observables,
@@ -72,8 +72,7 @@ impl TrajectoryRecorder {
     /// A recorder of a droplet, with force moments in the far-field convention.
     #[must_use]
     pub fn new(droplet: Handle<ActiveDroplet>) -> Self {
-        let convention = Convention::FarField;
-        let records = Vec::new();
+        let (convention, records) = (Convention::FarField, Vec::new());
         Self { droplet, convention, with_gap_flow: false, centre_line: None, minimum_gap: None, records }
     }
 
@@ -96,18 +95,6 @@ impl TrajectoryRecorder {
     #[must_use]
     pub fn records(&self) -> &[TrajectoryRecord] {
         &self.records
-    }
-
-    /// Number of records.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.records.len()
-    }
-
-    /// Whether there are none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.records.is_empty()
     }
 
     /// The values of the entry `name` (see [`TrajectoryRecord::entries`]), record by record; `None` for an unknown name or

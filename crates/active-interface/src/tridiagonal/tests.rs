@@ -8,13 +8,10 @@ fn apply(lower: &[f64], diagonal: &[f64], upper: &[f64], x: &[f64]) -> Vec<f64> 
 }
 
 #[test]
-fn singular_systems_are_refused() {
-    let mut plan = CyclicTridiagonal::new(4);
+fn singular_systems_have_no_finite_solution() {
     let mut x = [1.0, 2.0, 3.0, 4.0];
-    assert!(plan.solve(&[0.0; 4], &[0.0; 4], &[0.0; 4], &mut x).is_err());
-    assert!(CirculantTridiagonal::new(2.0, -1.0).is_err());
-    assert!(CirculantTridiagonal::new(f64::NAN, 0.0).is_err());
-    assert!(CirculantTridiagonal::smoothing(1.0, 0.0).is_err());
+    CyclicTridiagonal::new(4).solve(&[0.0; 4], &[0.0; 4], &[0.0; 4], &mut x);
+    assert!(x.iter().all(|value| !value.is_finite()));
 }
 
 #[test]
@@ -25,7 +22,7 @@ fn smoothing_damps_a_mode_by_its_symbol() {
     let mut x: Vec<Vec2> =
         (0..n).map(|k| Vec2::new((mode * f64::from(k)).cos(), (mode * f64::from(k)).sin())).collect();
     let before = x.clone();
-    CirculantTridiagonal::smoothing(width, spacing).unwrap().solve(&mut x);
+    CirculantTridiagonal::smoothing(width, spacing).solve(&mut x);
     let symbol = 1.0 / (1.0 + (width / spacing * 2.0 * (0.5 * mode).sin()).powi(2));
     for (after, before) in x.iter().zip(&before) {
         assert!((after - before * symbol).norm() < 1e-15);
@@ -40,7 +37,7 @@ proptest! {
         let diagonal: Vec<f64> = seed[..n].iter().map(|s| s.0.abs() + s.1.abs() + s.2).collect();
         let rhs: Vec<f64> = seed[..n].iter().map(|s| s.3).collect();
         let mut x = rhs.clone();
-        CyclicTridiagonal::new(n).solve(&lower, &diagonal, &upper, &mut x).unwrap();
+        CyclicTridiagonal::new(n).solve(&lower, &diagonal, &upper, &mut x);
         for (found, wanted) in apply(&lower, &diagonal, &upper, &x).iter().zip(&rhs) {
             prop_assert!((found - wanted).abs() < 1e-10);
         }
@@ -51,8 +48,8 @@ proptest! {
         let diagonal = (2.0 * off.abs() + excess) * if sign { 1.0 } else { -1.0 };
         let mut fast = rhs[..n].to_vec();
         let mut general = fast.clone();
-        CirculantTridiagonal::new(diagonal, off).unwrap().solve(&mut fast);
-        CyclicTridiagonal::new(n).solve(&vec![off; n], &vec![diagonal; n], &vec![off; n], &mut general).unwrap();
+        CirculantTridiagonal::new(diagonal, off).solve(&mut fast);
+        CyclicTridiagonal::new(n).solve(&vec![off; n], &vec![diagonal; n], &vec![off; n], &mut general);
         for (a, b) in fast.iter().zip(&general) {
             prop_assert!((a - b).abs() < 1e-10 * (1.0 + b.abs()));
         }

@@ -1,6 +1,6 @@
 //! The solid as a body, and what is measured on it.
 
-use ib_core::{Body, BodyError, Domain, MarkerKind, Medium};
+use ib_core::{Body, BodyError, Boundary, Domain, MarkerKind, Medium};
 
 use super::*;
 use crate::channel::{Constriction, width_between};
@@ -213,4 +213,23 @@ fn the_width_of_a_channel_between_deformed_walls() {
         width_between(&moved, &Solid::springs(block(), 1.0).unwrap()),
         Err(SolidError::DifferentPeriods { .. })
     ));
+}
+
+#[test]
+fn distances_from_a_wall_over_its_seam() {
+    let wall = Solid::springs(equilateral_strip(Vec2::zeros(), 20, 10, 0.1).unwrap(), 1.0).unwrap();
+    let periods = [Some(2.0), None];
+    let boundary = Boundary::of(&wall);
+    let top = 0.75_f64.sqrt();
+    for k in 0..200 {
+        let x = -7.0 + 0.07 * f64::from(k);
+        for height in [0.3, 0.01, -0.01, -0.3] {
+            let [above, below] = [Vec2::new(x, top + height), Vec2::new(x, -height)];
+            assert!((boundary.distance(above, periods) - height).abs() < 1e-12, "{x} {height}");
+            assert!((boundary.distance(below, periods) - height).abs() < 1e-12, "{x} {height}");
+        }
+    }
+    // Where the wall is now.
+    let moved = Boundary::of(&wall.deformed(|s| Vec2::new(s.x + 3.3, 2.0 * s.y)).unwrap());
+    assert!((moved.distance(Vec2::new(0.4, 2.0 * top + 0.05), periods) - 0.05).abs() < 1e-12);
 }

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use fourier::ComplexTransform;
-use num_complex::Complex;
+use fourier::PeriodicSeries;
+use num_complex::Complex64;
 use stokes_layers::dense::NodeCurve;
 use stokes_layers::gmres::{Gmres, Outcome};
 
@@ -41,27 +41,34 @@ pub(crate) struct EquivalentForces {
 /// Multiplication of the Fourier modes along a closed curve.
 #[derive(Debug)]
 struct Filter {
-    transform: ComplexTransform,
-    values: Vec<Complex<f64>>,
+    series: PeriodicSeries,
     /// Wave number of the first mode (1/length).
     wave: f64,
 }
 
 impl Filter {
     fn new(nodes: usize) -> Self {
-        Self { transform: ComplexTransform::new(nodes), values: vec![Complex::default(); nodes], wave: 0.0 }
+        Self { series: PeriodicSeries::new(nodes), wave: 0.0 }
     }
 
-    /// Multiplies each mode of `self.values` by a function of its number.
-    fn apply(&mut self, factor: impl Fn(usize) -> f64) {
-        let nodes = self.values.len();
-        // The lengths are this plan's own, so that the calls cannot fail.
-        let _ = self.transform.forward(&mut self.values);
-        for (m, value) in self.values.iter_mut().enumerate() {
-            *value *= factor(m.min(nodes - m)) / nodes as f64;
-        }
-        let _ = self.transform.inverse(&mut self.values);
+    /// Multiplies each mode of values, of which there are as many as nodes, by a function of its number.
+    fn apply(
+        &mut self,
+        values: impl ExactSizeIterator<Item = Complex64>,
+        factor: impl Fn(usize) -> f64,
+    ) -> &[Complex64] {
+        // The length is the series' own, so that the call cannot fail.
+        let _ = self.series.analyse(values);
+        self.series.scale(factor);
+        self.series.values()
     }
+}
+
+/// The unknowns of one curve, x + i y.
+fn densities(y: &[f64], curve: &NodeCurve) -> impl ExactSizeIterator<Item = Complex64> {
+    let (x, y) = y.split_at(y.len() / 2);
+    let of_curve = curve.first..curve.first + curve.weights.len();
+    x[of_curve.clone()].iter().zip(&y[of_curve]).map(|(&x, &y)| Complex64::new(x, y))
 }
 
 /// Droplets with their filters.
@@ -78,11 +85,9 @@ impl FilteredCurves<'_> {
     fn forces(&mut self, y: &[f64], forces: &mut [Vec2]) {
         for (curve, filter) in self.curves.iter().zip(&mut *self.filters) {
             let (first, wave, h) = (curve.first, filter.wave, self.spacing);
-            for (i, value) in filter.values.iter_mut().enumerate() {
-                *value = Complex::new(y[first + i], y[self.nodes + first + i]);
-            }
-            filter.apply(|m| 4.0 * wave * (m as f64).max(0.5) * normal_taper(wave * m as f64 * h));
-            for ((force, value), weight) in forces[first..].iter_mut().zip(&filter.values).zip(&curve.weights) {
+            let factor = |m| 4.0 * wave * (m as f64).max(0.5) * normal_taper(wave * m as f64 * h);
+            let values = filter.apply(densities(y, curve), factor);
+            for ((force, value), weight) in forces[first..].iter_mut().zip(values).zip(&curve.weights) {
                 *force = *weight * Vec2::new(value.re, value.im);
             }
         }
@@ -92,11 +97,8 @@ impl FilteredCurves<'_> {
     fn smooth(&mut self, velocities: &[Vec2], out: &mut [f64]) {
         for (curve, filter) in self.curves.iter().zip(&mut *self.filters) {
             let (first, wave, h) = (curve.first, filter.wave, self.spacing);
-            for (value, v) in filter.values.iter_mut().zip(&velocities[first..]) {
-                *value = Complex::new(v.x, v.y);
-            }
-            filter.apply(|m| normal_taper(wave * m as f64 * h));
-            for (i, value) in filter.values.iter().enumerate() {
+            let values = velocities[first..][..filter.series.len()].iter().map(|v| Complex64::new(v.x, v.y));
+            for (i, value) in filter.apply(values, |m| normal_taper(wave * m as f64 * h)).iter().enumerate() {
                 (out[first + i], out[self.nodes + first + i]) = (value.re, value.im);
             }
         }
@@ -149,7 +151,7 @@ impl EquivalentForces {
         }
         for (index, curve) in curves.iter().enumerate() {
             let count = curve.len();
-            let known = self.filters.get(index).map(|filter| filter.values.len());
+            let known = self.filters.get(index).map(|filter| filter.series.len());
             if known != Some(count) {
                 self.filters.truncate(index);
                 self.filters.push(Filter::new(count));
@@ -183,11 +185,8 @@ impl EquivalentForces {
             // Unresolved modes are kept as they are, and the growth that no force gives.
             for (curve, filter) in filtered.curves.iter().zip(&mut *filtered.filters) {
                 let (first, wave) = (curve.first, filter.wave);
-                for (i, value) in filter.values.iter_mut().enumerate() {
-                    *value = Complex::new(y[first + i], y[nodes + first + i]);
-                }
-                filter.apply(|m| 1.0 - normal_taper(wave * m as f64 * spacing));
-                for (i, value) in filter.values.iter().enumerate() {
+                let values = filter.apply(densities(y, curve), |m| 1.0 - normal_taper(wave * m as f64 * spacing));
+                for (i, value) in values.iter().enumerate() {
                     out[first + i] += value.re;
                     out[nodes + first + i] += value.im;
                 }

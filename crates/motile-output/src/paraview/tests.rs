@@ -1,14 +1,21 @@
 use super::*;
-use motile::{Method, Swimmer};
+use motile::prelude::*;
 
 #[test]
 fn each_droplet_has_its_own_forces_and_velocities() {
     // The second droplet has more markers, so that forces by wrong ranges could not be missed.
-    let method = Method::ImmersedBoundary;
-    let first = Swimmer { method, spacing: 0.25, lengths: [8.0, 4.0], offset: [-2.0, 0.0], ..Swimmer::default() };
-    let second = Swimmer { offset: [2.0, 0.0], activity: -4.0, marker_spacing: Some(0.1), ..first.clone() };
-    let mut scene = first.empty_box().unwrap();
-    let handles = [&first, &second].map(|swimmer| scene.add(swimmer.droplet_for_method().unwrap()));
+    let small = DropletShape::Round { radius: 0.8 };
+    let setup = Setup {
+        region: Region::Box { lengths: [8.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.25)),
+        droplets: vec![
+            DropletSetup { centre: [-2.0, 0.0], shape: small, ..DropletSetup::default() },
+            DropletSetup { centre: [2.0, 0.0], ..DropletSetup::active(-4.0) },
+        ],
+        ..Setup::default()
+    };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    let handles = [droplets[0], droplets[1]];
     let raster = Raster::of(scene.system(), 0.25).unwrap();
     let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
     assert_ne!(seen.droplets[0].markers.len(), seen.droplets[1].markers.len());

@@ -1,10 +1,15 @@
 use super::*;
-use motile::Swimmer;
+use motile::prelude::*;
 
 #[test]
 fn a_snapshot_of_a_box_and_of_a_channel() {
-    let swimmer = Swimmer { spacing: 0.25, lengths: [6.0, 4.0], offset: [1.0, 0.5], ..Swimmer::default() };
-    let (mut scene, _) = swimmer.build_on_grid().unwrap();
+    let setup = Setup {
+        region: Region::Box { lengths: [6.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.25)),
+        droplets: vec![DropletSetup { centre: [1.0, 0.5], ..DropletSetup::default() }],
+        ..Setup::default()
+    };
+    let mut scene = setup.build().unwrap().scene;
     let raster = Raster::of(scene.system(), 0.25).unwrap();
     assert_eq!((raster.cells(), raster.periodic), ([24, 16], [true, true]));
     assert_eq!(raster.coarsened(12).cells(), [12, 8]);
@@ -19,10 +24,38 @@ fn a_snapshot_of_a_box_and_of_a_channel() {
     assert!(at(1.0, 0.5).pressure > at(-2.0, -1.0).pressure);
     assert!(at(1.0, 0.5).velocity.x > 0.0);
 
-    let (scene, _) = swimmer.build_on_grid_in_channel(motile::stokes_grid::Drive::ZeroGradient).unwrap();
+    let region = Region::Channel { length: 6.0, width: 4.0, drive: Drive::ZeroGradient };
+    let scene = Setup { region, ..setup }.build().unwrap().scene;
     let raster = Raster::of(scene.system(), 0.25).unwrap();
     assert_eq!((raster.origin, raster.size), ([-3.0, -2.0], [6.0, 4.0]));
     assert_eq!(raster.periodic, [true, false]);
+}
+
+#[test]
+fn all_droplets_and_solids_of_any_material_are_seen() {
+    let disc = SolidOutline::Disc { centre: [0.0, 0.0], radius: 0.5 };
+    let nucleus = SolidSetup::new(disc, Material::NeoHookean { shear: 100.0, bulk: 200.0 });
+    let springs = Material::Springs { shear: 100.0 };
+    let mut solids = SolidSetup::walls(&ChannelShape::Straight { width: 3.0 }, &springs);
+    solids.push(SolidSetup { hold: Hold::Free, ..nucleus });
+    let setup = Setup {
+        region: Region::Channel { length: 8.0, width: 5.0, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        droplets: [-2.0, 2.0].map(|x| DropletSetup { centre: [x, 0.0], ..DropletSetup::default() }).to_vec(),
+        solids,
+        ..Setup::default()
+    };
+    let mut scene = setup.build().unwrap().scene;
+    let raster = Raster::of(scene.system(), 0.2).unwrap();
+    let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
+    for (droplet, x) in seen.droplets.iter().zip([-2.0, 2.0]) {
+        assert!((droplet.centroid - Vec2::new(x, 0.0)).norm() < 1e-6, "{}", droplet.centroid);
+    }
+    // Areas are those of the setup, of the disc's polygon a little less.
+    let areas: Vec<f64> = seen.solids.iter().map(|solid| polygon_moments(&solid.area[0]).unwrap().area).collect();
+    let exact = [8.0, 8.0, 0.25 * std::f64::consts::PI];
+    assert_eq!((seen.droplets.len(), areas.len()), (2, 3));
+    assert!(areas.iter().zip(exact).all(|(area, exact)| (0.95..1.001).contains(&(area / exact))), "{areas:?}");
 }
 
 #[test]

@@ -1,13 +1,16 @@
 use super::*;
-use motile::elastic_solids::Moduli;
-use motile::{ElasticChannel, Swimmer};
+use motile::prelude::*;
 
 #[test]
 fn walls_of_a_channel() {
-    let swimmer = Swimmer { lengths: [4.0, 2.4], spacing: 0.2, ..Swimmer::default() };
-    let channel = ElasticChannel::new(swimmer, Moduli::new(100.0, 200.0).unwrap());
-    let (scene, _, _) = channel.build().unwrap();
-    let thickness = 1.5 - channel.set_back();
+    let setup = Setup {
+        region: Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear: 100.0 }),
+        ..Setup::default()
+    };
+    let scene = setup.build().unwrap().scene;
+    let thickness = 1.5;
     let system = scene.system();
     let area = |ring: &[Vec2]| {
         let next = ring.iter().cycle().skip(1);
@@ -19,7 +22,6 @@ fn walls_of_a_channel() {
         assert!((area(&shape.area[0]) - 4.0 * thickness).abs() < 1e-9, "{}", area(&shape.area[0]));
     }
     let mut meter = SolidMeter::of(system).unwrap();
-    meter.set_back(channel.set_back());
     let measured = meter.measure(system).unwrap();
     let value = |name: &str| measured[SolidMeter::NAMES.iter().position(|known| *known == name).unwrap()];
     assert!((value("channel_width_min") - 2.4).abs() < 1e-12 && (value("channel_width_max") - 2.4).abs() < 1e-12);

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings, forcing};
-use elastic_solids::{Solid, solid::SurfaceGap};
-use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
+use elastic_solids::Solid;
+use ib_core::{Body, Boundary, Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
@@ -223,16 +223,18 @@ impl Setup {
 
     fn check_overlap(&self, droplets: &[ActiveDroplet], solids: &[Solid]) -> Result<(), SetupError> {
         let (Method::Grid(grid), false) = (&self.method, solids.is_empty()) else { return Ok(()) };
-        let mut gap = SurfaceGap::new(Some(self.region.lengths()[0]));
-        solids.iter().try_for_each(|solid| gap.add(solid))?;
-        gap.sort();
+        let mut surfaces = Boundary::default();
+        solids.iter().for_each(|solid| solid.write_boundary(&[], &mut surfaces));
+        surfaces.sort();
+        let [length, width] = self.region.lengths();
+        let periods = [Some(length), matches!(self.region, Region::Box { .. }).then_some(width)];
         let set_back = self.set_back();
         for droplet in droplets {
-            let (width, marker) = gap.smallest(droplet.markers())?;
+            let Some((gap, marker)) = surfaces.smallest(droplet.markers(), periods) else { continue };
             // A solid inside a droplet is a nucleus, and no marker is near it.
-            if width < set_back - OVERLAP * grid.spacing {
+            if gap < set_back - OVERLAP * grid.spacing {
                 let place = droplet.markers()[marker];
-                return Err(SetupError::Overlap { x: place.x, y: place.y, depth: -width });
+                return Err(SetupError::Overlap { x: place.x, y: place.y, depth: -gap });
             }
         }
         Ok(())

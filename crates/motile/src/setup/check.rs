@@ -24,25 +24,29 @@ struct Checked<'a> {
 }
 
 impl Checked<'_> {
-    fn refuse<T>(&self, key: &str, value: impl ToString, remedy: impl Into<String>) -> Result<T, SetupError> {
+    fn refuse<T>(&self, key: &str, value: &dyn std::fmt::Display, remedy: impl Into<String>) -> Result<T, SetupError> {
         let key = if self.place.is_empty() { key.to_owned() } else { format!("{}.{key}", self.place) };
         Err(SetupError::Value { key, value: value.to_string(), remedy: remedy.into() })
     }
 
     fn positive(&self, key: &str, value: f64) -> Result<(), SetupError> {
-        if value.is_finite() && value > 0.0 { Ok(()) } else { self.refuse(key, value, "give a positive finite number") }
+        if value.is_finite() && value > 0.0 {
+            Ok(())
+        } else {
+            self.refuse(key, &value, "give a positive finite number")
+        }
     }
 
     fn not_negative(&self, key: &str, value: f64) -> Result<(), SetupError> {
         if value.is_finite() && value >= 0.0 {
             Ok(())
         } else {
-            self.refuse(key, value, "give a finite number that is not negative")
+            self.refuse(key, &value, "give a finite number that is not negative")
         }
     }
 
     fn finite(&self, key: &str, value: f64) -> Result<(), SetupError> {
-        if value.is_finite() { Ok(()) } else { self.refuse(key, value, "give a finite number") }
+        if value.is_finite() { Ok(()) } else { self.refuse(key, &value, "give a finite number") }
     }
 
     fn all_finite(&self, key: &str, values: &[f64]) -> Result<(), SetupError> {
@@ -79,10 +83,10 @@ impl Setup {
         match self.step {
             StepSize::Fixed(dt) => top.positive("step.fixed", dt)?,
             StepSize::OfLimit(part) if !(part > 0.0 && part <= 1.0) => {
-                top.refuse("step.of-limit", part, "give a number above 0 and at most 1")?;
+                top.refuse("step.of-limit", &part, "give a number above 0 and at most 1")?;
             }
             StepSize::Adaptive { tolerance } if !(tolerance > 0.0 && tolerance < 1.0) => {
-                top.refuse("step.adaptive.tolerance", tolerance, "give a number above 0 and below 1")?;
+                top.refuse("step.adaptive.tolerance", &tolerance, "give a number above 0 and below 1")?;
             }
             StepSize::OfLimit(_) | StepSize::Adaptive { .. } => {}
         }
@@ -92,7 +96,7 @@ impl Setup {
             if self.droplets.len() < 2 {
                 top.refuse(
                     "repulsion",
-                    format!("{repulsion:?}"),
+                    &format!("{repulsion:?}"),
                     "it acts between droplets: give two, or leave it out",
                 )?;
             }
@@ -110,12 +114,12 @@ impl Setup {
         let checked = Checked { place: "method.integral" };
         let [least, most] = NODES;
         if !(least..=most).contains(&nodes) {
-            checked.refuse("nodes", nodes, format!("give a number from {least} to {most}"))?;
+            checked.refuse("nodes", &nodes, format!("give a number from {least} to {most}"))?;
         }
         if cells < nodes || cells as f64 > MARKERS[1] {
             checked.refuse(
                 "cells",
-                cells,
+                &cells,
                 format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]),
             )?;
         }
@@ -138,7 +142,7 @@ impl Setup {
             let perimeter = std::f64::consts::TAU * droplet.shape.size();
             if perimeter.is_finite() && perimeter / spacing > MARKERS[1] {
                 let remedy = format!("droplets[{number}] would have more than {} markers: give more", MARKERS[1]);
-                checked.refuse("marker-spacing", spacing, remedy)?;
+                checked.refuse("marker-spacing", &spacing, remedy)?;
             }
         }
         let (with_fluid, equal): (Vec<_>, Vec<_>) =
@@ -148,14 +152,14 @@ impl Setup {
                 if set {
                     let remedy = "markers that move with the fluid are not equally spaced: give false, or droplets \
                                   with equidistributed markers";
-                    checked.refuse(key, true, remedy)?;
+                    checked.refuse(key, &true, remedy)?;
                 }
             }
         }
         let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
         if differs && grid.corrected && grid.contrast == Contrast::Arithmetic {
             let remedy = "an arithmetic contrast has no mobility correction: give false, or a sharp contrast";
-            checked.refuse("corrected", true, remedy)?;
+            checked.refuse("corrected", &true, remedy)?;
         }
         Ok(())
     }
@@ -170,18 +174,18 @@ impl Setup {
             let [most, in_all] = MOST_CELLS;
             if length.is_infinite() {
                 let remedy = "the plane has no grid: give a box or a channel, or the method of boundary integrals";
-                return Checked { place: "" }.refuse("region", "plane", remedy);
+                return Checked { place: "" }.refuse("region", &"plane", remedy);
             }
             if cells > most || product > in_all {
                 let remedy =
                     format!("a length of {length} would take {cells:.0} cells, {product:.1e} in all: give more");
-                return checked.refuse("spacing", grid.spacing, remedy);
+                return checked.refuse("spacing", &grid.spacing, remedy);
             }
             if whole < 4.0 || (cells - whole).abs() > 1e-6 * whole {
                 let nearest = length / whole.max(4.0);
                 let remedy =
                     format!("a length of {length} is not a whole number of at least 4 cells: give {nearest}, say");
-                return checked.refuse("spacing", grid.spacing, remedy);
+                return checked.refuse("spacing", &grid.spacing, remedy);
             }
         }
         Ok(counts.map(|cells| cells.round() as usize))
@@ -205,7 +209,7 @@ impl DropletShape {
                 checked.positive("shape.squeezed.radius", *radius)?;
                 checked.positive("shape.squeezed.half-height", *half_height)?;
                 if half_height > radius {
-                    checked.refuse("shape.squeezed.half-height", half_height, "give less than the radius")?;
+                    checked.refuse("shape.squeezed.half-height", &half_height, "give less than the radius")?;
                 }
                 Ok(())
             }
@@ -220,7 +224,7 @@ impl DropletShape {
             Self::Points(points) => {
                 if points.len() < 8 || points.len() as f64 > MARKERS[1] {
                     let remedy = format!("give from {} to {} points", MARKERS[0], MARKERS[1]);
-                    checked.refuse("shape.points", format!("{} points", points.len()), remedy)?;
+                    checked.refuse("shape.points", &format!("{} points", points.len()), remedy)?;
                 }
                 checked.all_finite("shape.points", points.as_flattened())
             }
@@ -251,7 +255,7 @@ impl DropletSetup {
         if let Start::Perturbed { amplitude, .. } = particles.start
             && !(0.0..1.0).contains(&amplitude)
         {
-            checked.refuse("particles.start.perturbed.amplitude", amplitude, "give a number from 0 to below 1")?;
+            checked.refuse("particles.start.perturbed.amplitude", &amplitude, "give a number from 0 to below 1")?;
         }
         Ok(())
     }
@@ -268,7 +272,7 @@ impl SolidSetup {
         let across = |key: &str, length: f64| {
             if length / spacing > MOST_ACROSS {
                 let remedy = format!("with points {spacing} apart it would have too many of them: give less");
-                checked.refuse(key, length, remedy)
+                checked.refuse(key, &length, remedy)
             } else {
                 Ok(())
             }
@@ -278,7 +282,7 @@ impl SolidSetup {
             | SolidOutline::WallAbove(shape)
             | SolidOutline::Island { of: shape, .. } => {
                 if !matches!(setup.region, Region::Channel { .. }) {
-                    checked.refuse("outline", "a wall or an island", "give a region that is a channel")?;
+                    checked.refuse("outline", &"a wall or an island", "give a region that is a channel")?;
                 }
                 let (width, height) = (shape.width(), setup.region.lengths()[1]);
                 checked.positive("outline.width", width)?;
@@ -286,7 +290,7 @@ impl SolidSetup {
                 if self.outline_is_wall() && width >= height {
                     let remedy =
                         format!("give less than {height}, the width of the region, so that the walls have room");
-                    checked.refuse("outline.width", width, remedy)?;
+                    checked.refuse("outline.width", &width, remedy)?;
                 }
             }
             SolidOutline::Disc { centre, radius } => {
@@ -311,7 +315,7 @@ impl SolidSetup {
         }
         if self.hold == Hold::Pinned && !self.outline_is_wall() {
             let remedy = "only walls reach the rigid walls of the region: give tethered or free";
-            checked.refuse("hold", "pinned", remedy)?;
+            checked.refuse("hold", &"pinned", remedy)?;
         }
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;
@@ -323,7 +327,7 @@ impl SolidSetup {
             })?;
             if factors.is_empty() || !factors.windows(2).all(|pair| pair[0][0] < pair[1][0]) {
                 let remedy = "give at least one place with its factor, places increasing";
-                checked.refuse("grading.along.factors", format!("{factors:?}"), remedy)?;
+                checked.refuse("grading.along.factors", &format!("{factors:?}"), remedy)?;
             }
         }
         self.material.check(&checked)
@@ -347,7 +351,7 @@ impl super::Material {
                 if (0.0..=1.0).contains(&fraction) {
                     Ok(())
                 } else {
-                    checked.refuse("material.fraction", fraction, "give a number from 0 to 1")
+                    checked.refuse("material.fraction", &fraction, "give a number from 0 to 1")
                 }
             }
         }

@@ -28,7 +28,7 @@ use ib_core::StepSize;
 /// has been built.
 ///
 /// ```
-/// use motile::setup::*;
+/// use motile::*;
 ///
 /// // Two droplets of different activity and viscosity, abreast.
 /// let setup = Setup {

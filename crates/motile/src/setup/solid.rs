@@ -11,7 +11,7 @@ use crate::SetupError;
 /// An elastic solid in the fluid: a wall, an island, a nucleus.
 ///
 /// ```
-/// use motile::setup::*;
+/// use motile::*;
 ///
 /// // A soft channel of width 2, stiffening along x, in a region of 12 x 5 whose rigid walls hold the outermost rows.
 /// let material = Material::NeoHookean { shear: 200.0, bulk: 400.0 };
@@ -389,7 +389,7 @@ impl SolidSetup {
         let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
         let [period, height] = setup.region.lengths();
         let mesher = self.mesher(grid)?;
-        let closed = |outline: Outline| Ok::<_, SolidError>(mesher.mesh(&Enclosed::new([outline])?)?);
+        let closed = |outline: Outline| mesher.mesh(&Enclosed::new([outline])?);
         let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
         let set_back = self.set_back(grid);
         // Islands are meshed as they are.

@@ -1,14 +1,19 @@
 use super::*;
-use crate::{ElasticChannel, Swimmer};
-use elastic_solids::{Moduli, NeoHookean, Solid, forces::Springs, mesh::equilateral_strip};
+use crate::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
+use elastic_solids::{NeoHookean, Solid, forces::Springs, mesh::equilateral_strip};
 use ib_core::Vec2;
+use stokes_grid::Drive;
 
 #[test]
 fn a_droplet_inside_a_wall_is_an_error() {
-    let swimmer = Swimmer { lengths: [4.0, 2.2], spacing: 0.2, ..Swimmer::default() };
-    let channel = ElasticChannel::new(swimmer, Moduli::new(1.0, 2.0).unwrap());
-    let (mut scene, _, walls) = channel.build().unwrap();
-    let mut gap = SolidGap::new(0.05).with_set_back(channel.set_back());
+    let setup = Setup {
+        region: Region::Channel { length: 4.0, width: 5.2, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.2 }, &Material::Springs { shear: 1.0 }),
+        ..Setup::default()
+    };
+    let Built { mut scene, solids: walls, .. } = setup.build().unwrap();
+    let mut gap = SolidGap::new(0.05);
     gap.observe(scene.system_mut()).unwrap();
     assert!((gap.present().unwrap() - 0.1).abs() < 2e-3, "{gap:?}");
     let lower = scene.body_mut(walls[0]).unwrap();
@@ -17,13 +22,18 @@ fn a_droplet_inside_a_wall_is_an_error() {
     let error = gap.observe(scene.system_mut()).unwrap_err();
     let entered: &SolidEntered = error.downcast_ref().unwrap();
     assert!((entered.depth - 0.2).abs() < 2e-3, "{entered}");
+    assert!(entered.to_string().ends_with("move them apart"), "{entered}");
     assert_eq!(gap.smallest(), Some((-entered.depth, 0.0)));
 }
 
 /// Walls of springs, of a hyperelastic material and with forces of one's own are all seen.
 #[test]
 fn solids_of_every_material_are_seen() {
-    let swimmer = Swimmer { lengths: [4.0, 4.0], spacing: 0.2, ..Swimmer::default() };
+    let setup = Setup {
+        region: Region::Box { lengths: [4.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        ..Setup::default()
+    };
     let mesh = || equilateral_strip(Vec2::new(-2.0, -2.0), 20, 4, 0.2).unwrap();
     let top = -2.0 + 4.0 * 0.2 * 0.75_f64.sqrt();
     let solids = [
@@ -32,9 +42,29 @@ fn solids_of_every_material_are_seen() {
         Solid::with_forces(mesh(), Springs::new(&mesh(), 1.0).unwrap()).unwrap(),
     ];
     for solid in solids {
-        let (mut scene, _) = swimmer.build_on_grid().unwrap();
+        let mut scene = setup.build().unwrap().scene;
         scene.add(solid);
-        let (gap, _) = SolidGap::new(0.0).measure(scene.system()).unwrap().unwrap();
+        let gap = SolidGap::new(0.0).measure(scene.system()).unwrap().gap;
         assert!((gap - (-1.0 - top)).abs() < 2e-3, "{gap}");
     }
+}
+
+/// The second of two droplets counts too.
+#[test]
+fn the_nearest_of_all_droplets_counts() {
+    let droplet = |y: f64| DropletSetup { centre: [0.0, y], ..DropletSetup::default() };
+    let setup = Setup {
+        region: Region::Channel { length: 4.0, width: 8.0, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        droplets: vec![droplet(1.4), droplet(-1.2)],
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 5.0 }, &Material::Springs { shear: 1.0 }),
+        ..Setup::default()
+    };
+    let Built { scene, droplets, .. } = setup.build().unwrap();
+    let place = SolidGap::new(0.0).measure(scene.system()).unwrap();
+    assert!(place.droplet == droplets[0] && (place.gap - 0.1).abs() < 2e-3, "{place:?}");
+    let lower = Setup { droplets: vec![droplet(1.2), droplet(-1.4)], ..setup };
+    let Built { scene, droplets, .. } = lower.build().unwrap();
+    let place = SolidGap::new(0.0).measure(scene.system()).unwrap();
+    assert!(place.droplet == droplets[1] && (place.gap - 0.1).abs() < 2e-3, "{place:?}");
 }

@@ -4,10 +4,11 @@
 //! between the accurate quadrature of [`CloseWeights`] and the plain sum, both in free space: images farther away and
 //! walls do not notice.
 
+use fourier::spectrum::{copy_band, largest_wave};
 use num_complex::Complex64;
 
 use crate::{
-    curve::{Curve, REFINEMENT, Transforms, copy_band, largest_wave},
+    curve::{Curve, REFINEMENT, Transforms},
     greens::{Flow, Vectors, free},
     layer::Density,
     region::Images,

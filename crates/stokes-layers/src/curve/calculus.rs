@@ -2,12 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use num_complex::Complex64;
+use fourier::PeriodicSeries;
 
-use super::{
-    MOST_POINTS,
-    transform::{Transform, differentiate, wave},
-};
+use super::MOST_POINTS;
 use crate::{
     LayerError, Vec2,
     error::{same_length, within},
@@ -28,9 +25,8 @@ pub enum TensionPlacement {
 /// falls faster than any power of len for smooth curves. Nothing is allocated after construction.
 #[derive(Debug, Clone)]
 pub struct PeriodicCalculus {
-    transform: Transform,
-    curve: Vec<Complex64>,
-    work: Vec<Complex64>,
+    curve: PeriodicSeries,
+    forces: PeriodicSeries,
 }
 
 impl PeriodicCalculus {
@@ -40,8 +36,8 @@ impl PeriodicCalculus {
     /// Fewer than 4 samples or more than 1,048,576.
     pub fn new(len: usize) -> Result<Self, LayerError> {
         within("the number of samples", len as f64, 4.0, MOST_POINTS)?;
-        let zeros = vec![Complex64::default(); len];
-        Ok(Self { transform: Transform::new(len), curve: zeros.clone(), work: zeros })
+        let series = PeriodicSeries::new(len);
+        Ok(Self { curve: series.clone(), forces: series })
     }
 
     /// Number of samples.
@@ -62,12 +58,9 @@ impl PeriodicCalculus {
     /// Slices of another length than planned for.
     pub fn derivative(&mut self, values: &[Vec2], out: &mut [Vec2]) -> Result<(), LayerError> {
         self.check(values.len(), out.len())?;
-        load(values, &mut self.work);
-        self.transform.forward(&mut self.work);
-        differentiate(&mut self.work);
-        self.transform.inverse(&mut self.work);
-        store(&self.work, out);
-        Ok(())
+        self.curve.analyse_vectors(values)?;
+        self.curve.differentiate();
+        Ok(self.curve.write_vectors(out)?)
     }
 
     /// Forces on the fluid (force) at the points of a closed interface with the given surface tension (force):
@@ -93,47 +86,19 @@ impl PeriodicCalculus {
             TensionPlacement::Points => 0.0,
             TensionPlacement::Segments => std::f64::consts::PI / len as f64,
         };
-        load(positions, &mut self.curve);
-        self.transform.forward(&mut self.curve);
-        differentiate(&mut self.curve);
-        rotate(&mut self.curve, shift);
-        self.transform.inverse(&mut self.curve);
-        for ((value, tangent), tension) in self.work.iter_mut().zip(&self.curve).zip(tension) {
-            *value = tangent * (tension / tangent.norm());
-        }
-        self.transform.forward(&mut self.work);
-        differentiate(&mut self.work);
-        rotate(&mut self.work, -shift);
-        self.transform.inverse(&mut self.work);
+        self.curve.analyse_vectors(positions)?;
+        self.curve.differentiate();
+        self.curve.shift(shift);
         let weight = TAU / len as f64;
-        for (force, value) in forces.iter_mut().zip(&self.work) {
-            *force = Vec2::new(value.re * weight, value.im * weight);
-        }
-        Ok(())
+        let tangents = self.curve.values().iter().zip(tension);
+        self.forces.analyse(tangents.map(|(tangent, tension)| tangent * (weight * tension / tangent.norm())))?;
+        self.forces.differentiate();
+        self.forces.shift(-shift);
+        Ok(self.forces.write_vectors(forces)?)
     }
 
     fn check(&self, values: usize, out: usize) -> Result<(), LayerError> {
         same_length("values", values, self.len())?;
         same_length("out", out, self.len())
-    }
-}
-
-/// Shifts samples with this spectrum by `shift` in the parameter.
-fn rotate(spectrum: &mut [Complex64], shift: f64) {
-    let len = spectrum.len();
-    for (index, value) in spectrum.iter_mut().enumerate() {
-        *value *= Complex64::cis(wave(index, len) * shift);
-    }
-}
-
-fn load(values: &[Vec2], out: &mut [Complex64]) {
-    for (out, value) in out.iter_mut().zip(values) {
-        *out = Complex64::new(value.x, value.y);
-    }
-}
-
-fn store(values: &[Complex64], out: &mut [Vec2]) {
-    for (out, value) in out.iter_mut().zip(values) {
-        *out = Vec2::new(value.re, value.im);
     }
 }

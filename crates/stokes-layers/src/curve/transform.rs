@@ -30,35 +30,3 @@ impl Transform {
         let _ = self.0.inverse(buffer);
     }
 }
-
-/// Largest wave number of a band of `modes` modes; the unpaired one of an even number of modes is left out.
-pub(crate) fn largest_wave(modes: usize) -> usize {
-    modes.saturating_sub(1) / 2
-}
-
-/// Wave number of entry `index` of a spectrum of `len` coefficients; zero for the unpaired one of an even length.
-pub(crate) fn wave(index: usize, len: usize) -> f64 {
-    if 2 * index < len {
-        index as f64
-    } else if 2 * index == len {
-        0.0
-    } else {
-        index as f64 - len as f64
-    }
-}
-
-/// Copies the waves up to `largest` from one spectrum to another of any length and clears the rest.
-pub(crate) fn copy_band(from: &[Complex64], to: &mut [Complex64], largest: usize) {
-    to.fill(Complex64::default());
-    to[..=largest].copy_from_slice(&from[..=largest]);
-    let (n, m) = (from.len(), to.len());
-    to[m - largest..].copy_from_slice(&from[n - largest..]);
-}
-
-/// Multiplies a spectrum by i times the wave number: the derivative by the parameter.
-pub(crate) fn differentiate(spectrum: &mut [Complex64]) {
-    let len = spectrum.len();
-    for (index, value) in spectrum.iter_mut().enumerate() {
-        *value = Complex64::new(-value.im, value.re) * wave(index, len);
-    }
-}

@@ -3,8 +3,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
+use motile::Region;
 use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
-use motile::setup::Region;
 use motile::stokes_grid::{RealFft2, Symbol};
 
 use super::{Droplet, sharp, smeared};

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile::ib_core::{FlowSample, Hydrodynamics, Markers, Vec2};
-use motile::setup::{AnyFlow, Region};
+use motile::{AnyFlow, Region};
 
 use super::{Droplet, exact, sharp};
 use crate::validation::StudyError;

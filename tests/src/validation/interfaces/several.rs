@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
 use motile::ib_core::{Handle, Hydrodynamics, Scene, Vec2};
-use motile::setup::{AnyFlow, Built, DropletSetup, Region, Setup};
+use motile::{AnyFlow, Built, DropletSetup, Region, Setup};
 
 use crate::validation::StudyError;
 

@@ -9,7 +9,7 @@ fn advect(transport: &mut Transport, lengths: &[f64], velocities: &[f64], dt: f6
     let mut rate = vec![0.0; numbers.len()];
     for (keep, weight) in [(0.0, 1.0), (0.75, 0.25), (1.0 / 3.0, 2.0 / 3.0)] {
         rate.fill(0.0);
-        transport.add_advection(numbers, lengths, velocities, &mut rate).unwrap();
+        transport.add_advection(numbers, lengths, velocities, &mut rate);
         for k in 0..numbers.len() {
             numbers[k] = keep * start[k] + weight * (numbers[k] + dt * rate[k]);
         }
@@ -78,10 +78,10 @@ fn a_mode_decays_as_the_discrete_laplacian_says() {
     let start: Vec<f64> = (0..m).map(|k| h * (1.0 + 0.3 * (mode * k as f64).cos())).collect();
     let mut transport = Transport::new(m, Flux::Weno5);
     let mut numbers = start.clone();
-    transport.solve_diffusion(&vec![h; m], &vec![diffusivity; m], factor, &mut numbers).unwrap();
+    transport.solve_diffusion(&vec![h; m], &vec![diffusivity; m], factor, &mut numbers);
     let eigenvalue = -diffusivity * (2.0 * (0.5 * mode).sin() / h).powi(2);
     let mut explicit = start.clone();
-    transport.add_diffusion(&vec![h; m], &vec![diffusivity; m], &start, factor, &mut explicit).unwrap();
+    transport.add_diffusion(&vec![h; m], &vec![diffusivity; m], &start, factor, &mut explicit);
     for k in 0..m {
         let wave = 0.3 * h * (mode * k as f64).cos();
         assert!((numbers[k] - h - wave / (1.0 - factor * eigenvalue)).abs() < 1e-14);
@@ -90,15 +90,16 @@ fn a_mode_decays_as_the_discrete_laplacian_says() {
 }
 
 #[test]
-fn peclet_number_and_errors() {
+fn peclet_number_and_what_is_not_finite() {
     assert_eq!(cell_peclet(&[0.5, -2.0, 1.0], &[0.1; 3], 0.1), 2.0);
     assert_eq!(cell_peclet(&[0.0; 3], &[0.1; 3], 0.0), 0.0);
     let mut transport = Transport::new(8, Flux::Upwind);
     let mut rate = [0.5; 8];
-    let nothing = transport.add_advection(&[f64::NAN; 8], &[1.0; 8], &[1.0; 8], &mut rate);
-    assert!(matches!(nothing, Err(InterfaceError::EntryNotFinite { .. })) && rate == [0.5; 8]);
-    assert!(transport.solve_diffusion(&[0.0; 8], &[1.0; 8], 1.0, &mut [1.0; 8]).is_err());
-    assert!(transport.solve_diffusion(&[1.0; 8], &[1.0; 8], -1.0, &mut [1.0; 8]).is_err());
+    transport.add_advection(&[1.0; 8], &[1.0; 8], &[f64::INFINITY; 8], &mut rate);
+    assert!(rate.iter().all(|rate| !rate.is_finite()));
+    let mut numbers = [1.0; 8];
+    transport.solve_diffusion(&[1.0, 1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0], &[1.0; 8], 1.0, &mut numbers);
+    assert!(numbers.iter().all(|number| number.is_nan()));
 }
 
 #[test]
@@ -113,9 +114,9 @@ fn particles_are_kept_over_many_steps() {
     let mut rate = vec![0.0; m];
     for _ in 0..20_000 {
         rate.fill(0.0);
-        transport.add_advection(&numbers, &lengths, &velocities, &mut rate).unwrap();
+        transport.add_advection(&numbers, &lengths, &velocities, &mut rate);
         numbers.iter_mut().zip(&rate).for_each(|(n, r)| *n += 0.01 * r);
-        transport.solve_diffusion(&lengths, &diffusivities, 0.01, &mut numbers).unwrap();
+        transport.solve_diffusion(&lengths, &diffusivities, 0.01, &mut numbers);
         repair_positivity(&mut numbers).unwrap();
     }
     let change = numbers.iter().sum::<f64>() / total - 1.0;
@@ -134,9 +135,9 @@ proptest! {
         let diffusivities: Vec<f64> = seed[..m].iter().map(|s| s.2).collect();
         let before = numbers.clone();
         let mut transport = Transport::new(m, Flux::Weno5);
-        transport.solve_diffusion(&lengths, &diffusivities, factor, &mut numbers).unwrap();
+        transport.solve_diffusion(&lengths, &diffusivities, factor, &mut numbers);
         let mut residual = numbers.clone();
-        transport.add_diffusion(&lengths, &diffusivities, &numbers, -factor, &mut residual).unwrap();
+        transport.add_diffusion(&lengths, &diffusivities, &numbers, -factor, &mut residual);
         // Round-off of the fluxes: conductance times concentration.
         let largest = |values: &[f64]| values.iter().fold(0.0f64, |a, &b| a.max(b));
         let shortest = lengths.iter().fold(1.0f64, |a, &b| a.min(b));

@@ -1,8 +1,9 @@
 use super::*;
-use crate::{Curve, trajectory::Regime};
+use crate::{ContractileTension, Curve, InitialConcentration, trajectory::Regime};
 use approx::assert_relative_eq;
 use ib_core::{
-    Domain, Every, FlowError, FlowReport, FlowSample, FlowWork, Markers, Medium, Scene, SceneError, StepSize, Vec2,
+    Domain, Every, FlowError, FlowSample, Markers, Medium, Scene, SceneError, StepSize, Vec2,
+    hydrodynamics::{FlowReport, FlowWork},
 };
 
 /// A wind between walls at y = -1 and y = 3 whose vertical part drives points back to y = 1 or away from it.
@@ -63,12 +64,12 @@ fn scene(along: f64, rate: f64, walls: bool) -> (Scene<Wind>, Handle<ActiveDropl
 fn records_columns_and_gap() {
     let (mut scene, droplet) = scene(0.25, -0.1, true);
     let mut recorder = TrajectoryRecorder::new(droplet).with_gap_flow();
-    assert!(recorder.is_empty() && recorder.minimum_gap().is_none() && recorder.column("time").is_none());
+    assert!(recorder.records().is_empty() && recorder.minimum_gap().is_none() && recorder.column("time").is_none());
     let step = StepSize::Fixed(0.05);
     scene.run(5.0).step_size(step).observe(Every::StepAfter(0.5), &mut recorder).go().unwrap();
     // Continued: the end of the first run is the start of the second one.
     scene.run(10.0).step_size(step).observe(Every::StepAfter(0.5), &mut recorder).go().unwrap();
-    assert_eq!(recorder.len(), 21);
+    assert_eq!(recorder.records().len(), 21);
 
     let column = |name: &str| -> Vec<f64> {
         recorder.column(name).unwrap().into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()
@@ -139,4 +140,30 @@ fn what_cannot_be_recorded_ends_the_run() {
     let mut greedy = TrajectoryRecorder::new(droplet).with_gap_flow();
     let error = first.run(1.0).observe(Every::StepAfter(0.5), &mut greedy).go().unwrap_err();
     assert!(error.explanation().contains("walls"), "{error}");
+}
+
+/// A recorder reports its own droplet: markers, particles and forces of the second are not paired with those of the
+/// first.
+#[test]
+fn of_two_droplets_each_recorder_reports_its_own() {
+    let active = || {
+        let markers = Curve::ellipse(0.6, 0.4).unwrap().translated(Vec2::new(2.0, 0.5)).markers(80).unwrap();
+        let numbers = InitialConcentration::polarised(3.0, 0.2).unwrap().particle_numbers(&markers).unwrap();
+        let law = ContractileTension::thesis(0.1, -0.02, 0.1, 3.0).unwrap();
+        ActiveDroplet::new(&markers, numbers, law, 0.1).unwrap()
+    };
+    let record = |scene: &mut Scene<Wind>, droplet| {
+        let mut recorder = TrajectoryRecorder::new(droplet).with_gap_flow();
+        scene.run(0.2).step_size(StepSize::Fixed(0.05)).observe(Every::StepAfter(0.1), &mut recorder).go().unwrap();
+        recorder.records().to_vec()
+    };
+    let mut alone = Scene::new(Wind { along: 0.25, rate: 0.0, walls: true });
+    let only = alone.add(active());
+    let expected = record(&mut alone, only);
+    assert!(expected[0].observables.moments.stresslet()[0][0].abs() > 1e-3);
+
+    let (mut both, first) = scene(0.25, 0.0, true);
+    let second = both.add(active());
+    assert_eq!(record(&mut both, second), expected);
+    assert_ne!(record(&mut both, first)[0].observables.area, expected[0].observables.area);
 }

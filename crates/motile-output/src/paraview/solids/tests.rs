@@ -1,12 +1,16 @@
 use super::*;
-use motile::{ElasticChannel, Swimmer, elastic_solids::Moduli};
+use motile::prelude::*;
 
 #[test]
 fn triangles_of_both_walls_of_a_channel() {
-    let swimmer = Swimmer { lengths: [4.0, 2.4], spacing: 0.2, ..Swimmer::default() };
-    let channel = ElasticChannel::new(swimmer, Moduli::new(100.0, 200.0).unwrap());
-    let (scene, _, _) = channel.build().unwrap();
-    let thickness = 1.5 - channel.set_back();
+    let setup = Setup {
+        region: Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear: 100.0 }),
+        ..Setup::default()
+    };
+    let scene = setup.build().unwrap().scene;
+    let thickness = 1.5;
     let system = scene.system();
     let mut pieces = Pieces::default();
     solids(system).enumerate().for_each(|(number, solid)| pieces.add(number, solid));

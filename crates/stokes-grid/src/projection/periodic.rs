@@ -1,10 +1,10 @@
 //! Projection in a periodic box.
 
-use crate::sums::sum;
-use crate::{CentreField, Grid, RealFft2, StaggeredField, StokesError, Symbol, Work, kinematics};
+use crate::field::sum;
+use crate::{CentreField, Grid, RealFft2, StaggeredField, StokesError, Symbol, Work, kinematics, stencil};
 
 /// The three scalar problems of the projection method in a doubly periodic box.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct PeriodicProjection {
     grid: Grid,
     viscosity: f64,
@@ -50,23 +50,17 @@ impl PeriodicProjection {
     pub(crate) fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField, work: &mut Work) -> [f64; 2] {
         self.diffuse(force, work);
         let (nx, ny) = (self.grid.nx(), self.grid.ny());
-        let (u, v) = (self.starred.x(), self.starred.y());
+        let starred = &self.starred;
+        let (u, v) = (starred.x(), starred.y());
         let (out_u, out_v) = velocity.components_mut();
         // Rows of v* - grad phi; the first row of v needs the last row of phi.
         let below = &mut self.below;
         self.transform.filter(
             &self.poisson,
-            |j, row| {
-                let above = (j + 1) % ny * nx;
-                let (u, v, v_above) = (&u[j * nx..][..nx], &v[j * nx..][..nx], &v[above..][..nx]);
-                for (i, out) in row.iter_mut().enumerate() {
-                    let right = if i + 1 == nx { 0 } else { i + 1 };
-                    *out = (u[right] - u[i]) + (v_above[i] - v[i]);
-                }
-            },
+            |j, row| stencil::divergence(starred, j, row),
             |j, phi| {
                 for (i, here) in phi.iter().enumerate() {
-                    let left = if i == 0 { nx - 1 } else { i - 1 };
+                    let left = stencil::left(i, nx);
                     let k = j * nx + i;
                     out_u[k] = u[k] - (here - phi[left]);
                     out_v[k] = v[k] - if j == 0 { *here } else { here - below[i] };

@@ -5,20 +5,17 @@ use std::f64::consts::PI;
 use fourier::SineCosine;
 use num_complex::Complex64;
 
-use crate::mean_flow::Poiseuille;
-use crate::rows::RowTransform;
-use crate::symbol::second_difference;
-use crate::{CentreField, Drive, Grid, StaggeredField, StokesError, Wall, WallMotion, Work};
+use crate::channel::{Conditions, Poiseuille};
+use crate::transform::{RowTransform, second_difference};
+use crate::{CentreField, Grid, StaggeredField, StokesError, WallMotion, Work};
 
 /// The projection method in a channel, exact in one pass by the wall values of u*. Lengths inside are in cells, phi is
 /// phi / h.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct ChannelProjection {
     grid: Grid,
     viscosity: f64,
-    drive: Drive,
-    walls: WallMotion,
-    wall_spectra: [Vec<Complex64>; 2],
+    pub(crate) conditions: Conditions,
     rows: RowTransform,
     across: SineCosine,
     poiseuille: Poiseuille,
@@ -88,9 +85,7 @@ impl ChannelProjection {
         Ok(Self {
             grid,
             viscosity,
-            drive: Drive::default(),
-            walls: WallMotion::AT_REST,
-            wall_spectra: [complex(width), complex(width)],
+            conditions: Conditions::new(width),
             rows,
             across,
             poiseuille: Poiseuille::new(&grid, viscosity),
@@ -108,23 +103,8 @@ impl ChannelProjection {
         })
     }
 
-    pub(crate) fn set_drive(&mut self, drive: Drive) {
-        self.drive = drive;
-    }
-
-    pub(crate) fn drive(&self) -> Drive {
-        self.drive
-    }
-
-    pub(crate) fn walls(&self) -> &WallMotion {
-        &self.walls
-    }
-
-    pub(crate) fn set_walls(&mut self, walls: WallMotion) {
-        for (wall, spectrum) in [Wall::Bottom, Wall::Top].into_iter().zip(&mut self.wall_spectra) {
-            walls.spectrum(wall, &mut self.rows, spectrum);
-        }
-        self.walls = walls;
+    pub(crate) fn set_walls(&mut self, walls: WallMotion) -> Result<(), StokesError> {
+        self.conditions.set_walls(walls, &self.grid, &mut self.rows)
     }
 
     /// The velocity; gives the mean pressure gradient.
@@ -192,7 +172,7 @@ impl ChannelProjection {
                 for (mean, value) in self.mean_u.iter_mut().zip(&self.u_column) {
                     *mean = value.re;
                 }
-                gradient = self.poiseuille.impose(self.drive, &mut self.mean_u);
+                gradient = self.poiseuille.impose(self.conditions.drive, &mut self.mean_u);
                 for (mean, value) in self.mean_u.iter().zip(&mut self.u_column) {
                     *value = Complex64::new(*mean, 0.0);
                 }
@@ -239,8 +219,8 @@ impl ChannelProjection {
         }
 
         // The wall values of u* for which u has those of the walls.
-        let bottom = self.wall_spectra[0][m] + gradient * first;
-        let top = self.wall_spectra[1][m] + gradient * last;
+        let bottom = self.conditions.spectra[0][m] + gradient * first;
+        let top = self.conditions.spectra[1][m] + gradient * last;
         let [of_sum, of_difference] = self.capacitance[m];
         let (sum, difference) = ((bottom + top) * of_sum, (bottom - top) * of_difference);
         let (bottom, top) = (0.5 * (sum + difference), 0.5 * (sum - difference));

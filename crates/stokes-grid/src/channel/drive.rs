@@ -1,7 +1,7 @@
 //! What drives the flow along a channel.
 
 use crate::StokesError;
-use crate::checks::check_finite;
+use crate::error::checks::check_finite;
 
 /// What is held fixed along a channel, beside the forces and the walls' motion: the mean pressure gradient or the flux.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -1,6 +1,7 @@
 //! The part of a channel's flow that does not depend on x.
 
-use crate::{Drive, Grid};
+use super::Drive;
+use crate::Grid;
 
 /// The x velocities of a channel averaged over x: `eta (u[j+1] - 2 u[j] + u[j-1]) / h^2 = g - f[j]` between walls, with
 /// the mean force f and the mean pressure gradient g.

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::symbol::second_difference;
+use crate::transform::second_difference;
 
 /// What a wall does at a distance, relative to what it does nearby, is left out when it is smaller than this: it is far
 /// below round-off, and skipping it saves half of the work in the middle of a wide channel.

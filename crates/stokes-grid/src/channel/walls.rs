@@ -2,9 +2,9 @@
 
 use num_complex::Complex64;
 
-use crate::checks::check_finite;
-use crate::rows::RowTransform;
-use crate::sums::sum;
+use crate::error::checks::check_finite;
+use crate::field::sum;
+use crate::transform::RowTransform;
 use crate::{Grid, StokesError};
 
 /// One of the two walls of a channel.

@@ -6,8 +6,12 @@ pub(crate) fn check_viscosity(value: f64) -> Result<(), StokesError> {
     if value.is_finite() && value > 0.0 { Ok(()) } else { Err(StokesError::NotPositive { name: "viscosity", value }) }
 }
 
-pub(crate) fn check_grid(solver: &Grid, field: &Grid, name: &'static str) -> Result<(), StokesError> {
-    if solver == field { Ok(()) } else { Err(StokesError::GridMismatch { name }) }
+/// An error that names the first of `fields` that lives on another grid.
+pub(crate) fn check_grids(own: &Grid, fields: &[(&'static str, &Grid)]) -> Result<(), StokesError> {
+    match fields.iter().find(|(_, grid)| *grid != own) {
+        None => Ok(()),
+        Some(&(name, _)) => Err(StokesError::GridMismatch { name }),
+    }
 }
 
 pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), StokesError> {

@@ -3,10 +3,9 @@
 use num_complex::Complex64;
 use rayon::prelude::*;
 
-use crate::columns::ColumnTransform;
-use crate::rows::RowTransform;
-use crate::sums::sum;
-use crate::{StaggeredField, Symbol};
+use crate::field::sum;
+use crate::transform::{ColumnTransform, RowTransform};
+use crate::{StaggeredField, Symbol, stencil};
 
 /// Pieces of work, whatever the number of threads: enough for eight of them to share evenly.
 const SHARES: usize = 16;
@@ -22,7 +21,7 @@ const LEAST_CELLS: usize = 800_000;
 /// Rows go into `spectrum`, columns of that into `columns` (each column contiguous), rows of those into the velocity:
 /// no share writes where another one does, and every number comes from the same operations in the same order as on one
 /// thread.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct ParallelTransform {
     nx: usize,
     ny: usize,
@@ -35,7 +34,7 @@ pub(crate) struct ParallelTransform {
 }
 
 /// Room for the rows of one share.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct RowShare {
     transform: RowTransform,
     batch: Vec<Complex64>,
@@ -123,16 +122,10 @@ impl ParallelTransform {
                     return;
                 }
                 if k > 0 {
-                    for ((u, below), psi) in u[(k - 1) * nx..][..nx].iter_mut().zip(&*previous).zip(psi) {
-                        *u = mean_u + (psi - below);
-                    }
+                    stencil::along(&mut u[(k - 1) * nx..][..nx], previous, psi, mean_u);
                 }
                 if k < rows {
-                    let v = &mut v[k * nx..][..nx];
-                    for (v, psi) in v.iter_mut().zip(psi.windows(2)) {
-                        *v = mean_v - (psi[1] - psi[0]);
-                    }
-                    v[nx - 1] = mean_v - (psi[0] - psi[nx - 1]);
+                    stencil::across(&mut v[k * nx..][..nx], psi, mean_v);
                     previous.copy_from_slice(psi);
                 }
             }

@@ -1,12 +1,11 @@
-//! A run from the flags to the files.
-
 use std::path::{Path, PathBuf};
 
+use super::*;
+use crate::{MethodFlags, OutputFlags, Summary};
 use clap::Parser;
 use motile::ib_core::StepSize;
-use motile::setup::{Built, GridMethod, Method, Region, Setup};
 use motile::stokes_grid::Drive;
-use motile_examples::{MethodFlags, OutputFlags, Summary, WatchedRun, caption};
+use motile::{Built, GridMethod, Method, Region, Setup};
 
 #[derive(Debug, Parser)]
 struct Flags {
@@ -50,7 +49,7 @@ fn a_run_in_a_channel_leaves_all_its_files() {
     assert_eq!(Setup::from_toml(&written).unwrap(), setup);
     let header = std::fs::read_to_string(directory.join("trajectory.csv")).unwrap();
     assert!(header.starts_with("time,x,y,") && header.lines().next().unwrap().contains(",gap,"));
-    assert_eq!(run.recorder().table().rows().len(), run.recorder().records().len());
+    assert_eq!(run.recorder().table().rows().len(), run.recorder().records().records().len());
     assert_eq!(summary.number("time"), 1.0);
     assert!(summary.number("speed") > 0.05 && summary.number("area_relative_change").abs() < 1e-4);
     std::fs::remove_dir_all(&directory).unwrap();

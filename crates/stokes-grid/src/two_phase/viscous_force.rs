@@ -1,12 +1,12 @@
 //! The viscous force of a fluid whose viscosity varies.
 
-use crate::kinematics::{left, right};
+use crate::stencil::{left, right};
 use crate::{CentreField, Grid, NodeField, StaggeredField, Wall, WallMotion};
 
 /// `div(2 eta D)` of a velocity without divergence, D its strain rate: normal stresses at the centres, shear stresses
 /// at the nodes, each with the viscosity there. Minus this operator is symmetric and positive, and `eta lap` where eta
 /// is uniform.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct ViscousForce {
     centres: CentreField,
     nodes: NodeField,

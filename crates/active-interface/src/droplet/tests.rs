@@ -1,0 +1,131 @@
+use super::*;
+use crate::{ContractileTension, Curve, InitialConcentration};
+use ib_core::{
+    Body, Domain, FlowError, FlowSample, Hydrodynamics, Markers, Scene,
+    hydrodynamics::{FlowReport, FlowWork},
+};
+
+/// A converging flow, smooth (resolved by spectral accuracy) or on a grid.
+#[derive(Debug)]
+struct Converging {
+    smooth: bool,
+}
+
+impl Hydrodynamics for Converging {
+    fn medium(&self) -> Medium {
+        Medium {
+            domain: Domain { origin: [0.0, 0.0], periods: [None, None], walls: None },
+            viscosity: 1.0,
+            spacing: (!self.smooth).then_some(0.1),
+            interface_stiffness: 1.0,
+            shape_modes: self.smooth.then_some(41),
+            mobility_deficit: None,
+        }
+    }
+
+    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+        let Markers { positions, forces, velocities, .. } = markers;
+        for ((u, x), f) in velocities.iter_mut().zip(positions.iter()).zip(forces.iter()) {
+            *u = Vec2::new(-0.2 * x.x, 0.2 * x.y + 0.05 * x.x * x.x) + 0.1 * f;
+        }
+        Ok(FlowReport::default())
+    }
+
+    fn sample(&mut self, _: &Markers, _: &[Vec2], _: &mut [FlowSample]) -> Result<(), FlowError> {
+        Ok(())
+    }
+
+    fn work(&self) -> FlowWork {
+        FlowWork::default()
+    }
+}
+
+fn droplet(motion: Motion) -> ActiveDroplet {
+    let markers = Curve::ellipse(1.2, 0.9).unwrap().rotated(0.4).markers(64).unwrap();
+    let numbers = InitialConcentration::polarised(1.0, 0.4).unwrap().particle_numbers(&markers).unwrap();
+    let law = ContractileTension::thesis(1.0, -0.5, 2.0, 1.0).unwrap();
+    ActiveDroplet::new(&markers, numbers, law, 0.05).unwrap().with_motion(motion)
+}
+
+const UNFILTERED: Motion = Motion::Equidistributed { relaxation: 5.0, filter: false };
+
+/// Geometry is computed for the stage, for the new state, and once more where the filter moves its markers.
+#[test]
+fn a_midpoint_step_computes_each_geometry_once() {
+    let cases = [(false, Motion::default(), 3), (false, UNFILTERED, 2), (true, Motion::default(), 2)];
+    for (smooth, motion, expected) in cases {
+        let passive = ActiveDroplet::passive(droplet(motion).markers(), 1.0).unwrap().with_motion(motion);
+        for droplet in [droplet(motion), passive] {
+            let mut scene = Scene::new(Converging { smooth });
+            let handle = scene.add(droplet);
+            // The first step also fits the geometry to the medium.
+            scene.step(0.01).unwrap();
+            let evaluations = |scene: &Scene<Converging>| {
+                let droplet = scene.body(handle).unwrap();
+                droplet.shape.evaluations + droplet.other.evaluations
+            };
+            let before = evaluations(&scene);
+            for _ in 0..10 {
+                scene.step(0.01).unwrap();
+            }
+            assert_eq!(evaluations(&scene) - before, 10 * expected, "smooth {smooth}, {motion:?}");
+        }
+    }
+}
+
+fn bits(droplet: &ActiveDroplet) -> Vec<u64> {
+    let saved = droplet.save();
+    saved.reals.iter().map(|value| value.to_bits()).chain(saved.counts).collect()
+}
+
+#[test]
+fn geometries_that_are_kept_are_those_of_their_markers() {
+    for (smooth, motion) in [(false, Motion::default()), (true, Motion::default()), (false, Motion::WithFluid)] {
+        let mut scene = Scene::new(Converging { smooth });
+        let handle = scene.add(droplet(motion));
+        for _ in 0..30 {
+            scene.step(0.02).unwrap();
+            let droplet = scene.body(handle).unwrap();
+            for kept in [&droplet.shape, &droplet.other] {
+                let mut fresh = Shape { markers: kept.markers.clone(), ..Shape::default() };
+                fresh.update(droplet.spectral.clone().as_mut());
+                assert_eq!(kept.geometry, fresh.geometry, "smooth {smooth}, {motion:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_clone_goes_on_bitwise_identically() {
+    for (smooth, motion) in [(false, Motion::default()), (true, Motion::default()), (false, Motion::WithFluid)] {
+        let mut scene = Scene::new(Converging { smooth });
+        let handle = scene.add(droplet(motion));
+        for _ in 0..20 {
+            scene.step(0.02).unwrap();
+        }
+        let clone = scene.body(handle).unwrap().clone();
+        assert_eq!(bits(&clone), bits(scene.body(handle).unwrap()));
+        let mut other = Scene::new(Converging { smooth });
+        let other_handle = other.add(clone);
+        for _ in 0..20 {
+            scene.step(0.02).unwrap();
+            other.step(0.02).unwrap();
+        }
+        assert_eq!(bits(other.body(other_handle).unwrap()), bits(scene.body(handle).unwrap()), "{smooth} {motion:?}");
+    }
+}
+
+#[test]
+fn laws_chosen_at_run_time_are_laws() {
+    let markers = Curve::circle(1.0).unwrap().markers(32).unwrap();
+    let law = ContractileTension::thesis(1.0, -0.5, 2.0, 1.0).unwrap();
+    let tensions = |law: Box<dyn Tension>| {
+        let shared: Arc<dyn Tension> = law.into();
+        ActiveDroplet::new(&markers, vec![0.3; 32], shared, 0.1).unwrap().tensions().to_vec()
+    };
+    let direct = ActiveDroplet::new(&markers, vec![0.3; 32], law, 0.1).unwrap();
+    assert_eq!(tensions(Box::new(law)), direct.tensions());
+    let constant =
+        ActiveDroplet::new(&markers, vec![0.3; 32], Box::new(crate::ConstantTension::new(7.0).unwrap()), 0.1);
+    assert!(constant.unwrap().tensions().iter().all(|&tension| tension == 7.0));
+}
