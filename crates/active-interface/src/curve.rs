@@ -8,10 +8,10 @@ mod spline;
 use std::f64::consts::{PI, TAU};
 
 use ib_core::Vec2;
+use ib_core::input::{all_finite, all_points_finite, at_least, finite, not_negative, positive, within};
 use nalgebra::Rotation2;
 
 use crate::InterfaceError;
-use crate::error::{all_finite, all_points_finite, enough, finite, not_negative, positive};
 use crate::function::Function;
 pub(crate) use crossing::CrossingFinder;
 pub use crossing::first_crossing;
@@ -277,16 +277,8 @@ impl Curve {
     /// Fewer than eight or more than ten million markers; so few that the polygon crosses itself; a curve whose chords
     /// could not be made equal; rotations or translations that are not finite.
     pub fn markers(&self, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
-        enough("markers", count, MINIMUM_MARKERS)?;
-        if count > MAXIMUM_MARKERS {
-            let (minimum, maximum) = (MINIMUM_MARKERS as f64, MAXIMUM_MARKERS as f64);
-            return Err(InterfaceError::OutOfRange {
-                name: "the number of markers",
-                value: count as f64,
-                minimum,
-                maximum,
-            });
-        }
+        at_least("markers", count, MINIMUM_MARKERS)?;
+        within("the number of markers", count as f64, MINIMUM_MARKERS as f64, MAXIMUM_MARKERS as f64)?;
         finite("the rotation", self.rotation)?;
         all_points_finite("the translation", &[self.translation])?;
         let mut markers = if let Shape::Circle(_) = self.shape {
@@ -345,7 +337,7 @@ pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError>
 }
 
 fn check_list(points: &[Vec2], minimum: usize) -> Result<(), InterfaceError> {
-    enough("points of the curve", points.len(), minimum)?;
+    at_least("points of the curve", points.len(), minimum)?;
     all_points_finite("the points of the curve", points)?;
     if let Some(index) = edges(points).position(|(a, b)| a == b) {
         return Err(InterfaceError::CoincidentPoints { index });

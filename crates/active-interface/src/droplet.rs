@@ -13,9 +13,9 @@ mod warning;
 use std::sync::Arc;
 
 use fourier::BandLimit;
+use ib_core::input::{InputError, all_finite, not_negative, positive, same_length};
 use ib_core::{Medium, Vec2};
 
-use crate::error::{not_negative, positive};
 use crate::{
     Flux, InterfaceError, Tension,
     concentration::{Repair, Transport, cell_peclet},
@@ -121,8 +121,8 @@ impl ActiveDroplet {
         tension: impl Tension + 'static,
         diffusion: f64,
     ) -> Result<Self, InterfaceError> {
-        crate::error::length("particle numbers", markers.len(), numbers.len())?;
-        crate::error::all_finite("the particle numbers", &numbers)?;
+        same_length("particle numbers", markers.len(), numbers.len())?;
+        all_finite("the particle numbers", &numbers)?;
         for &number in &numbers {
             not_negative("a particle number", number)?;
         }
@@ -222,7 +222,7 @@ impl ActiveDroplet {
     pub fn with_bounds(mut self, area: f64, particles: f64) -> Result<Self, InterfaceError> {
         for (name, value) in [("the bound on the area", area), ("the bound on the particles", particles)] {
             if value.is_nan() || value < 0.0 {
-                return Err(InterfaceError::Negative { name, value });
+                return Err(InputError::Negative { name, value }.into());
             }
         }
         self.bounds = [area, particles];

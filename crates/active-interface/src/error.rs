@@ -1,43 +1,14 @@
 //! What can go wrong with an interface.
 
+use ib_core::input::{InputError, all_finite};
+
 /// An error of this crate, with the offending values and the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InterfaceError {
-    /// A quantity that must be positive and finite is not.
-    #[error("{name} is {value}: give a positive finite number")]
-    NotPositive {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A quantity that must be finite and at least zero is not.
-    #[error("{name} is {value}: give a finite number that is not negative")]
-    Negative {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A quantity that must be finite is not.
-    #[error("{name} is {value}: give a finite number")]
-    NotFinite {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// An entry of a list that must be finite is not.
-    #[error("entry {index} of {name} is {value}: all entries must be finite")]
-    EntryNotFinite {
-        /// The list.
-        name: &'static str,
-        /// Which entry.
-        index: usize,
-        /// The first component that is not finite.
-        value: f64,
-    },
+    /// A number or list that cannot be used.
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// An entry of a list that must be positive is not.
     #[error("entry {index} of {name} is {value}: all entries must be positive and finite")]
     EntryNotPositive {
@@ -47,38 +18,6 @@ pub enum InterfaceError {
         index: usize,
         /// Its value.
         value: f64,
-    },
-    /// A quantity outside its range.
-    #[error("{name} is {value}: give a number from {minimum} to {maximum}")]
-    OutOfRange {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// Least value.
-        minimum: f64,
-        /// Largest value.
-        maximum: f64,
-    },
-    /// Too few of something.
-    #[error("{found} {name} are too few: give at least {minimum}")]
-    TooFew {
-        /// Of what.
-        name: &'static str,
-        /// How many there are.
-        found: usize,
-        /// The least number.
-        minimum: usize,
-    },
-    /// Slices of different length.
-    #[error("{name} has {found} entries where {expected} are needed")]
-    WrongLength {
-        /// The slice.
-        name: &'static str,
-        /// Entries needed.
-        expected: usize,
-        /// Entries given.
-        found: usize,
     },
     /// A curve whose end is not its start.
     #[error("the curve is not closed: its end is {gap} away from its start; make it periodic in its parameter")]
@@ -177,39 +116,6 @@ pub enum InterfaceError {
     },
 }
 
-/// `value` if it is positive and finite.
-pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, InterfaceError> {
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(InterfaceError::NotPositive { name, value }) }
-}
-
-/// `value` if it is finite and not negative.
-pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<f64, InterfaceError> {
-    if value >= 0.0 && value.is_finite() { Ok(value) } else { Err(InterfaceError::Negative { name, value }) }
-}
-
-/// `value` if it is finite.
-pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, InterfaceError> {
-    if value.is_finite() { Ok(value) } else { Err(InterfaceError::NotFinite { name, value }) }
-}
-
-/// Whether a slice has the length that is needed.
-pub(crate) fn length(name: &'static str, expected: usize, found: usize) -> Result<(), InterfaceError> {
-    if expected == found { Ok(()) } else { Err(InterfaceError::WrongLength { name, expected, found }) }
-}
-
-/// Whether there are enough of something.
-pub(crate) fn enough(name: &'static str, found: usize, minimum: usize) -> Result<(), InterfaceError> {
-    if found >= minimum { Ok(()) } else { Err(InterfaceError::TooFew { name, found, minimum }) }
-}
-
-/// Whether all entries are finite.
-pub(crate) fn all_finite(name: &'static str, values: &[f64]) -> Result<(), InterfaceError> {
-    match values.iter().position(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(index) => Err(InterfaceError::EntryNotFinite { name, index, value: values[index] }),
-    }
-}
-
 /// Whether all entries are finite and each is above the one before it.
 pub(crate) fn increasing(name: &'static str, values: &[f64]) -> Result<(), InterfaceError> {
     all_finite(name, values)?;
@@ -224,17 +130,5 @@ pub(crate) fn all_positive(name: &'static str, values: &[f64]) -> Result<(), Int
     match values.iter().position(|&value| !(value > 0.0 && value.is_finite())) {
         None => Ok(()),
         Some(index) => Err(InterfaceError::EntryNotPositive { name, index, value: values[index] }),
-    }
-}
-
-/// Whether all points are finite.
-pub(crate) fn all_points_finite(name: &'static str, points: &[ib_core::Vec2]) -> Result<(), InterfaceError> {
-    match points.iter().position(|point| !(point.x.is_finite() && point.y.is_finite())) {
-        None => Ok(()),
-        Some(index) => {
-            let point = points[index];
-            let value = if point.x.is_finite() { point.y } else { point.x };
-            Err(InterfaceError::EntryNotFinite { name, index, value })
-        }
     }
 }

@@ -5,7 +5,8 @@ mod excluded_volume;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::error::{finite, not_negative};
+use ib_core::input::{finite, not_negative};
+
 use crate::{DropletWarning, InterfaceError};
 pub use excluded_volume::ExcludedVolume;
 

@@ -2,8 +2,9 @@
 
 mod squirmer_flow;
 
+use ib_core::input::{at_least, finite, not_negative, positive};
+
 use crate::InterfaceError;
-use crate::error::{finite, not_negative, positive};
 pub use squirmer_flow::SquirmerFlow;
 
 /// What the linear theory of a round droplet needs to know.
@@ -117,7 +118,7 @@ impl LinearTheory {
         concentration_amplitude: f64,
         radius_amplitude: f64,
     ) -> Result<ModeFlow, InterfaceError> {
-        crate::error::enough("waves around the droplet", k as usize, 1)?;
+        at_least("waves around the droplet", k as usize, 1)?;
         let c = finite("the amplitude of the concentration", concentration_amplitude)?;
         let r = finite("the amplitude of the radius", radius_amplitude)?;
         let droplet = self.0;

@@ -1,7 +1,8 @@
 //! From the units of a calculation to SI.
 
+use ib_core::input::{finite, positive};
+
 use crate::InterfaceError;
-use crate::error::{finite, positive};
 
 /// What is converted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

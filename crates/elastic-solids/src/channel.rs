@@ -4,8 +4,8 @@ mod shapes;
 mod width;
 
 use ib_core::Vec2;
+use ib_core::input::{InputError, finite, within};
 
-use crate::error::{finite, within};
 use crate::mesher::segments::Segments;
 use crate::{Mesher, Outline, Region, SolidError, TriangleMesh};
 
@@ -198,7 +198,7 @@ impl Channel {
     /// An island beyond the last; those of [`Mesher::mesh`].
     pub fn island(&self, number: usize, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
         let found = self.islands.len();
-        let island = self.islands.get(number).ok_or(SolidError::TooFew {
+        let island = self.islands.get(number).ok_or(InputError::TooFew {
             name: "islands",
             found,
             minimum: number.saturating_add(1),

@@ -3,8 +3,8 @@
 mod moduli;
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, positive, same_length};
 
-use crate::error::{all_points_finite, fits, positive};
 use crate::material::{DeformationGradient, Mat2};
 use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
 
@@ -72,7 +72,7 @@ pub fn force_balance(law: &dyn ElasticForces, positions: &[Vec2]) -> Result<Forc
 /// # Errors
 /// Forces made for another mesh; a deformation that is not finite; those of [`ElasticForces::add_forces`].
 pub fn patch_residual(mesh: &TriangleMesh, law: &dyn ElasticForces, deformation: Mat2) -> Result<f64, SolidError> {
-    fits("the mesh of the forces", law.point_count(), mesh.points().len())?;
+    same_length("the mesh of the forces", mesh.points().len(), law.point_count())?;
     let positions: Vec<Vec2> = mesh.points().iter().map(|s| deformation * s).collect();
     all_points_finite("the deformed points", &positions)?;
     let mut forces = vec![Vec2::zeros(); positions.len()];

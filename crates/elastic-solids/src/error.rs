@@ -1,41 +1,14 @@
 //! What can go wrong with an elastic solid.
 
-use ib_core::Vec2;
+use ib_core::input::{InputError, positive, within};
 
 /// An error of this crate, with the offending values and the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolidError {
-    /// A quantity that must be positive and finite is not.
-    #[error("{name} is {value}: give a positive finite number")]
-    NotPositive {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A quantity outside its range.
-    #[error("{name} is {value}: give a number from {minimum} to {maximum}")]
-    OutOfRange {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// Least value.
-        minimum: f64,
-        /// Largest value.
-        maximum: f64,
-    },
-    /// A bulk modulus too small for the energy.
-    #[error("bulk modulus {bulk} with shear modulus {shear}: this energy needs a bulk modulus above {minimum}")]
-    BulkTooSmall {
-        /// The bulk modulus (force per length).
-        bulk: f64,
-        /// The shear modulus (force per length).
-        shear: f64,
-        /// What it must be above (force per length).
-        minimum: f64,
-    },
+    /// A number or list that cannot be used.
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// A deformation that inverts the material, flattens it, or is not finite.
     #[error(
         "the deformation gradient [[{a11}, {a12}], [{a21}, {a22}]] has the determinant {jacobian}: it must be positive"
@@ -51,38 +24,6 @@ pub enum SolidError {
         a22: f64,
         /// Determinant.
         jacobian: f64,
-    },
-    /// An entry of a list that must be finite is not.
-    #[error("entry {index} of {name} is ({x}, {y}): all entries must be finite")]
-    EntryNotFinite {
-        /// The list.
-        name: &'static str,
-        /// Which entry.
-        index: usize,
-        /// Its x component.
-        x: f64,
-        /// Its y component.
-        y: f64,
-    },
-    /// Too few of something.
-    #[error("{found} {name} are too few: give at least {minimum}")]
-    TooFew {
-        /// Of what.
-        name: &'static str,
-        /// How many there are.
-        found: usize,
-        /// The least number.
-        minimum: usize,
-    },
-    /// Slices of different length.
-    #[error("{name} has {found} entries where {expected} are needed")]
-    WrongLength {
-        /// The slice.
-        name: &'static str,
-        /// Entries needed.
-        expected: usize,
-        /// Entries given.
-        found: usize,
     },
     /// A triangle of points that do not exist.
     #[error("triangle {triangle} names point {point} of {points}: points are counted from 0")]
@@ -137,14 +78,6 @@ pub enum SolidError {
         second: usize,
         /// One of the triangles.
         triangle: usize,
-    },
-    /// A quantity that must be finite is not.
-    #[error("{name} is {value}: give a finite number")]
-    NotFinite {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
     },
     /// Something that cannot be done.
     #[error("{what} is not possible: {remedy}")]
@@ -234,16 +167,6 @@ pub enum SolidError {
         /// y of that point (length).
         y: f64,
     },
-    /// Lengths that do not fit into the period.
-    #[error("{what} take {length}, more than the period {period}: shorten them or lengthen the period")]
-    DoesNotFit {
-        /// Which lengths.
-        what: &'static str,
-        /// Their sum (length).
-        length: f64,
-        /// The period (length).
-        period: f64,
-    },
     /// A hole that the mesh cannot resolve.
     #[error(
         "the hole at ({x}, {y}) is {width} wide, less than the mesh spacing {spacing}: leave it out or use a smaller spacing"
@@ -318,47 +241,10 @@ pub enum SolidError {
     },
 }
 
-/// `value` if it is positive and finite.
-pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, SolidError> {
-    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(SolidError::NotPositive { name, value }) }
-}
-
-/// `value` if it lies in the closed range.
-pub(crate) fn within(name: &'static str, value: f64, minimum: f64, maximum: f64) -> Result<f64, SolidError> {
-    if value >= minimum && value <= maximum {
-        Ok(value)
-    } else {
-        Err(SolidError::OutOfRange { name, value, minimum, maximum })
-    }
-}
-
 /// Most points of a mesh or an outline: sizes are bounded before anything is allocated.
 pub(crate) const MOST_POINTS: f64 = 1e6;
 
 /// `value` if it is a length to compute with: positive, and such that its square is neither zero nor infinite.
-pub(crate) fn length(name: &'static str, value: f64) -> Result<f64, SolidError> {
+pub(crate) fn length(name: &'static str, value: f64) -> Result<f64, InputError> {
     within(name, positive(name, value)?, 1e-100, 1e100)
-}
-
-/// `found` if it is at least `minimum`.
-pub(crate) fn at_least(name: &'static str, found: usize, minimum: usize) -> Result<usize, SolidError> {
-    if found >= minimum { Ok(found) } else { Err(SolidError::TooFew { name, found, minimum }) }
-}
-
-/// Whether all points are finite.
-pub(crate) fn all_points_finite(name: &'static str, points: &[Vec2]) -> Result<(), SolidError> {
-    match points.iter().position(|point| !(point.x.is_finite() && point.y.is_finite())) {
-        None => Ok(()),
-        Some(index) => Err(SolidError::EntryNotFinite { name, index, x: points[index].x, y: points[index].y }),
-    }
-}
-
-/// `value` if it is finite.
-pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, SolidError> {
-    if value.is_finite() { Ok(value) } else { Err(SolidError::NotFinite { name, value }) }
-}
-
-/// Whether lists of a value a point fit a mesh.
-pub(crate) fn fits(name: &'static str, found: usize, expected: usize) -> Result<(), SolidError> {
-    if found == expected { Ok(()) } else { Err(SolidError::WrongLength { name, expected, found }) }
 }

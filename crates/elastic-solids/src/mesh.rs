@@ -6,9 +6,9 @@ mod quality;
 mod topology;
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, at_least, positive};
 
 use crate::SolidError;
-use crate::error::{all_points_finite, positive};
 
 use topology::{connect, loops};
 
@@ -78,9 +78,7 @@ impl TriangleMesh {
 
     fn build(points: Vec<Vec2>, mut triangles: Vec<[usize; 3]>, period: Option<f64>) -> Result<Self, SolidError> {
         all_points_finite("the points of the mesh", &points)?;
-        if triangles.is_empty() {
-            return Err(SolidError::TooFew { name: "triangles", found: 0, minimum: 1 });
-        }
+        at_least("triangles", triangles.len(), 1)?;
         let mut shifts = vec![[0; 2]; triangles.len()];
         let mut areas = Vec::with_capacity(triangles.len());
         let mut used = vec![false; points.len()];

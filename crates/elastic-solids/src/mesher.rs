@@ -7,7 +7,9 @@ mod seeds;
 pub(crate) mod segments;
 mod triangulation;
 
-use crate::error::{finite, length};
+use ib_core::input::finite;
+
+use crate::error::length;
 use crate::{Region, SolidError, TriangleMesh};
 use boundary::Boundary;
 use point_set::PointSet;

@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, at_least, finite, positive, within};
 
 use crate::SolidError;
-use crate::error::{MOST_POINTS, all_points_finite, at_least, finite, length, positive, within};
+use crate::error::{MOST_POINTS, length};
 
 mod fillet;
 mod piece;

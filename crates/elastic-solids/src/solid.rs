@@ -8,8 +8,8 @@ mod surface_correction;
 use std::sync::Arc;
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, at_least, positive, same_length};
 
-use crate::error::{all_points_finite, at_least, fits, positive};
 use crate::forces::{Hyperelastic, Springs};
 use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
 use surface_correction::SurfaceCorrection;
@@ -127,7 +127,7 @@ impl Solid {
     /// # Errors
     /// Forces made for another number of points.
     pub fn with_forces(mesh: TriangleMesh, law: impl ElasticForces) -> Result<Self, SolidError> {
-        fits("the mesh of the forces", law.point_count(), mesh.points().len())?;
+        same_length("the mesh of the forces", mesh.points().len(), law.point_count())?;
         Ok(Self::at_rest(mesh, law))
     }
 
@@ -240,7 +240,7 @@ impl Solid {
     /// # Errors
     /// A list of the wrong length, positions that are not finite.
     pub fn set_positions(&mut self, positions: &[Vec2]) -> Result<(), SolidError> {
-        fits("the positions", positions.len(), self.positions.len())?;
+        same_length("the positions", self.positions.len(), positions.len())?;
         all_points_finite("the positions", positions)?;
         self.positions.copy_from_slice(positions);
         Ok(())

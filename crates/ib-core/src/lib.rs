@@ -51,6 +51,7 @@ mod error;
 pub mod gap;
 pub mod hydrodynamics;
 mod immersed_boundary;
+pub mod input;
 pub mod integrator;
 pub mod kernel;
 pub mod mobility;

@@ -3,7 +3,7 @@
 use motile::SetupError;
 use motile::active_interface::InterfaceError;
 use motile::elastic_solids::SolidError;
-use motile::ib_core::{BodyError, FlowError, SceneError};
+use motile::ib_core::{BodyError, FlowError, SceneError, input::InputError};
 
 /// A case that could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -95,7 +95,9 @@ impl Ending {
                 _ => match source.downcast_ref::<InterfaceError>() {
                     Some(InterfaceError::Collapse { .. }) => Self::Collapsed,
                     Some(InterfaceError::SelfCrossing { .. }) => Self::SelfCrossing,
-                    Some(InterfaceError::EntryNotFinite { .. } | InterfaceError::NotFinite { .. }) => Self::NonFinite,
+                    Some(InterfaceError::Input(InputError::EntryNotFinite { .. } | InputError::NotFinite { .. })) => {
+                        Self::NonFinite
+                    }
                     _ => Self::Other,
                 },
             },

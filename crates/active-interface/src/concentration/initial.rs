@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use ib_core::Vec2;
+use ib_core::input::{all_finite, finite, not_negative, positive, within};
 
 use crate::InterfaceError;
 use crate::curve::polygon::edges;
-use crate::error::{finite, positive};
 use crate::function::Function;
 
 /// A concentration of particles along a closed curve, to start a run from.
@@ -61,10 +61,7 @@ impl InitialConcentration {
     /// A mean that is not positive, an amplitude outside [0, 1).
     pub fn perturbed(mean: f64, amplitude: f64, seed: u64) -> Result<Self, InterfaceError> {
         let mean = positive("the mean concentration", mean)?;
-        if !(0.0..1.0).contains(&amplitude) {
-            let name = "the amplitude of the perturbation";
-            return Err(InterfaceError::OutOfRange { name, value: amplitude, minimum: 0.0, maximum: 1.0 });
-        }
+        within("the amplitude of the perturbation", amplitude, 0.0, 1.0 - f64::EPSILON)?;
         Ok(Self(Kind::Perturbed { mean, amplitude, seed }))
     }
 
@@ -116,13 +113,8 @@ impl InitialConcentration {
                     .collect()
             }
         };
-        if let Some(index) = concentrations.iter().position(|c| !(*c >= 0.0 && c.is_finite())) {
-            let name = "the initial concentration";
-            return Err(match concentrations[index] {
-                value if value.is_finite() => InterfaceError::Negative { name, value },
-                value => InterfaceError::EntryNotFinite { name, index, value },
-            });
-        }
+        all_finite("the initial concentration", &concentrations)?;
+        concentrations.iter().try_for_each(|&value| not_negative("the initial concentration", value).map(drop))?;
         for (c, length) in concentrations.iter_mut().zip(&lengths) {
             *c *= length;
         }

@@ -1,7 +1,8 @@
 //! Keeping particle numbers from becoming negative.
 
+use ib_core::input::all_finite;
+
 use crate::InterfaceError;
-use crate::error::all_finite;
 
 /// What a repair of negative particle numbers did.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

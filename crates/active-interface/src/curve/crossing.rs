@@ -1,9 +1,9 @@
 //! Does a closed polygon cross itself?
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, at_least};
 
 use crate::InterfaceError;
-use crate::error::{all_points_finite, enough};
 
 /// Finds where a closed polygon crosses or touches itself, in a time proportional to the number of its points where
 /// they are about equally spaced.
@@ -29,7 +29,7 @@ impl CrossingFinder {
     /// # Errors
     /// Fewer than three points, points that are not finite.
     pub(crate) fn first_crossing(&mut self, points: &[Vec2]) -> Result<Option<(usize, usize)>, InterfaceError> {
-        enough("points of a polygon", points.len(), 3)?;
+        at_least("points of a polygon", points.len(), 3)?;
         all_points_finite("the points of the polygon", points)?;
         if is_star_shaped(points) {
             return Ok(None);

@@ -1,10 +1,10 @@
 //! Points at equal distances along a closed curve.
 
 use ib_core::Vec2;
+use ib_core::input::all_points_finite;
 
 use crate::InterfaceError;
 use crate::curve::polygon::edges;
-use crate::error::all_points_finite;
 
 /// `count` points of the closed curve `point`, a function of a parameter in [0, 1], from `point(0)` on, with equal
 /// chords to 1e-12 of their length (or to the round-off of the coordinates, if that is more).

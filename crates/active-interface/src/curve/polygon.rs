@@ -1,9 +1,9 @@
 //! Exact geometry of the polygon through the markers.
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, at_least};
 
 use crate::InterfaceError;
-use crate::error::{all_points_finite, enough};
 
 /// The edges of a closed polygon, as pairs of end points.
 pub(crate) fn edges(points: &[Vec2]) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
@@ -59,8 +59,8 @@ pub(crate) fn raw_moments(points: &[Vec2]) -> AreaMoments {
 }
 
 fn check(points: &[Vec2]) -> Result<(), InterfaceError> {
-    enough("points of a polygon", points.len(), 3)?;
-    all_points_finite("the points of the polygon", points)
+    at_least("points of a polygon", points.len(), 3)?;
+    Ok(all_points_finite("the points of the polygon", points)?)
 }
 
 /// Signed area of the polygon through the points (length squared), exact; positive for counter-clockwise order.

@@ -1,5 +1,6 @@
 use super::*;
 use approx::assert_relative_eq;
+use ib_core::input::InputError;
 use proptest::prelude::*;
 
 /// Largest relative deviation of a chord from the mean.
@@ -109,7 +110,7 @@ fn points_as_they_are() {
 
 #[test]
 fn bad_curves_are_refused() {
-    assert!(matches!(Curve::circle(-1.0), Err(InterfaceError::NotPositive { .. })));
+    assert!(matches!(Curve::circle(-1.0), Err(InterfaceError::Input(InputError::NotPositive { .. }))));
     assert!(Curve::ellipse(1.0, f64::NAN).is_err());
     assert!(matches!(Curve::fourier(1.0, &[0.0, 1.5], &[]), Err(InterfaceError::RadiusNotPositive { .. })));
     assert!(matches!(Curve::parametric(|t| Vec2::new(t, t.sin())), Err(InterfaceError::NotClosed { .. })));
@@ -119,9 +120,12 @@ fn bad_curves_are_refused() {
     assert!(Curve::parametric(|t| Vec2::new(t.cos(), 1.0 / (t - 1.0).max(0.0))).is_err());
     let twice = [[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|[x, y]| Vec2::new(x, y));
     assert!(matches!(Curve::polygon(&twice), Err(InterfaceError::CoincidentPoints { index: 1 })));
-    assert!(matches!(Curve::circle(1.0).unwrap().markers(7), Err(InterfaceError::TooFew { .. })));
+    assert!(matches!(Curve::circle(1.0).unwrap().markers(7), Err(InterfaceError::Input(InputError::TooFew { .. }))));
     assert!(Curve::circle(1.0).unwrap().markers_with_spacing(0.0).is_err());
-    assert!(matches!(Curve::circle(1.0).unwrap().markers_with_spacing(1e-300), Err(InterfaceError::OutOfRange { .. })));
+    assert!(matches!(
+        Curve::circle(1.0).unwrap().markers_with_spacing(1e-300),
+        Err(InterfaceError::Input(InputError::OutOfRange { .. }))
+    ));
     // Finite at the points that are checked at first, but not between them.
     let hole = Curve::parametric(|t| {
         if (1.0003..1.0008).contains(&t) { Vec2::new(f64::NAN, 0.0) } else { Vec2::new(t.cos(), t.sin()) }

@@ -1,11 +1,12 @@
 //! The part of the interface that is crowded with particles.
 
 use ib_core::Vec2;
+use ib_core::input::{all_finite, all_points_finite, at_least, same_length};
 
 use super::circle_fit::fitted_curvature;
 use crate::InterfaceError;
 use crate::curve::polygon::edges;
-use crate::error::{all_finite, all_points_finite, all_positive, enough, length};
+use crate::error::all_positive;
 
 /// The active region: the part of the interface from the steepest rise of the concentration to its steepest fall, in
 /// counter-clockwise order (thesis, section 2.3.4).
@@ -31,8 +32,8 @@ pub struct ActiveRegion {
 /// # Errors
 /// Slices of different length, fewer than eight segments, numbers that are not finite, lengths that are not positive.
 pub fn active_region(lengths: &[f64], numbers: &[f64]) -> Result<Option<ActiveRegion>, InterfaceError> {
-    enough("segments", lengths.len(), 8)?;
-    length("numbers", lengths.len(), numbers.len())?;
+    at_least("segments", lengths.len(), 8)?;
+    same_length("numbers", lengths.len(), numbers.len())?;
     all_positive("the segment lengths", lengths)?;
     all_finite("the particle numbers", numbers)?;
     let m = lengths.len();
@@ -103,7 +104,7 @@ fn extremum([a, b, c, d, e]: [f64; 5]) -> f64 {
 /// # Errors
 /// Fewer than eight markers, markers that are not finite, a region too short to fit a circle to.
 pub fn active_curvature(markers: &[Vec2], region: &ActiveRegion) -> Result<f64, InterfaceError> {
-    enough("markers", markers.len(), 8)?;
+    at_least("markers", markers.len(), 8)?;
     all_points_finite("the markers", markers)?;
     let m = markers.len();
     let mut arcs = vec![0.0; m + 1];

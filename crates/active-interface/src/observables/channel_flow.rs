@@ -1,12 +1,12 @@
 //! Pressure drop and fluxes in a channel with a droplet.
 
+use ib_core::input::{finite, positive};
 use ib_core::{
     BodyError, FlowError, FlowSample, Handle, Hydrodynamics, Medium, SceneError, System, Vec2,
     hydrodynamics::FlowReport,
 };
 
 use crate::curve::polygon::edges;
-use crate::error::{finite, positive};
 use crate::{
     ActiveDroplet, InterfaceError,
     curve::polygon_moments,

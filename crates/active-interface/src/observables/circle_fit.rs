@@ -1,10 +1,10 @@
 //! The circle closest to an arc of points.
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, at_least};
 use nalgebra::{Matrix3, Vector3};
 
 use crate::InterfaceError;
-use crate::error::{all_points_finite, enough};
 
 /// Signed curvature (1/length) of the circle with the least sum of squared distances, times `weights`, from the points of an open arc, in
 /// their order: positive where the arc turns to the left, as a convex interface in counter-clockwise order does,
@@ -16,7 +16,7 @@ use crate::error::{all_points_finite, enough};
 /// # Errors
 /// Fewer than three points, points that are not finite, points that determine no circle, no convergence.
 pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, InterfaceError> {
-    enough("points of an arc", points.len(), 3)?;
+    at_least("points of an arc", points.len(), 3)?;
     all_points_finite("the points of the arc", points)?;
     let n = points.len();
     let no_fit = InterfaceError::NoFit { what: "a circle", points: n };

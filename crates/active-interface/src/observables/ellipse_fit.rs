@@ -1,6 +1,7 @@
 //! The ellipse closest to the markers.
 
 use ib_core::Vec2;
+use ib_core::input::at_least;
 use nalgebra::{Matrix4, Vector4};
 
 use super::frame::{Frame, aspect_ratio_of, half_chords};
@@ -36,7 +37,7 @@ impl EllipseFit {
 /// # Errors
 /// Fewer than four markers, markers that are not finite or enclose no area, no convergence.
 pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, InterfaceError> {
-    crate::error::enough("markers", markers.len(), 4)?;
+    at_least("markers", markers.len(), 4)?;
     let moments = polygon_moments(markers)?;
     let no_fit = InterfaceError::NoFit { what: "an ellipse", points: markers.len() };
     let ratio = aspect_ratio_of(&moments, frame)?;

@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 
 use ib_core::Vec2;
+use ib_core::input::{all_finite, same_length};
 
 use super::frame::Frame;
 use super::squirmer::polar_weights;
 use crate::curve::polygon::edges;
-use crate::error::{all_finite, length};
 use crate::{InterfaceError, curve::polygon_moments};
 
 /// Coefficients of f(theta) = mean + sum over k >= 1 of cosines[k-1] cos k theta + sines[k-1] sin k theta.
@@ -79,7 +79,7 @@ pub fn concentration_modes(
     frame: &Frame,
     count: usize,
 ) -> Result<FourierModes, InterfaceError> {
-    length("numbers", markers.len(), numbers.len())?;
+    same_length("numbers", markers.len(), numbers.len())?;
     polygon_moments(markers)?;
     all_finite("the particle numbers", numbers)?;
     if let Some(index) = edges(markers).position(|(a, b)| a == b) {

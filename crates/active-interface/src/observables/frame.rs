@@ -1,9 +1,9 @@
 //! Where a droplet is, where it goes, and the axes along its motion.
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, finite, same_length};
 
 use crate::curve::polygon::AreaMoments;
-use crate::error::{all_points_finite, finite, length};
 use crate::{InterfaceError, curve::polygon_moments};
 
 /// Axes with their origin at a droplet's centroid and their first axis along its motion.
@@ -85,7 +85,7 @@ pub(crate) fn weighted_normals(markers: &[Vec2]) -> impl Iterator<Item = Vec2> +
 /// # Errors
 /// Slices of different length, fewer than three markers, values that are not finite, no area.
 pub fn centroid_velocity(markers: &[Vec2], velocities: &[Vec2]) -> Result<Vec2, InterfaceError> {
-    length("velocities", markers.len(), velocities.len())?;
+    same_length("velocities", markers.len(), velocities.len())?;
     let moments = polygon_moments(markers)?;
     all_points_finite("the velocities", velocities)?;
     Ok(raw_centroid_velocity(markers, velocities, &moments))

@@ -1,10 +1,10 @@
 //! Moments of the interface's force: what a droplet looks like from far away.
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, at_least, finite, same_length};
 
 use super::frame::{Frame, weighted_normals};
 use crate::InterfaceError;
-use crate::error::{all_points_finite, enough, finite, length};
 
 /// Sign of the viscous term in the force moments of a droplet of another viscosity than its surroundings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -84,9 +84,9 @@ pub fn force_moments(
     convention: Convention,
     frame: &Frame,
 ) -> Result<ForceMoments, InterfaceError> {
-    enough("markers", markers.len(), 3)?;
-    length("forces", markers.len(), forces.len())?;
-    length("velocities", markers.len(), velocities.len())?;
+    at_least("markers", markers.len(), 3)?;
+    same_length("forces", markers.len(), forces.len())?;
+    same_length("velocities", markers.len(), velocities.len())?;
     all_points_finite("the markers", markers)?;
     all_points_finite("the forces", forces)?;
     all_points_finite("the velocities", velocities)?;

@@ -1,10 +1,10 @@
 //! The concentration along the interface.
 
 use ib_core::Vec2;
+use ib_core::input::{all_finite, same_length};
 
 use super::frame::Frame;
 use crate::curve::polygon::edges;
-use crate::error::{all_finite, length};
 use crate::{InterfaceError, curve::polygon_moments};
 
 /// The concentration as a function of the arc length from the front of the droplet.
@@ -29,7 +29,7 @@ pub fn concentration_profile(
     numbers: &[f64],
     frame: &Frame,
 ) -> Result<ConcentrationProfile, InterfaceError> {
-    length("numbers", markers.len(), numbers.len())?;
+    same_length("numbers", markers.len(), numbers.len())?;
     polygon_moments(markers)?;
     all_finite("the particle numbers", numbers)?;
     if let Some(index) = edges(markers).position(|(a, b)| a == b) {

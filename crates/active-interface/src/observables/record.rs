@@ -1,6 +1,7 @@
 //! All observables of a droplet at one time.
 
 use ib_core::Vec2;
+use ib_core::input::{all_finite, all_points_finite, at_least, same_length};
 
 use super::fourier::{concentration_modes, shape_modes};
 use super::frame::{aspect_ratio_of, raw_centroid_velocity};
@@ -9,7 +10,6 @@ use super::{
     active_curvature, active_region, fit_ellipse, force_moments, squirmer_coefficients,
 };
 use crate::curve::polygon::{edges, raw_perimeter};
-use crate::error::{all_finite, all_points_finite, length};
 use crate::{InterfaceError, curve::polygon_moments};
 
 /// What the observables are computed from: lists of M values, marker by marker or segment by segment.
@@ -77,8 +77,8 @@ pub struct Observables {
 /// no area.
 pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
     let InterfaceState { markers, forces, velocities, numbers, viscosities } = *state;
-    crate::error::enough("markers", markers.len(), 8)?;
-    length("velocities", markers.len(), velocities.len())?;
+    at_least("markers", markers.len(), 8)?;
+    same_length("velocities", markers.len(), velocities.len())?;
     all_points_finite("the velocities", velocities)?;
     let area = polygon_moments(markers)?;
     let velocity = raw_centroid_velocity(markers, velocities, &area);
@@ -103,7 +103,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         concentration_modes: FourierModes { mean: 0.0, cosines: vec![0.0; MODES], sines: vec![0.0; MODES] },
     };
     if !numbers.is_empty() {
-        length("numbers", markers.len(), numbers.len())?;
+        same_length("numbers", markers.len(), numbers.len())?;
         all_finite("the particle numbers", numbers)?;
         let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).norm()).collect();
         record.concentration_modes = concentration_modes(markers, numbers, &frame, MODES)?;

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, same_length};
 
 use super::frame::{Frame, raw_centroid_velocity};
-use crate::error::{all_points_finite, length};
 use crate::{InterfaceError, curve::polygon_moments};
 
 /// The frame of reference in which the velocity along the interface is measured.
@@ -62,7 +62,7 @@ pub fn squirmer_coefficients(
     reference: VelocityFrame,
     frame: &Frame,
 ) -> Result<SquirmerFit, InterfaceError> {
-    length("velocities", markers.len(), velocities.len())?;
+    same_length("velocities", markers.len(), velocities.len())?;
     let moments = polygon_moments(markers)?;
     all_points_finite("the velocities", velocities)?;
     let drift = match reference {

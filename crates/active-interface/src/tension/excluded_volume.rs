@@ -1,7 +1,8 @@
 //! The repulsion that keeps particles on the interface apart.
 
+use ib_core::input::{not_negative, positive, within};
+
 use crate::InterfaceError;
-use crate::error::{not_negative, positive};
 
 /// The excluded-volume term Pi(c) of the tension (thesis, eq. 2.39), a function of the concentration c.
 ///
@@ -57,10 +58,8 @@ impl ExcludedVolume {
     pub(super) fn check(self) -> Result<(), InterfaceError> {
         if let Self::Step { threshold, steepness, .. } = self {
             positive("the threshold concentration", threshold)?;
-            if !(steepness > 0.0 && steepness <= STEEPEST) {
-                let name = "the steepness of the excluded volume";
-                return Err(InterfaceError::OutOfRange { name, value: steepness, minimum: 0.0, maximum: STEEPEST });
-            }
+            let name = "the steepness of the excluded volume";
+            within(name, positive(name, steepness)?, 0.0, STEEPEST)?;
         }
         if let Self::Step { strength, .. } | Self::Quadratic { strength } = self {
             not_negative("the strength of the excluded volume", strength)?;

@@ -1,9 +1,9 @@
 //! The flow of a two-dimensional squirmer.
 
 use ib_core::Vec2;
+use ib_core::input::{finite, positive};
 
 use crate::InterfaceError;
-use crate::error::{finite, positive};
 use crate::observables::{SquirmerFit, VelocityFrame};
 
 /// The two-dimensional squirmer: a circle on which the fluid moves with v_r = 0 and v_theta = B1 sin(theta) + (B2/2)

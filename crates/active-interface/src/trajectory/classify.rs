@@ -1,5 +1,7 @@
 //! From a trajectory to its regime.
 
+use ib_core::input::at_least;
+
 use super::linear_mode::FEWEST_SAMPLES;
 use super::regression::line;
 use super::swings::{FEWEST_SWINGS, Swings, Tail};
@@ -37,7 +39,7 @@ impl Trajectory {
     /// No samples, criteria out of their ranges.
     pub fn regime(&self, criteria: &RegimeCriteria) -> Result<RegimeReport, InterfaceError> {
         criteria.check()?;
-        crate::error::enough("samples", self.times().len(), 1)?;
+        at_least("samples", self.times().len(), 1)?;
         let start = self.times()[0] + criteria.transient * self.duration();
         let window = self.between(start, f64::INFINITY);
         let mut evidence = collect(&window, criteria)?;

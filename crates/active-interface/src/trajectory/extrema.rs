@@ -2,11 +2,12 @@
 
 use std::ops::RangeInclusive;
 
+use ib_core::input::{all_finite, not_negative, same_length};
 use nalgebra::{DMatrix, DVector};
 
 use super::regression::Solution;
 use crate::InterfaceError;
-use crate::error::{all_finite, increasing, length, not_negative};
+use crate::error::increasing;
 
 /// A turning point of a lateral motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +32,7 @@ pub struct Extremum {
 /// # Errors
 /// Lists of different length, values that are not finite, times that do not increase, a negative hysteresis.
 pub fn extrema(times: &[f64], heights: &[f64], hysteresis: f64) -> Result<Vec<Extremum>, InterfaceError> {
-    length("the heights", times.len(), heights.len())?;
+    same_length("the heights", times.len(), heights.len())?;
     increasing("the times", times)?;
     all_finite("the heights", heights)?;
     not_negative("the hysteresis", hysteresis)?;

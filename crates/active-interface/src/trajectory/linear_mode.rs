@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use ib_core::input::{all_finite, at_least, same_length};
 use nalgebra::{DMatrix, DVector};
 
 use super::Estimate;
@@ -9,7 +10,7 @@ use super::quadrature::cumulative_integral;
 use super::regression::Solution;
 use super::separable::{Data, Model, SeparableFit};
 use crate::InterfaceError;
-use crate::error::{all_finite, enough, increasing, length};
+use crate::error::increasing;
 
 /// The leading mode of a small lateral motion, `y(t) = Re(a e^((s + i w) t))`, fitted by [`fit_linear_mode`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,12 +76,12 @@ pub fn fit_linear_mode(
     heights: &[f64],
     velocities: Option<&[f64]>,
 ) -> Result<LinearMode, InterfaceError> {
-    enough("samples", times.len(), FEWEST_SAMPLES)?;
-    length("the heights", times.len(), heights.len())?;
+    at_least("samples", times.len(), FEWEST_SAMPLES)?;
+    same_length("the heights", times.len(), heights.len())?;
     increasing("the times", times)?;
     all_finite("the heights", heights)?;
     if let Some(velocities) = velocities {
-        length("the lateral velocities", times.len(), velocities.len())?;
+        same_length("the lateral velocities", times.len(), velocities.len())?;
         all_finite("the lateral velocities", velocities)?;
     }
     let no_fit = InterfaceError::NoFit { what: "a linear mode", points: times.len() };

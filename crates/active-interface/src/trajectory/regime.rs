@@ -2,9 +2,10 @@
 
 use std::fmt;
 
+use ib_core::input::{positive, within};
+
 use super::{Estimate, Extremum, LinearMode};
 use crate::InterfaceError;
-use crate::error::positive;
 
 /// What a droplet in a channel does in the long run, seen across the channel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,10 +122,7 @@ impl RegimeCriteria {
     }
 
     pub(super) fn check(&self) -> Result<(), InterfaceError> {
-        if !(0.0..1.0).contains(&self.transient) {
-            let (name, value) = ("the transient's part of the record", self.transient);
-            return Err(InterfaceError::OutOfRange { name, value, minimum: 0.0, maximum: 1.0 });
-        }
+        within("the transient's part of the record", self.transient, 0.0, 1.0 - f64::EPSILON)?;
         positive("the tolerance of the centre line", self.centre)?;
         positive("the speed of rest", self.rest)?;
         positive("the hysteresis", self.hysteresis)?;

@@ -1,8 +1,10 @@
 //! A recorded trajectory.
 
+use ib_core::input::{all_finite, not_negative, same_length};
+
 use super::{LinearMode, fit_linear_mode};
 use crate::InterfaceError;
-use crate::error::{all_finite, increasing, length, not_negative};
+use crate::error::increasing;
 
 /// Where a droplet was across a channel, at increasing times, not necessarily evenly spaced.
 ///
@@ -23,8 +25,8 @@ impl Trajectory {
     /// # Errors
     /// Lists of different length, values that are not finite, times that do not increase, negative speeds.
     pub fn new(times: Vec<f64>, heights: Vec<f64>, speeds: Vec<f64>) -> Result<Self, InterfaceError> {
-        length("the heights", times.len(), heights.len())?;
-        length("the speeds", times.len(), speeds.len())?;
+        same_length("the heights", times.len(), heights.len())?;
+        same_length("the speeds", times.len(), speeds.len())?;
         increasing("the times", &times)?;
         all_finite("the heights", &heights)?;
         for &speed in &speeds {
@@ -38,7 +40,7 @@ impl Trajectory {
     /// # Errors
     /// A list of another length, values that are not finite.
     pub fn with_lateral_velocities(mut self, velocities: Vec<f64>) -> Result<Self, InterfaceError> {
-        length("the lateral velocities", self.times.len(), velocities.len())?;
+        same_length("the lateral velocities", self.times.len(), velocities.len())?;
         all_finite("the lateral velocities", &velocities)?;
         self.velocities = Some(velocities);
         Ok(self)

@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 
 use ib_core::Vec2;
+use ib_core::input::{InputError, finite, positive, within};
 
-use crate::error::{finite, positive, within};
 use crate::{Channel, Outline, SolidError};
 
 /// A straight channel. All channels here are centred on the origin.
@@ -131,7 +131,7 @@ impl Constriction {
         positive("the length of the throat", throat_length)?;
         positive("the length of a ramp", ramp)?;
         finite("the centre of the throat", centre)?;
-        fits("the throat and its ramps", throat_length + 2.0 * ramp, period)?;
+        fits("the length of the throat and its ramps", throat_length + 2.0 * ramp, period)?;
         let half_width = move |x: f64| {
             let distance = from_nearest(x - centre, period).abs() - 0.5 * throat_length;
             0.5 * throat + 0.5 * (width - throat) * cosine_step(distance / ramp)
@@ -154,7 +154,7 @@ impl Valve {
         positive("the width beside the gap", width - gap)?;
         finite("the radius of the tips", radius)?;
         finite("the centre of the valve", centre)?;
-        fits("the teeth", base, period)?;
+        fits("the base of a tooth", base, period)?;
         let point = |x: f64, width: f64| Vec2::new(centre + x, -0.5 * width);
         let mut corners = vec![point(-0.5 * base, width), point(0.0, gap), point(0.5 * base, width)];
         if base == period {
@@ -230,7 +230,7 @@ impl BranchingChannel {
         positive("the length of the island", island_length)?;
         positive("the thickness of the island", island_thickness)?;
         positive("the length of a ramp", ramp)?;
-        fits("the island and the ramps", island_length + 2.0 * ramp, period)?;
+        fits("the length of the island and the ramps", island_length + 2.0 * ramp, period)?;
         let side = move |x: f64, branch: f64| {
             let distance = from_nearest(x, period).abs() - 0.5 * island_length;
             let beside = 0.5 * island_thickness + branch;
@@ -262,9 +262,9 @@ fn from_nearest(x: f64, period: f64) -> f64 {
     x - period * (x / period).round()
 }
 
-fn fits(what: &'static str, length: f64, period: f64) -> Result<(), SolidError> {
-    positive("the period", period)?;
-    if length <= period { Ok(()) } else { Err(SolidError::DoesNotFit { what, length, period }) }
+/// Lengths that must fit into the period.
+fn fits(name: &'static str, length: f64, period: f64) -> Result<(), InputError> {
+    within(name, length, 0.0, positive("the period", period)?).map(drop)
 }
 
 #[cfg(test)]

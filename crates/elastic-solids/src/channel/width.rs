@@ -1,8 +1,8 @@
 //! The width of a channel between deformed walls.
 
 use ib_core::Vec2;
+use ib_core::input::{all_points_finite, at_least, positive};
 
-use crate::error::{all_points_finite, at_least, positive};
 use crate::{Solid, SolidError};
 
 /// The narrowest and the widest place of a channel.

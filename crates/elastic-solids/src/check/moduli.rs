@@ -1,8 +1,8 @@
 //! Moduli as a mesh shows them.
 
 use ib_core::Vec2;
+use ib_core::input::{same_length, within};
 
-use crate::error::{fits, within};
 use crate::material::Mat2;
 use crate::{ElasticForces, SolidError, TriangleMesh};
 
@@ -55,7 +55,7 @@ pub fn measured_moduli(
     strain: f64,
     inner: InnerPoints,
 ) -> Result<MeasuredModuli, SolidError> {
-    fits("the mesh of the forces", law.point_count(), mesh.points().len())?;
+    same_length("the mesh of the forces", mesh.points().len(), law.point_count())?;
     within("the strain", strain, 1e-6, 0.1)?;
     let stiffness = |direction: Mat2| -> Result<f64, SolidError> {
         let mut sum = 0.0;

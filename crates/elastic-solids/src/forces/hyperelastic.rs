@@ -1,8 +1,8 @@
 //! Forces of hyperelastic material.
 
 use ib_core::Vec2;
+use ib_core::input::same_length;
 
-use crate::error::fits;
 use crate::material::{DeformationGradient, Mat2};
 use crate::{ElasticForces, EnergyDensity, Moduli, SolidError, TriangleMesh};
 
@@ -53,8 +53,8 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
     }
 
     fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError> {
-        fits("the positions", positions.len(), self.points)?;
-        fits("the forces", forces.len(), self.points)?;
+        same_length("the positions", self.points, positions.len())?;
+        same_length("the forces", self.points, forces.len())?;
         for (triangle, element) in self.elements.iter().enumerate() {
             let gradient = DeformationGradient::checked(element.gradient(positions))
                 .ok_or_else(|| element.inverted(triangle, positions))?;
@@ -64,7 +64,7 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
     }
 
     fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError> {
-        fits("the positions", positions.len(), self.points)?;
+        same_length("the positions", self.points, positions.len())?;
         let mut energy = 0.0;
         for (triangle, element) in self.elements.iter().enumerate() {
             let gradient = DeformationGradient::checked(element.gradient(positions))

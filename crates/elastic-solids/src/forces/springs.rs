@@ -1,8 +1,8 @@
 //! Forces of springs along the edges.
 
 use ib_core::Vec2;
+use ib_core::input::{positive, same_length};
 
-use crate::error::{fits, positive};
 use crate::material::Mat2;
 use crate::{ElasticForces, Moduli, SolidError, TriangleMesh};
 
@@ -96,8 +96,8 @@ impl ElasticForces for Springs {
     }
 
     fn add_forces(&self, positions: &[Vec2], forces: &mut [Vec2]) -> Result<(), SolidError> {
-        fits("the positions", positions.len(), self.points)?;
-        fits("the forces", forces.len(), self.points)?;
+        same_length("the positions", self.points, positions.len())?;
+        same_length("the forces", self.points, forces.len())?;
         for spring in &self.springs {
             let (span, length) = spring.span(positions);
             // A spring of no length has no direction to push in.
@@ -109,7 +109,7 @@ impl ElasticForces for Springs {
     }
 
     fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError> {
-        fits("the positions", positions.len(), self.points)?;
+        same_length("the positions", self.points, positions.len())?;
         Ok(self
             .springs
             .iter()

@@ -8,6 +8,7 @@ use crate::material::{Mat2, MooneyRivlin, SaintVenantKirchhoff};
 use crate::mesh::equilateral_strip;
 use crate::{ElasticForces, NeoHookean, Outline, Region, SolidError, TriangleMesh};
 use ib_core::Vec2;
+use ib_core::input::InputError;
 
 fn blob() -> TriangleMesh {
     let circle = |radius: f64| Outline::circle(Vec2::new(0.2, -0.1), radius).unwrap();
@@ -171,9 +172,12 @@ fn an_inverted_triangle_is_named() {
     }
     positions[a].x = f64::NAN;
     assert!(matches!(law.add_forces(&positions, &mut forces), Err(SolidError::Inverted { .. })));
-    assert!(matches!(law.add_forces(&positions[1..], &mut forces), Err(SolidError::WrongLength { .. })));
+    assert!(matches!(
+        law.add_forces(&positions[1..], &mut forces),
+        Err(SolidError::Input(InputError::WrongLength { .. }))
+    ));
     let springs = Springs::new(&mesh, 1.0).unwrap();
-    assert!(matches!(springs.energy(&positions[1..]), Err(SolidError::WrongLength { .. })));
-    assert!(matches!(Springs::new(&mesh, -1.0), Err(SolidError::NotPositive { .. })));
-    assert!(matches!(Springs::graded(&mesh, |s| s.x), Err(SolidError::NotPositive { .. })));
+    assert!(matches!(springs.energy(&positions[1..]), Err(SolidError::Input(InputError::WrongLength { .. }))));
+    assert!(matches!(Springs::new(&mesh, -1.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
+    assert!(matches!(Springs::graded(&mesh, |s| s.x), Err(SolidError::Input(InputError::NotPositive { .. }))));
 }

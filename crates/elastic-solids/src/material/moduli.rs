@@ -1,7 +1,8 @@
 //! The two moduli of an isotropic material in the plane.
 
+use ib_core::input::{positive, within};
+
 use crate::SolidError;
-use crate::error::{positive, within};
 
 /// Shear and bulk modulus of an isotropic material in two dimensions (force per length).
 ///
@@ -29,15 +30,7 @@ impl Moduli {
     /// Young's modulus not positive, Poisson's ratio not between -1 and 1 (its bounds in two dimensions).
     pub fn from_young(young: f64, poisson: f64) -> Result<Self, SolidError> {
         positive("Young's modulus", young)?;
-        within("Poisson's ratio", poisson, -1.0, 1.0)?;
-        if poisson.abs() == 1.0 {
-            return Err(SolidError::OutOfRange {
-                name: "Poisson's ratio",
-                value: poisson,
-                minimum: -1.0 + f64::EPSILON,
-                maximum: 1.0 - f64::EPSILON,
-            });
-        }
+        within("Poisson's ratio", poisson, -1.0 + f64::EPSILON, 1.0 - f64::EPSILON)?;
         Self::new(young / (2.0 * (1.0 + poisson)), young / (2.0 * (1.0 - poisson)))
     }
 

@@ -1,6 +1,7 @@
 //! A rubber with two constants.
 
-use crate::error::within;
+use ib_core::input::{positive, within};
+
 use crate::material::{DeformationGradient, Mat2};
 use crate::{EnergyDensity, Moduli, SolidError};
 
@@ -31,10 +32,7 @@ impl MooneyRivlin {
     pub fn new(shear: f64, bulk: f64, fraction: f64) -> Result<Self, SolidError> {
         let moduli = Moduli::new(shear, bulk)?;
         within("the fraction of the second invariant", fraction, 0.0, 1.0)?;
-        let volumetric = bulk - shear / 3.0;
-        if volumetric <= 0.0 {
-            return Err(SolidError::BulkTooSmall { bulk, shear, minimum: shear / 3.0 });
-        }
+        let volumetric = positive("the bulk modulus less a third of the shear modulus", bulk - shear / 3.0)?;
         let (first, second) = (0.5 * (1.0 - fraction) * shear, 0.5 * fraction * shear);
         Ok(Self { moduli, first, second, volumetric })
     }

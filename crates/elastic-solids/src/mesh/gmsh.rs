@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use ib_core::Vec2;
+use ib_core::input::positive;
 
 use crate::{SolidError, TriangleMesh};
 
@@ -68,7 +69,7 @@ impl GmshMesh {
     /// # Errors
     /// As [`GmshMesh::from_text`], and those of [`TriangleMesh::periodic`].
     pub fn from_periodic_text(text: &str, period: f64) -> Result<Self, SolidError> {
-        crate::error::positive("the period", period)?;
+        positive("the period", period)?;
         let Contents { points, triangles, groups } = parse(text)?;
         let (points, triangles) = join_ends(&points, &triangles, period);
         Ok(Self { mesh: TriangleMesh::periodic(points, triangles, period)?, groups })

@@ -1,8 +1,9 @@
 //! Lattices of equilateral triangles.
 
 use ib_core::Vec2;
+use ib_core::input::{InputError, all_points_finite, at_least, within};
 
-use crate::error::{MOST_POINTS, all_points_finite, at_least, length, within};
+use crate::error::{MOST_POINTS, length};
 use crate::{SolidError, TriangleMesh};
 
 /// Height of an equilateral triangle over its side.
@@ -96,11 +97,11 @@ fn strip(corner: Vec2, columns: usize, rows: usize, [dx, dy]: [f64; 2]) -> Resul
     TriangleMesh::periodic(points, triangles, dx * columns as f64)
 }
 
-fn count(name: &'static str, exact: f64, minimum: usize) -> Result<usize, SolidError> {
+fn count(name: &'static str, exact: f64, minimum: usize) -> Result<usize, InputError> {
     at_least(name, within(name, exact, 0.0, MOST_POINTS)?.round() as usize, minimum)
 }
 
-fn check_size(columns: usize, rows: usize) -> Result<(), SolidError> {
+fn check_size(columns: usize, rows: usize) -> Result<(), InputError> {
     within("the number of columns times that of rows", columns as f64 * rows as f64, 1.0, MOST_POINTS).map(drop)
 }
 

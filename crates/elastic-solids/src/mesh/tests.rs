@@ -1,5 +1,7 @@
 //! Connectivity of hand-made meshes.
 
+use ib_core::input::InputError;
+
 use super::*;
 
 fn v(x: f64, y: f64) -> Vec2 {
@@ -88,7 +90,7 @@ fn bad_meshes_are_refused() {
     let corners = || vec![v(0.0, 0.0), v(1.0, 0.0), v(0.0, 1.0), v(1.0, 1.0)];
     let refused =
         |points: Vec<Vec2>, triangles: &[[usize; 3]]| TriangleMesh::new(points, triangles.to_vec()).unwrap_err();
-    assert!(matches!(refused(corners(), &[]), SolidError::TooFew { .. }));
+    assert!(matches!(refused(corners(), &[]), SolidError::Input(InputError::TooFew { .. })));
     assert!(matches!(refused(corners(), &[[0, 1, 2]]), SolidError::LoosePoint { point: 3, .. }));
     assert!(matches!(refused(corners(), &[[0, 1, 4]]), SolidError::NoSuchPoint { point: 4, .. }));
     assert!(matches!(refused(corners(), &[[0, 1, 1]]), SolidError::FlatTriangle { .. }));
@@ -97,11 +99,14 @@ fn bad_meshes_are_refused() {
     assert!(matches!(refused(points, &[[1, 2, 3]]), SolidError::FlatTriangle { triangle: 0, .. }));
     let mut points = corners();
     points[2].y = f64::NAN;
-    assert!(matches!(refused(points, &[[0, 1, 2]]), SolidError::EntryNotFinite { index: 2, .. }));
+    assert!(matches!(refused(points, &[[0, 1, 2]]), SolidError::Input(InputError::EntryNotFinite { index: 2, .. })));
     // The same triangle twice, and two on the same side of an edge.
     assert!(matches!(refused(corners(), &[[0, 1, 2], [0, 1, 2], [1, 2, 3]]), SolidError::FoldedMesh { .. }));
     assert!(matches!(refused(corners(), &[[0, 1, 2], [0, 1, 3]]), SolidError::FoldedMesh { .. }));
     let wide = TriangleMesh::periodic(corners(), vec![[0, 1, 2], [1, 2, 3]], 2.0);
     assert!(matches!(wide, Err(SolidError::TriangleTooWide { .. })));
-    assert!(matches!(TriangleMesh::periodic(corners(), vec![[0, 1, 2]], -1.0), Err(SolidError::NotPositive { .. })));
+    assert!(matches!(
+        TriangleMesh::periodic(corners(), vec![[0, 1, 2]], -1.0),
+        Err(SolidError::Input(InputError::NotPositive { .. }))
+    ));
 }

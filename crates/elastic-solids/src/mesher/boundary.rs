@@ -1,8 +1,9 @@
 //! The checked boundary of a region at the spacing of its mesh.
 
 use ib_core::Vec2;
+use ib_core::input::within;
 
-use crate::error::{MOST_POINTS, within};
+use crate::error::MOST_POINTS;
 use crate::mesh::lattice::ROW_HEIGHT;
 use crate::mesher::point_set::PointSet;
 use crate::mesher::segments::Segments;

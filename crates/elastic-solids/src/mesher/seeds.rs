@@ -1,9 +1,10 @@
 //! Lattices of inner points.
 
 use ib_core::Vec2;
+use ib_core::input::within;
 
 use crate::SolidError;
-use crate::error::{MOST_POINTS, within};
+use crate::error::MOST_POINTS;
 use crate::mesh::lattice::ROW_HEIGHT;
 use crate::mesher::boundary::{Boundary, rows};
 

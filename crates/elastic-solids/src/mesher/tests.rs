@@ -1,6 +1,7 @@
 //! Uniformity, exact areas, what is refused, and work.
 
 use ib_core::Vec2;
+use ib_core::input::InputError;
 use proptest::prelude::*;
 
 use super::*;
@@ -122,12 +123,12 @@ fn outlines_that_make_no_mesh_are_refused() {
     let flat = |y: f64| Outline::flat(0.0, 1.0, y).unwrap();
     assert!(matches!(refused(vec![flat(0.0)], 0.1), SolidError::OpenRegion { lines: 1 }));
     assert!(matches!(refused(vec![flat(0.0), flat(0.05)], 0.1), SolidError::WallTooThin { .. }));
-    assert!(matches!(refused(vec![flat(0.0), flat(1.0)], 0.3), SolidError::OutOfRange { .. }));
+    assert!(matches!(refused(vec![flat(0.0), flat(1.0)], 0.3), SolidError::Input(InputError::OutOfRange { .. })));
     let other = Outline::flat(0.0, 2.0, 1.0).unwrap();
     assert!(matches!(refused(vec![flat(0.0), other], 0.1), SolidError::DifferentPeriods { .. }));
-    assert!(matches!(refused(vec![], 0.1), SolidError::TooFew { .. }));
-    assert!(matches!(refused(vec![circle(0.0, 1.0)], f64::NAN), SolidError::NotPositive { .. }));
-    assert!(matches!(refused(vec![circle(0.0, 1.0)], 1e-7), SolidError::OutOfRange { .. }));
+    assert!(matches!(refused(vec![], 0.1), SolidError::Input(InputError::TooFew { .. })));
+    assert!(matches!(refused(vec![circle(0.0, 1.0)], f64::NAN), SolidError::Input(InputError::NotPositive { .. })));
+    assert!(matches!(refused(vec![circle(0.0, 1.0)], 1e-7), SolidError::Input(InputError::OutOfRange { .. })));
 }
 
 /// The work, which is what the time follows: meshes of many points are made once, the even ones of small meshes chosen

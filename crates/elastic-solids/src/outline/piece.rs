@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use ib_core::Vec2;
+use ib_core::input::all_points_finite;
 
 use crate::SolidError;
-use crate::error::{all_points_finite, length};
+use crate::error::length;
 
 pub(super) type Curve = Arc<dyn Fn(f64) -> Vec2 + Send + Sync>;
 

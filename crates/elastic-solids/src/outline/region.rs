@@ -1,5 +1,7 @@
 //! What is solid.
 
+use ib_core::input::at_least;
+
 use crate::{Mesher, Outline, SolidError, TriangleMesh};
 
 /// The solid between outlines: a point is solid where a line upwards from it crosses an odd number of them. One closed
@@ -18,9 +20,7 @@ impl Region {
     /// No outline; periodic outlines of different periods, or an odd number of them (the region would have no end).
     pub fn new(outlines: impl IntoIterator<Item = Outline>) -> Result<Self, SolidError> {
         let outlines: Vec<Outline> = outlines.into_iter().collect();
-        if outlines.is_empty() {
-            return Err(SolidError::TooFew { name: "outlines", found: 0, minimum: 1 });
-        }
+        at_least("outlines", outlines.len(), 1)?;
         let mut periods = outlines.iter().filter_map(Outline::period);
         let period = periods.next();
         if let (Some(first), Some(second)) = (period, periods.find(|other| Some(*other) != period)) {

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use ib_core::input::InputError;
+
 use super::*;
 
 fn v(x: f64, y: f64) -> Vec2 {
@@ -74,23 +76,29 @@ fn fillets_round_corners_to_the_radius() {
 
 #[test]
 fn bad_outlines_are_refused() {
-    assert!(matches!(Outline::polygon(&[v(0.0, 0.0), v(1.0, 0.0)]), Err(SolidError::TooFew { .. })));
+    assert!(matches!(Outline::polygon(&[v(0.0, 0.0), v(1.0, 0.0)]), Err(SolidError::Input(InputError::TooFew { .. }))));
     let twice = [v(0.0, 0.0), v(1.0, 0.0), v(1.0, 0.0)];
     assert!(matches!(Outline::polygon(&twice), Err(SolidError::NoLength { .. })));
     let nowhere = [v(0.0, 0.0), v(1.0, f64::NAN), v(1.0, 1.0)];
-    assert!(matches!(Outline::polygon(&nowhere), Err(SolidError::EntryNotFinite { .. })));
-    assert!(matches!(Outline::circle(v(0.0, 0.0), -1.0), Err(SolidError::NotPositive { .. })));
+    assert!(matches!(Outline::polygon(&nowhere), Err(SolidError::Input(InputError::EntryNotFinite { .. }))));
+    assert!(matches!(Outline::circle(v(0.0, 0.0), -1.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
     assert!(matches!(Outline::closed(|t| v(t, 0.0)), Err(SolidError::OpenOutline { .. })));
-    assert!(matches!(Outline::closed(|t| v(1.0 / (t - 0.5), 0.0)), Err(SolidError::EntryNotFinite { .. })));
+    assert!(matches!(
+        Outline::closed(|t| v(1.0 / (t - 0.5), 0.0)),
+        Err(SolidError::Input(InputError::EntryNotFinite { .. }))
+    ));
     assert!(matches!(Outline::profile(0.0, 2.0, |x| x), Err(SolidError::OpenOutline { .. })));
-    assert!(matches!(Outline::profile(0.0, -2.0, |_| 0.0), Err(SolidError::NotPositive { .. })));
-    assert!(matches!(Outline::profile(0.0, 2.0, |x| 1.0 / (x - 1.0)), Err(SolidError::EntryNotFinite { .. })));
+    assert!(matches!(Outline::profile(0.0, -2.0, |_| 0.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
+    assert!(matches!(
+        Outline::profile(0.0, 2.0, |x| 1.0 / (x - 1.0)),
+        Err(SolidError::Input(InputError::EntryNotFinite { .. }))
+    ));
     for corners in [[0.5, 0.5], [0.7, 0.5], [0.0, 1.0], [1.0, 2.0], [f64::NAN, 1.0]] {
         let outline = Outline::profile_with_corners(0.0, 2.0, &corners, |_| 0.0);
         assert!(matches!(outline, Err(SolidError::CornersOutOfOrder { .. })), "{corners:?}");
     }
     let flat = Outline::flat(0.0, 1.0, 0.0).unwrap();
     assert!(matches!(flat.rotated(1.0, v(0.0, 0.0)), Err(SolidError::Unsupported { .. })));
-    assert!(matches!(flat.resampled(0.0), Err(SolidError::NotPositive { .. })));
-    assert!(matches!(flat.resampled(1e-12), Err(SolidError::OutOfRange { .. })));
+    assert!(matches!(flat.resampled(0.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
+    assert!(matches!(flat.resampled(1e-12), Err(SolidError::Input(InputError::OutOfRange { .. }))));
 }

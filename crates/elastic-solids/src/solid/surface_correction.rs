@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use ib_core::input::within;
 use ib_core::{Medium, MobilityDeficit, Vec2};
 
-use crate::error::within;
 use crate::solid::rounded_kink::{Beside, RoundedKink};
 use crate::{SolidError, TriangleMesh};
 

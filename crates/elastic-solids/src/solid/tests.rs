@@ -1,6 +1,7 @@
 //! The solid as a body, and what is measured on it.
 
-use ib_core::{Body, BodyError, Boundary, Domain, MarkerKind, Medium};
+use ib_core::input::InputError;
+use ib_core::{Body, BodyError, Domain, MarkerKind, Medium, gap::Boundary};
 
 use super::*;
 use crate::channel::{Constriction, width_between};
@@ -52,7 +53,10 @@ fn pinned_points_are_no_markers() {
         let expected = if bottom(solid.mesh().points()[point]) { *old } else { old + Vec2::repeat(0.5) };
         assert_eq!(*new, expected);
     }
-    assert!(matches!(Solid::springs(block(), 1.0).unwrap().pinned(|_| true), Err(SolidError::TooFew { .. })));
+    assert!(matches!(
+        Solid::springs(block(), 1.0).unwrap().pinned(|_| true),
+        Err(SolidError::Input(InputError::TooFew { .. }))
+    ));
 }
 
 /// Overdamped motion along the forces: the energy falls to zero and the shape returns.
@@ -107,9 +111,12 @@ fn tethers_pull_back_to_their_anchors() {
     let elastic = 1.0 + 0.015 * 2.0;
     assert!((solid.step_limits(&medium())[0].dt - 20.0 / (held + elastic)).abs() < 1e-12);
     for bad in [0.0, -1.0, f64::NAN] {
-        assert!(matches!(solid.clone().tethered(bad, |_| true), Err(SolidError::NotPositive { .. })));
+        assert!(matches!(
+            solid.clone().tethered(bad, |_| true),
+            Err(SolidError::Input(InputError::NotPositive { .. }))
+        ));
     }
-    assert!(matches!(solid.tethered(1.0, |_| false), Err(SolidError::TooFew { .. })));
+    assert!(matches!(solid.tethered(1.0, |_| false), Err(SolidError::Input(InputError::TooFew { .. }))));
 }
 
 #[test]
@@ -135,8 +142,8 @@ fn bad_states_are_refused() {
     solid.write_state(&mut state);
     state[5] = f64::NAN;
     assert!(matches!(solid.read_state(&state), Err(BodyError::NonFinite { index: 5, .. })));
-    assert!(matches!(solid.set_positions(&[]), Err(SolidError::WrongLength { .. })));
-    assert!(matches!(solid.clone().deformed(|s| s / 0.0), Err(SolidError::EntryNotFinite { .. })));
+    assert!(matches!(solid.set_positions(&[]), Err(SolidError::Input(InputError::WrongLength { .. }))));
+    assert!(matches!(solid.clone().deformed(|s| s / 0.0), Err(SolidError::Input(InputError::EntryNotFinite { .. }))));
     // Springs do not mind a mirror image, the step does, unless it may be.
     let mirrored = solid.deformed(|s| Vec2::new(-s.x, s.y)).unwrap();
     assert!(mirrored.elastic_energy().unwrap() < 1e-20);
@@ -145,7 +152,7 @@ fn bad_states_are_refused() {
     assert!(matches!(mirrored.stresses(), Err(SolidError::Inverted { .. })));
     assert!(mirrored.allow_inversion().end_step(&medium(), 0.1).is_ok());
     let other = Springs::new(&equilateral_strip(Vec2::zeros(), 5, 3, 1.0).unwrap(), 1.0).unwrap();
-    assert!(matches!(Solid::with_forces(block(), other), Err(SolidError::WrongLength { .. })));
+    assert!(matches!(Solid::with_forces(block(), other), Err(SolidError::Input(InputError::WrongLength { .. }))));
 }
 
 #[test]

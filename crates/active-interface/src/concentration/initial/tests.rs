@@ -1,6 +1,7 @@
 use super::*;
 use crate::{Curve, curve::polygon_perimeter};
 use approx::assert_relative_eq;
+use ib_core::input::InputError;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -65,9 +66,9 @@ fn bad_concentrations_are_refused() {
     assert!(InitialConcentration::perturbed(1.0, 1.0, 0).is_err());
     let markers = Curve::circle(1.0).unwrap().markers(20).unwrap();
     let negative = InitialConcentration::by_polar_angle(f64::cos).particle_numbers(&markers);
-    assert!(matches!(negative, Err(InterfaceError::Negative { .. })));
+    assert!(matches!(negative, Err(InterfaceError::Input(InputError::Negative { .. }))));
     let infinite = InitialConcentration::by_arc_fraction(|s| 1.0 / s).particle_numbers(&markers);
-    assert!(matches!(infinite, Err(InterfaceError::EntryNotFinite { index: 0, .. })));
+    assert!(matches!(infinite, Err(InterfaceError::Input(InputError::EntryNotFinite { index: 0, .. }))));
     assert!(InitialConcentration::uniform(1.0).unwrap().particle_numbers(&markers[..2]).is_err());
 }
 

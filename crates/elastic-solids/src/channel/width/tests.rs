@@ -1,3 +1,5 @@
+use ib_core::input::InputError;
+
 use super::*;
 
 fn v(x: f64, y: f64) -> Vec2 {
@@ -26,7 +28,13 @@ fn an_overhang_counts_with_its_inner_side() {
 
 #[test]
 fn bad_lines_are_refused() {
-    assert!(matches!(vertical_width(&[], &[v(0.0, 0.0)], 1.0), Err(SolidError::TooFew { .. })));
-    assert!(matches!(vertical_width(&[v(0.0, 0.0)], &[v(f64::NAN, 0.0)], 1.0), Err(SolidError::EntryNotFinite { .. })));
-    assert!(matches!(vertical_width(&[v(0.0, 0.0)], &[v(0.0, 1.0)], 0.0), Err(SolidError::NotPositive { .. })));
+    assert!(matches!(vertical_width(&[], &[v(0.0, 0.0)], 1.0), Err(SolidError::Input(InputError::TooFew { .. }))));
+    assert!(matches!(
+        vertical_width(&[v(0.0, 0.0)], &[v(f64::NAN, 0.0)], 1.0),
+        Err(SolidError::Input(InputError::EntryNotFinite { .. }))
+    ));
+    assert!(matches!(
+        vertical_width(&[v(0.0, 0.0)], &[v(0.0, 1.0)], 0.0),
+        Err(SolidError::Input(InputError::NotPositive { .. }))
+    ));
 }

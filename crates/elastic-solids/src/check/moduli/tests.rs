@@ -1,3 +1,5 @@
+use ib_core::input::InputError;
+
 use super::*;
 use crate::forces::{Hyperelastic, Springs};
 use crate::material::SaintVenantKirchhoff;
@@ -93,9 +95,9 @@ fn bad_strains_are_refused() {
     let law = Springs::new(&mesh, 1.0).unwrap();
     for strain in [0.0, -1e-3, 0.5, f64::NAN] {
         let found = measured_moduli(&mesh, &law, strain, InnerPoints::Strained);
-        assert!(matches!(found, Err(SolidError::OutOfRange { .. })));
+        assert!(matches!(found, Err(SolidError::Input(InputError::OutOfRange { .. }))));
     }
     let other = equilateral_block(Vec2::zeros(), 4, 3, 1.0).unwrap();
     let found = measured_moduli(&other, &law, 1e-3, InnerPoints::Strained);
-    assert!(matches!(found, Err(SolidError::WrongLength { .. })));
+    assert!(matches!(found, Err(SolidError::Input(InputError::WrongLength { .. }))));
 }

@@ -1,3 +1,5 @@
+use ib_core::input::InputError;
+
 use super::*;
 
 #[test]
@@ -20,11 +22,14 @@ fn the_thesis_springs() {
 #[test]
 fn bad_moduli_are_refused() {
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(Moduli::new(bad, 1.0), Err(SolidError::NotPositive { .. })));
-        assert!(matches!(Moduli::new(1.0, bad), Err(SolidError::NotPositive { .. })));
-        assert!(matches!(Moduli::from_thesis_spring_constant(bad), Err(SolidError::NotPositive { .. })));
+        assert!(matches!(Moduli::new(bad, 1.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
+        assert!(matches!(Moduli::new(1.0, bad), Err(SolidError::Input(InputError::NotPositive { .. }))));
+        assert!(matches!(
+            Moduli::from_thesis_spring_constant(bad),
+            Err(SolidError::Input(InputError::NotPositive { .. }))
+        ));
     }
     for bad in [-1.0, 1.0, 1.5, f64::NAN] {
-        assert!(matches!(Moduli::from_young(1.0, bad), Err(SolidError::OutOfRange { .. })));
+        assert!(matches!(Moduli::from_young(1.0, bad), Err(SolidError::Input(InputError::OutOfRange { .. }))));
     }
 }

@@ -1,5 +1,6 @@
 //! A file from hand, round trips, and files gone wrong.
 
+use ib_core::input::InputError;
 use proptest::prelude::*;
 
 use super::*;
@@ -132,8 +133,11 @@ fn errors_name_the_line() {
         .replace("4 10 20 30", "")
         .replace("2 2 2 1", "2 2 2 0")
         .replace("2 1 2 1", "2 1 2 0");
-    assert!(matches!(GmshMesh::from_text(&none), Err(SolidError::TooFew { .. })));
-    assert!(matches!(GmshMesh::from_periodic_text(SQUARE, -1.0), Err(SolidError::NotPositive { .. })));
+    assert!(matches!(GmshMesh::from_text(&none), Err(SolidError::Input(InputError::TooFew { .. }))));
+    assert!(matches!(
+        GmshMesh::from_periodic_text(SQUARE, -1.0),
+        Err(SolidError::Input(InputError::NotPositive { .. }))
+    ));
 }
 
 #[test]

@@ -1,3 +1,5 @@
+use ib_core::input::InputError;
+
 use super::*;
 
 #[test]
@@ -45,12 +47,21 @@ fn a_block_is_equilateral() {
 #[test]
 fn sizes_that_make_no_lattice_are_refused() {
     let origin = Vec2::zeros();
-    assert!(matches!(equilateral_strip(origin, 2, 4, 0.1), Err(SolidError::TooFew { minimum: 3, .. })));
-    assert!(matches!(equilateral_strip(origin, 5, 0, 0.1), Err(SolidError::TooFew { minimum: 1, .. })));
-    assert!(matches!(equilateral_strip(origin, 5, 4, -0.1), Err(SolidError::NotPositive { .. })));
-    assert!(matches!(fitted_strip(origin, [1.0, 1.0], 1e-12), Err(SolidError::OutOfRange { .. })));
-    assert!(matches!(fitted_strip(origin, [f64::NAN, 1.0], 0.1), Err(SolidError::NotPositive { .. })));
-    assert!(matches!(equilateral_block(origin, 0, 1, 0.1), Err(SolidError::TooFew { .. })));
+    assert!(matches!(
+        equilateral_strip(origin, 2, 4, 0.1),
+        Err(SolidError::Input(InputError::TooFew { minimum: 3, .. }))
+    ));
+    assert!(matches!(
+        equilateral_strip(origin, 5, 0, 0.1),
+        Err(SolidError::Input(InputError::TooFew { minimum: 1, .. }))
+    ));
+    assert!(matches!(equilateral_strip(origin, 5, 4, -0.1), Err(SolidError::Input(InputError::NotPositive { .. }))));
+    assert!(matches!(fitted_strip(origin, [1.0, 1.0], 1e-12), Err(SolidError::Input(InputError::OutOfRange { .. }))));
+    assert!(matches!(
+        fitted_strip(origin, [f64::NAN, 1.0], 0.1),
+        Err(SolidError::Input(InputError::NotPositive { .. }))
+    ));
+    assert!(matches!(equilateral_block(origin, 0, 1, 0.1), Err(SolidError::Input(InputError::TooFew { .. }))));
     let nowhere = Vec2::new(f64::NAN, 0.0);
-    assert!(matches!(equilateral_block(nowhere, 1, 1, 0.1), Err(SolidError::EntryNotFinite { .. })));
+    assert!(matches!(equilateral_block(nowhere, 1, 1, 0.1), Err(SolidError::Input(InputError::EntryNotFinite { .. }))));
 }
