@@ -124,3 +124,6 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryCsv {
         Ok(self.table.push(&row)?)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -32,6 +32,33 @@ fn a_snapshot_of_a_box_and_of_a_channel() {
 }
 
 #[test]
+fn all_droplets_and_solids_of_any_material_are_seen() {
+    let disc = SolidOutline::Disc { centre: [0.0, 0.0], radius: 0.5 };
+    let nucleus = SolidSetup::new(disc, Material::NeoHookean { shear: 100.0, bulk: 200.0 });
+    let springs = Material::Springs { shear: 100.0 };
+    let mut solids = SolidSetup::walls(&ChannelShape::Straight { width: 3.0 }, &springs);
+    solids.push(SolidSetup { hold: Hold::Free, ..nucleus });
+    let setup = Setup {
+        region: Region::Channel { length: 8.0, width: 5.0, drive: Drive::ZeroGradient },
+        method: Method::Grid(GridMethod::of_spacing(0.2)),
+        droplets: [-2.0, 2.0].map(|x| DropletSetup { centre: [x, 0.0], ..DropletSetup::default() }).to_vec(),
+        solids,
+        ..Setup::default()
+    };
+    let mut scene = setup.build().unwrap().scene;
+    let raster = Raster::of(scene.system(), 0.2).unwrap();
+    let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
+    for (droplet, x) in seen.droplets.iter().zip([-2.0, 2.0]) {
+        assert!((droplet.centroid - Vec2::new(x, 0.0)).norm() < 1e-6, "{}", droplet.centroid);
+    }
+    // Areas are those of the setup, of the disc's polygon a little less.
+    let areas: Vec<f64> = seen.solids.iter().map(|solid| polygon_moments(&solid.area[0]).unwrap().area).collect();
+    let exact = [8.0, 8.0, 0.25 * std::f64::consts::PI];
+    assert_eq!((seen.droplets.len(), areas.len()), (2, 3));
+    assert!(areas.iter().zip(exact).all(|(area, exact)| (0.95..1.001).contains(&(area / exact))), "{areas:?}");
+}
+
+#[test]
 fn markers_lie_between_their_segments() {
     assert_eq!(at_markers(&[1.0, 3.0, 5.0]), [3.0, 2.0, 4.0]);
     assert!(at_markers(&[]).is_empty());
