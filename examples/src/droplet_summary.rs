@@ -2,7 +2,7 @@
 
 use motile::{
     active_interface::Observables,
-    ib_core::{FlowWork, StepReport},
+    ib_core::{hydrodynamics::FlowWork, scene::StepReport},
 };
 
 use motile_output::SolidMeter;

@@ -77,7 +77,7 @@ pub struct WatchedRun {
     start: ConcentrationProfile,
     recorder: TrajectoryCsv,
     progress: RunProgress,
-    pictures: Option<(Film, ParaView)>,
+    pictures: Option<(Look, Film, ParaView)>,
     cost: RunCost,
     gap: SolidGap,
     checkpoints: CheckpointFlags,
@@ -135,7 +135,7 @@ impl WatchedRun {
         } else {
             let concentration = Some(particles.concentration);
             let look = Look { caption, concentration, streamline_spacing: Some(STREAMLINES) };
-            Some((Film::new(look, watched), ParaView::create(directory.join("vtk"), watched)?))
+            Some((look.clone(), Film::new(look, watched), ParaView::create(directory.join("vtk"), watched)?))
         };
         Ok(Self {
             droplet,
@@ -180,7 +180,7 @@ impl WatchedRun {
             .observe(Every::Steps(1), &mut self.gap)
             .observe(Every::Steps(1), end)
             .observe(Every::Steps(1), &mut self.progress);
-        if let Some((film, vtk)) = &mut self.pictures {
+        if let Some((_, film, vtk)) = &mut self.pictures {
             let frames = (self.end / FRAME_INTERVAL).clamp(FRAMES[0], FRAMES[1]);
             run =
                 run.observe(Every::StepAfter(self.end / frames), film).observe(Every::StepAfter(self.end / FILES), vtk);
@@ -249,7 +249,7 @@ impl WatchedRun {
     /// # Errors
     /// Files that cannot be written.
     pub fn write_pictures<H: Hydrodynamics, I: Integrator>(&self, scene: &mut Scene<H, I>) -> Result<()> {
-        let (Some((film, _)), Some(last)) = (&self.pictures, self.records().last()) else { return Ok(()) };
+        let (Some((look, film, _)), Some(last)) = (&self.pictures, self.records().last()) else { return Ok(()) };
         let (directory, trajectory) = (&self.directory, self.recorder.table());
         time_series(trajectory)?.write(directory, "time_series")?;
         let body = scene.body(self.droplet)?;
@@ -259,7 +259,7 @@ impl WatchedRun {
             .write(directory, "concentration_profile")?;
         let tracks = [self.recorder.track()];
         let seen = Snapshot::take(scene.system_mut(), self.raster)?;
-        film.look().write_picture(&seen, &tracks, directory.join("final.png"))?;
+        look.write_picture(&seen, &tracks, directory.join("final.png"))?;
         Ok(film.write(&tracks, directory.join("swim.gif"))?)
     }
 

@@ -1,7 +1,7 @@
 //! Wrong input ends in an error that names it, before any work; a run that goes wrong leaves the last good state.
 
 use motile::ib_core::{Body, FlowError, SceneError, StepSize};
-use motile::{Built, DropletSetup, Setup};
+use motile::{Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 #[test]
@@ -70,5 +70,32 @@ fn markers_beyond_a_wall_are_named() {
             assert!((allowed - 0.025).abs() < 1e-12 && depth > allowed && depth < 0.06);
         }
         other => panic!("{other}"),
+    }
+}
+
+/// Every jump of viscosity is taken against the exterior's, which is wrong inside a droplet of another viscosity.
+#[test]
+fn droplets_in_droplets_of_another_viscosity_are_refused() {
+    for method in [
+        Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
+        Method::Grid(GridMethod { spacing: 0.1, ..GridMethod::default() }),
+    ] {
+        let scene = |outer: f64, inner: f64| {
+            let inside = |radius, viscosity| DropletSetup {
+                viscosity: Some(viscosity),
+                shape: DropletShape::Round { radius },
+                ..DropletSetup::passive(0.0)
+            };
+            let setup = Setup {
+                method: method.clone(),
+                viscosity: 100.0,
+                droplets: vec![inside(1.0, outer), inside(0.3, inner)],
+                ..Setup::default()
+            };
+            setup.build().unwrap().scene
+        };
+        let error = scene(10.0, 100.0).run(1.0).go().unwrap_err();
+        assert!(matches!(error, SceneError::NestedInterfaces { interior: 10.0, exterior: 100.0, .. }), "{error}");
+        scene(100.0, 10.0).run(0.1).go().unwrap();
     }
 }

@@ -1,6 +1,6 @@
 //! Velocities on fixed shapes against boundary-integral values: the order of the method with the mobility correction.
 
-use motile::ib_core::{CubicQuadratic, Peskin4};
+use motile::ib_core::{CubicQuadratic, kernel::Peskin4};
 use motile_tests::validation::{Case, fixed_shapes, order};
 
 const SPACINGS: [f64; 3] = [0.1, 0.05, 0.025];

@@ -4,7 +4,7 @@ use motile::active_interface::{
     ActiveDroplet,
     curve::{polygon_area, polygon_moments},
 };
-use motile::ib_core::{StepSize, wall_gap};
+use motile::ib_core::{StepSize, gap::wall_gap};
 use motile::stokes_grid::Drive;
 use motile::{Built, DropletSetup, DropletShape, Region, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};

@@ -1,7 +1,7 @@
 //! Recommended settings hold what they promise where they were not measured.
 
 use motile::ib_core::StepSize;
-use motile::{DropletSetup, Exclusion, MethodKind, Particles, Region, Setup};
+use motile::{DropletSetup, MethodKind, Region, Setup};
 use motile::{Recommendation, SceneKind, SetupError, recommend};
 use motile_tests::validation::scene::{open_channel, without_grid};
 use motile_tests::validation::swimmers::speeds;
@@ -33,25 +33,17 @@ fn check(kind: SceneKind, targets: [&[f64]; 2], scene: &Setup) {
     }
 }
 
-fn droplet(activity: f64, excluded_volume: f64) -> DropletSetup {
-    let excluded_volume = Exclusion::Step(excluded_volume);
-    DropletSetup {
-        particles: Some(Particles { activity, excluded_volume, ..Particles::default() }),
-        ..DropletSetup::default()
-    }
-}
-
 #[test]
 fn in_a_box() {
     // Another activity, box, excluded volume and heading.
-    let droplets = vec![DropletSetup { angle: 0.4, ..droplet(-3.0, 7.0) }];
+    let droplets = vec![DropletSetup { angle: 0.4, ..DropletSetup::contractile(-3.0, 7.0) }];
     let scene = Setup { region: Region::Box { lengths: [6.6; 2] }, droplets, ..Setup::default() };
     check(SceneKind::Box, [&[0.01, 0.003, 0.001], &[0.01, 0.001]], &scene);
 }
 
 #[test]
 fn with_a_contrast() {
-    let droplets = vec![DropletSetup { viscosity: Some(100.0), ..droplet(-1.5, 3.0) }];
+    let droplets = vec![DropletSetup { viscosity: Some(100.0), ..DropletSetup::contractile(-1.5, 3.0) }];
     let scene = Setup { viscosity: 6.0, droplets, ..Setup::default() };
     check(SceneKind::ViscosityContrast, [&[0.01, 0.003], &[0.01]], &scene);
 }

@@ -4,7 +4,7 @@ use motile::active_interface::{ActiveDroplet, observables::centroid_velocity};
 use motile::elastic_solids::{Moduli, NeoHookean, Solid, mesh::equilateral_strip};
 use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
-    SceneError, SpectralEstimate, StepSize, Vec2,
+    SceneError, StepSize, Vec2, integrator::SpectralEstimate,
 };
 use motile::stokes_grid::{ChannelStokes, Grid};
 use motile::{AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Setup, SolidSetup};

@@ -1,7 +1,7 @@
 //! What a scene computes: only what it needs.
 
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::ib_core::{Body, CubicQuadratic, FlowWork, Hydrodynamics, ImmersedBoundary, Scene};
+use motile::ib_core::{Body, CubicQuadratic, Hydrodynamics, ImmersedBoundary, Scene, hydrodynamics::FlowWork};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 use motile::{GridMethod, Method, Setup};
 use motile_tests::validation::scene::on_grid;

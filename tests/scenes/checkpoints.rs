@@ -5,11 +5,13 @@ use std::path::PathBuf;
 
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{
-    Body, Checkpoint, CheckpointError, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
+    Body, Checkpoint, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
+    checkpoint::CheckpointError,
 };
 use motile::stokes_grid::Drive;
 use motile::{
-    AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup, SolidSetup,
+    AnyFlow, Built, ChannelShape, DropletSetup, Exclusion, GridMethod, IntegralMethod, Material, Method, Particles,
+    Region, Setup, SolidSetup,
 };
 use proptest::prelude::*;
 
@@ -204,8 +206,12 @@ fn a_file_that_is_not_whole_is_refused() {
     let longer = [bytes.as_slice(), &[0]].concat();
     assert!(matches!(Checkpoint::from_bytes(&longer), Err(CheckpointError::Length { .. })));
     let mut later = bytes.clone();
-    later[8] = 2;
-    assert!(matches!(Checkpoint::from_bytes(&later), Err(CheckpointError::Version { found: 2, supported: 1 })));
+    for version in [1, 3] {
+        later[8] = version;
+        let error = Checkpoint::from_bytes(&later).expect_err("another version");
+        let expected = u32::from(version);
+        assert!(matches!(error, CheckpointError::Version { found, supported: 2 } if found == expected), "{error}");
+    }
     assert!(matches!(Checkpoint::from_bytes(b"some other file"), Err(CheckpointError::Foreign)));
 }
 
@@ -223,9 +229,59 @@ fn a_checkpoint_of_another_scene_is_refused_and_changes_nothing() {
     ];
     for other in others {
         let error = resumed.resume(&scene(&other).checkpoint("")).expect_err("another scene");
-        assert!(matches!(error, SceneError::ForeignCheckpoint { .. } | SceneError::Body { .. }), "{error}");
+        let refused = matches!(error, SceneError::ForeignCheckpoint { .. } | SceneError::OtherProperty { .. });
+        assert!(refused, "{error}");
         assert!(bits(&resumed) == before);
     }
+}
+
+/// What differs is named with both values, whatever it is.
+#[test]
+fn a_checkpoint_of_other_physics_is_refused_by_name() {
+    let good = filled(20.0, &coarse());
+    let saved = scene(&good).checkpoint("");
+    let droplet = |change: fn(&mut DropletSetup)| {
+        let mut setup = good.clone();
+        change(&mut setup.droplets[0]);
+        setup
+    };
+    let particles = |change: fn(&mut Particles)| {
+        let mut setup = good.clone();
+        setup.droplets[0].particles.as_mut().map(change);
+        setup
+    };
+    let Method::Grid(grid) = good.method else { panic!("a grid") };
+    let finer = Method::Grid(GridMethod { marker_spacing: Some(0.15), ..grid });
+    let others = [
+        ("the tension at a concentration", particles(|particles| particles.activity = -2.0)),
+        ("the tension at a concentration", particles(|particles| particles.excluded_volume = Exclusion::Step(20.0))),
+        ("the tension at a concentration", droplet(|droplet| droplet.tension = 7.0)),
+        ("the diffusion constant is 0.1 in it and 0.2 here", particles(|particles| particles.diffusion = 0.2)),
+        ("the exterior viscosity is 100 in it and 50 here", Setup { viscosity: 50.0, ..good.clone() }),
+        ("the viscosity inside is 20 in it and 30 here", droplet(|droplet| droplet.viscosity = Some(30.0))),
+        ("the viscosity inside is 20 in it and not given here", droplet(|droplet| droplet.viscosity = None)),
+        ("the number of markers is", Setup { method: finer, ..good.clone() }),
+    ];
+    for (expected, other) in others {
+        let error = scene(&other).resume(&saved).expect_err(expected);
+        assert!(matches!(error, SceneError::OtherProperty { .. }), "{error}");
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    let elastic = |shear: f64| {
+        let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
+        let region = Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient };
+        scene(&Setup { region, solids: walls, ..coarse() })
+    };
+    let saved = elastic(187.5).checkpoint("");
+    let error = elastic(375.0).resume(&saved).expect_err("softer walls");
+    assert!(error.to_string().contains("the energy of a shear"), "{error}");
+    // Another grid for the same bodies is no obstacle.
+    let on = |spacing: f64| {
+        let grid = GridMethod { marker_spacing: Some(0.1), ..GridMethod::of_spacing(spacing) };
+        scene(&Setup { method: Method::Grid(grid), ..coarse() })
+    };
+    let saved = on(0.2).checkpoint("");
+    on(0.15).resume(&saved).expect("the same bodies");
 }
 
 /// Every kind of scene in every other: refused, or taken, and what is refused changes nothing.
@@ -261,11 +317,11 @@ fn every_scene_in_every_other() {
 }
 
 #[test]
-fn another_integrator_or_viscosity_goes_on_from_the_state() {
+fn another_integrator_goes_on_from_the_state() {
     let mut first = scene(&coarse());
     first.run(1.0).go().expect("a run");
     let saved = first.checkpoint("");
-    let mut other = scene(&Setup { viscosity: 50.0, ..coarse() }).advanced_by(RungeKuttaChebyshev::new());
+    let mut other = scene(&coarse()).advanced_by(RungeKuttaChebyshev::new());
     other.resume(&saved).expect("the same bodies");
     assert_eq!((other.time(), other.steps()), (1.0, first.steps()));
     other.run(1.5).go().expect("a run");
@@ -307,7 +363,11 @@ fn a_run_saves_checkpoints_and_stops_when_told() {
     let error = scene.run(4.0).save(1, &nowhere, "").go().expect_err("no such directory");
     assert!(matches!(error, SceneError::Checkpoint { .. }), "{error}");
     assert!(error.explanation().contains("missing"), "{}", error.explanation());
-    assert!(matches!(Checkpoint::read(&nowhere), Err(CheckpointError::File { .. })));
+    let error = Checkpoint::read(&nowhere).expect_err("no file");
+    assert!(matches!(error, CheckpointError::Missing { .. }), "{error}");
+    assert_eq!(error.to_string(), format!("there is no checkpoint at {}", nowhere.display()));
+    let error = Checkpoint::read(&directory.0).expect_err("no file");
+    assert!(matches!(error, CheckpointError::Directory { .. }), "{error}");
     // What is not a file stays what it is.
     assert!(matches!(scene.checkpoint("").write(&directory.0), Err(CheckpointError::File { .. })));
     assert!(directory.0.is_dir());

@@ -1,9 +1,11 @@
 //! The flow of interfaces by boundary integrals.
 
 use ib_core::{
-    Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium, SavedState,
+    Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium,
+    checkpoint::SavedState,
+    hydrodynamics::{FlowReport, FlowWork},
 };
-use ib_core::{MarkerGroup, Vec2};
+use ib_core::{Vec2, hydrodynamics::MarkerGroup};
 use stokes_layers::{Interface, InterfaceFlow, LayerError, Region, Settings, Solution, WarmStart};
 
 /// Stokes flow of closed fluid interfaces in the plane, a periodic box or a channel, without a grid:

@@ -3,7 +3,7 @@
 mod scenes;
 
 use boundary_integral::{BoundaryIntegral, Forcing, Region, Settings, forcing};
-use ib_core::{FlowReport, FlowSample, Hydrodynamics, Markers, Vec2};
+use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2, hydrodynamics::FlowReport};
 use scenes::{Ellipse, markers};
 use stokes_grid::Drive;
 

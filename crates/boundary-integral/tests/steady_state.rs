@@ -4,7 +4,7 @@ mod scenes;
 
 use allocation_counter::measure;
 use boundary_integral::{BoundaryIntegral, Forcing, Region, Settings, forcing};
-use ib_core::{FlowWork, Hydrodynamics};
+use ib_core::{Hydrodynamics, hydrodynamics::FlowWork};
 use scenes::{Ellipse, markers};
 use stokes_grid::Drive;
 

@@ -8,7 +8,7 @@ pub use step_limit::{StepCause, StepLimit, StepLimits};
 
 use std::any::Any;
 
-use crate::{BodyError, BodyFlow, Boundary, MarkerKind, Medium, SavedState, Vec2};
+use crate::{BodyError, MarkerKind, Medium, Vec2, checkpoint::SavedState, gap::Boundary, scene::BodyFlow};
 
 /// What can be seen of a body beyond its markers: the speed of a droplet, say.
 pub trait Observe: Body {
@@ -116,6 +116,13 @@ pub trait Body: Any + std::fmt::Debug + Send {
     /// the radius of a droplet for positions, say. By default all are one.
     fn write_scales(&self, scales: &mut [f64]) {
         scales.fill(1.0);
+    }
+
+    /// What the body is made of, besides its state: named numbers that stay what they are over a run, such as its
+    /// moduli. A checkpoint of a body of other ones is refused. By default the number of markers, which a body leaves
+    /// out if it may change.
+    fn properties(&self) -> Vec<(String, f64)> {
+        vec![("the number of markers".to_owned(), self.marker_count() as f64)]
     }
 
     /// Everything from which [`Body::load`] makes the present state again, bit for bit: by default what

@@ -9,12 +9,16 @@ pub use saved_state::{ForeignState, SavedState};
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Domain, FlowReport, Hydrodynamics, Integrator, MarkerKind, Scene, SceneError, StepReport, Vec2};
+use crate::{
+    Body, Domain, Hydrodynamics, Integrator, MarkerKind, Scene, SceneError, Vec2, hydrodynamics::FlowReport,
+    scene::StepReport,
+};
 
 /// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
 ///
 /// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. Time step, integrator,
-/// viscosities and resolution of the grid may be others then; the domain and the bodies must be the same.
+/// observers and resolution of the grid may be others then; what the scene is must be the same: the domain, the
+/// viscosities, the bodies and what they are made of ([`crate::Body::properties`]).
 ///
 /// ```
 /// use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
@@ -45,11 +49,14 @@ pub struct Checkpoint {
     minimum_wall_gap: Option<f64>,
     minimum_gap: Option<f64>,
     region: Region,
+    properties: Vec<(String, f64)>,
     bodies: Vec<Part>,
     flow: SavedState,
     /// The flow at the markers, where it was known: x and y of all velocities, and what its evaluation found.
     known: Option<(Vec<[f64; 2]>, Found)>,
-    integrator: Part,
+    /// Its name and what it keeps.
+    integrator: String,
+    kept: SavedState,
     control: SavedState,
     report: StepReport,
 }
@@ -77,7 +84,33 @@ struct Found {
 struct Part {
     name: String,
     kind: u8,
+    properties: Vec<(String, f64)>,
     saved: SavedState,
+}
+
+impl Part {
+    fn of(body: &dyn Body) -> Self {
+        let (name, properties) = (body.name().to_owned(), body.properties());
+        Self { name, kind: kind(body.kind()), properties, saved: body.save() }
+    }
+}
+
+/// Numbers that were computed in the same way differ by less than this part of them on any machine.
+const ROUND_OFF: f64 = 1e-9;
+
+/// The first property that is not the same here and in a checkpoint.
+fn compare_properties(of: &str, here: &[(String, f64)], saved: &[(String, f64)]) -> Result<(), SceneError> {
+    let value = |list: &[(String, f64)], name: &str| list.iter().find(|entry| entry.0 == name).map(|entry| entry.1);
+    let same =
+        |a: f64, b: f64| a == b || (a - b).abs() <= ROUND_OFF * a.abs().max(b.abs()) || (a.is_nan() && b.is_nan());
+    for (name, _) in here.iter().chain(saved) {
+        let [present, saved] = [value(here, name), value(saved, name)];
+        if !present.zip(saved).is_some_and(|(a, b)| same(a, b)) {
+            let (of, property) = (of.to_owned(), name.clone());
+            return Err(SceneError::OtherProperty { of, property, saved, present });
+        }
+    }
+    Ok(())
 }
 
 /// What kind of markers a body has, as it stands in a file.
@@ -126,7 +159,6 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             residual: report.residual,
             mean_pressure_gradient: report.mean_pressure_gradient,
         };
-        let part = |name: &str, kind, saved| Part { name: name.to_owned(), kind, saved };
         Checkpoint {
             description: description.into(),
             time: system.time(),
@@ -134,12 +166,14 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             minimum_wall_gap: system.minimum_wall_gap(),
             minimum_gap: system.minimum_gap(),
             region: system.hydrodynamics().medium().domain.into(),
-            bodies: system.all_bodies().map(|(_, body)| part(body.name(), kind(body.kind()), body.save())).collect(),
+            properties: system.properties(),
+            bodies: system.all_bodies().map(|(_, body)| Part::of(body)).collect(),
             flow: system.hydrodynamics().save(),
             known: system
                 .is_evaluated()
                 .then(|| (system.markers().velocities.iter().map(|v| [v.x, v.y]).collect(), found)),
-            integrator: part(integrator.name(), 0, kept),
+            integrator: integrator.name().to_owned(),
+            kept,
             control,
             report: self.step_report().clone(),
         }
@@ -149,7 +183,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     /// there. With another integrator that starts afresh. After an error the scene is as it was.
     ///
     /// # Errors
-    /// A checkpoint of another domain, of other bodies, or of a state that a body refuses.
+    /// A checkpoint of another domain, of other bodies, or of a state that a body refuses;
+    /// [`SceneError::OtherProperty`] where bodies or fluid are of something else.
     pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         self.compare(checkpoint)?;
         let before = self.checkpoint("");
@@ -170,16 +205,19 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             };
             return foreign(format!("its domain has {}, this one {}", describe(checkpoint.region), describe(region)));
         }
+        compare_properties("the scene", &system.properties(), &checkpoint.properties)?;
         let (expected, found) = (system.all_bodies().len(), checkpoint.bodies.len());
         if expected != found {
             return foreign(format!("it has {found} bodies, this scene {expected}"));
         }
         for (index, ((_, body), part)) in system.all_bodies().zip(&checkpoint.bodies).enumerate() {
-            if body.name() != part.name || kind(body.kind()) != part.kind {
-                let (here, there) = (body.name(), &part.name);
-                return foreign(format!(
-                    "its body {index} is {there:?} where this scene has {here:?}, or of another kind"
-                ));
+            let (here, there) = (body.name(), &part.name);
+            if here != there {
+                return foreign(format!("its body {index} is {there:?} where this scene has {here:?}"));
+            }
+            compare_properties(here, &body.properties(), &part.properties)?;
+            if kind(body.kind()) != part.kind {
+                return foreign(format!("the markers of {here} are of another kind"));
             }
         }
         if !(checkpoint.time.is_finite() && usize::try_from(checkpoint.steps).is_ok()) {
@@ -192,8 +230,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         let records = checkpoint.bodies.iter().map(|part| &part.saved);
         let gaps = [checkpoint.minimum_wall_gap, checkpoint.minimum_gap];
         self.system_mut().load(records, &checkpoint.flow, checkpoint.time, checkpoint.steps as usize, gaps)?;
-        if checkpoint.integrator.name == self.integrator().name() {
-            self.load_integrator(&checkpoint.integrator.saved)?;
+        if checkpoint.integrator == self.integrator().name() {
+            self.load_integrator(&checkpoint.kept)?;
             self.control = crate::scene::StepControl::load(&checkpoint.control).ok_or_else(|| {
                 SceneError::ForeignCheckpoint { problem: "it has no state of its time steps".to_owned() }
             })?;

@@ -16,7 +16,7 @@ pub(crate) use equivalent::EquivalentForces;
 pub(crate) use field::Nearby;
 use rigid::RigidModes;
 
-use crate::{FlowError, MarkerKind, Markers, SavedState, Vec2};
+use crate::{FlowError, MarkerKind, Markers, Vec2, checkpoint::SavedState};
 
 /// Residual of the iterations relative to the right-hand side.
 const TOLERANCE: f64 = 1e-6;

@@ -2,7 +2,7 @@
 
 use stokes_grid::StokesError;
 
-use crate::CheckpointError;
+use crate::checkpoint::CheckpointError;
 
 /// The flow could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -336,6 +336,22 @@ pub enum SceneError {
         /// The body's name.
         body: String,
     },
+    /// A checkpoint of a scene whose fluid or bodies are made of something else.
+    #[error(
+        "the checkpoint is of other physics: for {of}, {property} is {} in it and {} here; resume with what it was saved with",
+        shown(*saved),
+        shown(*present)
+    )]
+    OtherProperty {
+        /// The body, or the scene.
+        of: String,
+        /// What differs.
+        property: String,
+        /// Its value in the checkpoint, if it has one there.
+        saved: Option<f64>,
+        /// Its value in the present scene.
+        present: Option<f64>,
+    },
     /// An observer failed.
     #[error("an observer failed at time {time}")]
     Observer {
@@ -344,6 +360,10 @@ pub enum SceneError {
         /// Why.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+}
+
+fn shown(value: Option<f64>) -> String {
+    value.map_or_else(|| "not given".to_owned(), |value| value.to_string())
 }
 
 impl SceneError {

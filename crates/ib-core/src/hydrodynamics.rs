@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 pub use stokes_layers::FlowSample;
 
-use crate::{FlowError, MobilityDeficit, SavedState};
+use crate::{FlowError, MobilityDeficit, checkpoint::SavedState};
 
 /// The region that the fluid fills.
 #[derive(Debug, Clone, Copy, PartialEq)]

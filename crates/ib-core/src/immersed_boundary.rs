@@ -13,8 +13,9 @@ use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, StokesSolver};
 use crate::contrast::other_viscosity;
 use crate::mobility::{Clearance, MobilityCorrection};
 use crate::{
-    Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, Kernel, MarkerKind, Markers, Medium,
-    MobilityDeficit, SavedState, Transfer, Vec2,
+    Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Medium, MobilityDeficit, Transfer, Vec2,
+    checkpoint::SavedState,
+    hydrodynamics::{FlowReport, FlowWork},
 };
 use contrast_flow::ContrastFlow;
 

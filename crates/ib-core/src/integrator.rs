@@ -9,7 +9,7 @@ pub use chebyshev::{RungeKuttaChebyshev, SpectralEstimate};
 pub(crate) use error_estimate::ErrorEstimate;
 pub use midpoint::Midpoint;
 
-use crate::{Hydrodynamics, SavedState, SceneError, System};
+use crate::{Hydrodynamics, SceneError, System, checkpoint::SavedState};
 
 /// Work of an integrator since the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -40,7 +40,7 @@ pub trait Integrator: std::fmt::Debug + Send {
     fn stability_interval(&self) -> f64;
 
     /// Whether bodies are to make their stiff couplings implicit by adding and subtracting a diffusion
-    /// ([`crate::StepInfo::stabilised`]); an integrator with a long interval of stability does better without.
+    /// ([`crate::body::StepInfo::stabilised`]); an integrator with a long interval of stability does better without.
     fn stabilised(&self) -> bool {
         true
     }

@@ -44,31 +44,27 @@
 //! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
 //! docs/method.md in the repository.
 
-mod body;
-mod checkpoint;
+pub mod body;
+pub mod checkpoint;
 mod contrast;
 mod error;
-mod gap;
-mod hydrodynamics;
+pub mod gap;
+pub mod hydrodynamics;
 mod immersed_boundary;
-mod integrator;
-mod kernel;
-mod mobility;
-mod scene;
+pub mod integrator;
+pub mod kernel;
+pub mod mobility;
+pub mod scene;
 mod transfer;
 
-pub use body::{Body, MarkerBody, Observe, StepCause, StepInfo, StepLimit, StepLimits};
-pub use checkpoint::{Checkpoint, CheckpointError, ForeignState, SavedState};
+pub use body::{Body, MarkerBody, Observe};
+pub use checkpoint::Checkpoint;
 pub use error::{BodyError, FlowError, SceneError};
-pub use gap::{Boundary, Repulsion, wall_gap};
-pub use hydrodynamics::{
-    Domain, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerGroup, MarkerKind, Markers, Medium, Vec2,
-};
+pub use gap::Repulsion;
+pub use hydrodynamics::{Domain, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Vec2};
 pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
-pub use integrator::{Integrator, IntegratorWork, Midpoint, RungeKuttaChebyshev, SpectralEstimate};
-pub use kernel::{
-    AnyKernel, CompositeBSpline, CubicQuadratic, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3,
-};
-pub use mobility::{Deficit, MobilityDeficit};
-pub use scene::{BodyFlow, Every, Handle, Limiting, Observer, Run, Scene, StepReport, StepSize, System};
+pub use integrator::{Integrator, Midpoint, RungeKuttaChebyshev};
+pub use kernel::{AnyKernel, CubicQuadratic, Kernel};
+pub use mobility::MobilityDeficit;
+pub use scene::{Every, Handle, Observer, Run, Scene, StepSize, System};
 pub use transfer::Transfer;

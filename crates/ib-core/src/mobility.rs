@@ -8,7 +8,7 @@ pub(crate) use clearance::Clearance;
 pub(crate) use correction::{MobilityCorrection, Setting};
 pub(crate) use quadrature::GAUSS_10;
 
-use crate::{Kernel, Role, Vec2};
+use crate::{Kernel, Vec2, kernel::Role};
 
 /// Largest tabulated wave number (in units of 1/h); above it the grid does not respond at all.
 const LAST: f64 = 6.3;

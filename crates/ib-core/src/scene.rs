@@ -14,7 +14,8 @@ pub use system::{BodyFlow, System};
 
 use crate::integrator::ErrorEstimate;
 use crate::{
-    Body, Hydrodynamics, Integrator, IntegratorWork, Midpoint, Observe, Repulsion, SavedState, SceneError, StepInfo,
+    Body, Hydrodynamics, Integrator, Midpoint, Observe, Repulsion, SceneError, body::StepInfo, checkpoint::SavedState,
+    integrator::IntegratorWork,
 };
 
 /// Bodies coupled by a fluid, and the integrator that advances them.

@@ -1,6 +1,9 @@
 //! Spreading and interpolation as an adjoint pair, in boxes and channels, for every kernel.
 
-use ib_core::{AnyKernel, Kernel, MAX_SUPPORT, Role, Transfer, Vec2};
+use ib_core::{
+    AnyKernel, Kernel, Transfer, Vec2,
+    kernel::{MAX_SUPPORT, Role},
+};
 use proptest::prelude::*;
 use stokes_grid::{Grid, StaggeredField};
 

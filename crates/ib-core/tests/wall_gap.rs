@@ -1,8 +1,10 @@
 //! The gap to the walls, followed through steps.
 
 use ib_core::{
-    Body, BodyError, Boundary, Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers,
-    Medium, Scene, StepLimits, Vec2,
+    Body, BodyError, Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Scene, Vec2,
+    body::StepLimits,
+    gap::Boundary,
+    hydrodynamics::{FlowReport, FlowWork},
 };
 
 /// A fluid that moves uniformly whatever the forces on it are.

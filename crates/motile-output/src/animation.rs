@@ -1,84 +1,88 @@
-//! Animated GIF files.
+//! Animations of runs.
 
-pub(crate) mod film;
 mod palette;
 
 use std::{fs::File, io, io::BufWriter, path::Path};
 
+use motile::ib_core::{Hydrodynamics, Observer, System};
 use palette::{Histogram, code};
 
-use crate::{Error, drawing::image::Image};
+use crate::{Error, Look, Raster, Snapshot, Track, picture::Format};
 
+/// Time between two frames, and how long the last one stays (hundredths of a second).
+const DELAY: u16 = 8;
+const END: u16 = 150;
+/// Most cells of a frame's fields in a direction: more would not be seen.
+const FRAME_CELLS: usize = 120;
 /// The index of the palette that means "as in the frame before".
 const UNCHANGED: u8 = 255;
-/// How long the last frame stays (hundredths of a second).
-const END: u16 = 150;
 
-/// Collects frames and writes them as an animated GIF with one palette for all of them.
+/// Takes a [`Snapshot`] whenever it is called, and makes an animation of them in the end.
 ///
-/// One palette for all keeps colours from flickering, but has to know them all: frames stay in memory (two bytes a
-/// pixel) until [`Animation::write`].
-#[derive(Debug, Clone)]
-pub struct Animation {
-    size: [usize; 2],
-    frames: Vec<Vec<u16>>,
-    histogram: Histogram,
-    hundredths: u16,
+/// ```
+/// use motile::prelude::*;
+/// use motile_output::{Film, Look, Raster};
+///
+/// let Built { mut scene, .. } = Setup::default().build()?;
+/// let mut film = Film::new(Look::default(), Raster::of(scene.system(), 0.2)?);
+/// scene.run(0.2).observe(Every::Time(0.1), &mut film).go()?;
+/// let path = std::env::temp_dir().join("a-droplet.gif");
+/// film.write(&[], &path)?;
+/// # std::fs::remove_file(&path)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Film {
+    look: Look,
+    raster: Raster,
+    frames: Vec<Snapshot>,
 }
 
-impl Animation {
-    /// An animation of `rate` frames a second (1 to 50).
+impl Film {
+    /// A film of the rectangle of `raster`, with fields on its cells or, where these are more than 120 in a direction, on
+    /// larger ones.
     #[must_use]
-    pub fn new(rate: f64) -> Self {
-        let hundredths = (100.0 / rate.clamp(1.0, 50.0)).round() as u16;
-        Self { size: [0, 0], frames: Vec::new(), histogram: Histogram::new(), hundredths }
+    pub fn new(look: Look, raster: Raster) -> Self {
+        Self { look, raster: raster.coarsened(FRAME_CELLS), frames: Vec::new() }
     }
 
-    /// Adds a frame.
+    /// Writes the animation (GIF), between walls each frame with the tracks so far. It repeats for ever.
     ///
     /// # Errors
-    /// [`Error::Count`]: a frame of another size than the first.
-    pub fn push(&mut self, frame: &Image) -> Result<(), Error> {
-        if self.frames.is_empty() {
-            self.size = frame.size();
+    /// [`Error::Empty`] without frames, [`Error::Write`], and what cannot be drawn.
+    pub fn write(&self, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), Error> {
+        let legends = self.look.legends(&self.frames);
+        // One palette for all frames keeps colours from flickering, but has to know them all.
+        let (mut histogram, mut frames, mut size) = (Histogram::new(), Vec::new(), [0; 2]);
+        for seen in &self.frames {
+            let image = self.look.draw(seen, &legends, tracks, &Format::FRAME)?;
+            image.pixels.iter().for_each(|&pixel| histogram.add(pixel));
+            frames.push(image.pixels.iter().map(|&pixel| code(pixel)).collect::<Vec<u16>>());
+            size = image.size;
         }
-        for (given, expected) in frame.size().into_iter().zip(self.size) {
-            Error::check_count("pixels of a side of a frame", given, expected)?;
-        }
-        for &pixel in frame.pixels() {
-            self.histogram.add(pixel);
-        }
-        self.frames.push(frame.pixels().iter().map(|&p| code(p)).collect());
-        Ok(())
-    }
-
-    /// Writes the file: the animation repeats for ever, its last frame stays for a second and a half. Of each frame
-    /// only what differs from the one before is stored.
-    ///
-    /// # Errors
-    /// [`Error::Empty`] without frames, [`Error::Write`].
-    pub fn write(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        if self.frames.is_empty() {
+        if frames.is_empty() {
             return Err(Error::Empty("an animation without frames"));
         }
-        self.encode(path.as_ref()).map_err(io::Error::other).map_err(Error::writing(path.as_ref()))
+        let written = encode(path.as_ref(), size, &frames, &histogram).map_err(io::Error::other);
+        written.map_err(Error::writing(path.as_ref()))
     }
+}
 
-    fn encode(&self, path: &Path) -> Result<(), gif::EncodingError> {
-        let (palette, index) = self.histogram.palette(usize::from(UNCHANGED));
-        let palette: Vec<u8> = palette.into_iter().flat_map(|c| c.0).collect();
-        let [width, height] = self.size.map(|side| side as u16);
-        let mut encoder = gif::Encoder::new(BufWriter::new(File::create(path)?), width, height, &palette)?;
-        encoder.set_repeat(gif::Repeat::Infinite)?;
-        let mut before: Vec<u8> = Vec::new();
-        for (k, codes) in self.frames.iter().enumerate() {
-            let now: Vec<u8> = codes.iter().map(|&c| index[usize::from(c)]).collect();
-            let delay = if k + 1 == self.frames.len() { END } else { self.hundredths };
-            encoder.write_frame(&gif::Frame { delay, ..changes(&before, &now, self.size[0]) })?;
-            before = now;
-        }
-        Ok(())
+/// Writes frames of codes of colours; of each frame only what differs from the one before is stored.
+fn encode(path: &Path, size: [usize; 2], frames: &[Vec<u16>], histogram: &Histogram) -> Result<(), gif::EncodingError> {
+    let (palette, index) = histogram.palette(usize::from(UNCHANGED));
+    let palette: Vec<u8> = palette.into_iter().flat_map(|c| c.0).collect();
+    let [width, height] = size.map(|side| side as u16);
+    let mut encoder = gif::Encoder::new(BufWriter::new(File::create(path)?), width, height, &palette)?;
+    encoder.set_repeat(gif::Repeat::Infinite)?;
+    let mut before: Vec<u8> = Vec::new();
+    for (k, codes) in frames.iter().enumerate() {
+        let now: Vec<u8> = codes.iter().map(|&c| index[usize::from(c)]).collect();
+        let delay = if k + 1 == frames.len() { END } else { DELAY };
+        encoder.write_frame(&gif::Frame { delay, ..changes(&before, &now, size[0]) })?;
+        before = now;
     }
+    Ok(())
 }
 
 /// The smallest rectangle in which the frame differs from the one before, with equal pixels transparent.
@@ -107,6 +111,13 @@ fn changes(before: &[u8], now: &[u8], width: usize) -> gif::Frame<'static> {
         dispose: gif::DisposalMethod::Keep,
         buffer: buffer.into(),
         ..gif::Frame::default()
+    }
+}
+
+impl<H: Hydrodynamics> Observer<H> for Film {
+    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        self.frames.push(Snapshot::take(system, self.raster)?);
+        Ok(())
     }
 }
 

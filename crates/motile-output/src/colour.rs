@@ -1,4 +1,4 @@
-//! Colours, colour maps and the scales that turn numbers into colours.
+//! Colours, and the scales that turn numbers into colours.
 
 /// A colour: red, green, blue, each 0 to 255.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -9,17 +9,16 @@ impl Rgb {
     pub const WHITE: Self = Self([255, 255, 255]);
     /// Text, axes and frames.
     pub const INK: Self = Self([34, 38, 46]);
-    /// Secondary lines: grids, reference lines.
+    /// Secondary lines, such as reference lines.
     pub const GREY: Self = Self([128, 134, 144]);
     /// Grid lines of plots.
     pub(crate) const PALE: Self = Self([226, 229, 234]);
 
     /// Mixes linearly: `self` at `t = 0`, `other` at `t = 1`.
     pub(crate) fn mix(self, other: Self, t: f64) -> Self {
-        let t = t.clamp(0.0, 1.0);
         let channel = |k: usize| {
             let (a, b) = (f64::from(self.0[k]), f64::from(other.0[k]));
-            (a + (b - a) * t).round() as u8
+            (a + (b - a) * t.clamp(0.0, 1.0)).round() as u8
         };
         Self([channel(0), channel(1), channel(2)])
     }
@@ -43,115 +42,58 @@ pub const SERIES_COLOURS: [Rgb; 8] = [
     Rgb([92, 96, 104]),
 ];
 
-/// A map from 0..1 to colours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ColourMap {
-    /// Blue, green, pale yellow, orange, red: diverging and close to a rainbow, for the pressure.
-    Rainbow,
-    /// Blue, white, red: diverging, for signed quantities such as the vorticity.
-    BlueWhiteRed,
-    /// Dark blue, green, yellow: sequential, for instance for the speed.
-    Viridis,
-    /// Black, purple, pink, pale yellow: sequential, for the concentration on an interface.
-    Magma,
+/// A colour map with the values of its two ends; values beyond an end get the end's colour.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ColourScale {
+    map: fn(f64) -> Rgb,
+    /// What it measures.
+    pub(crate) label: &'static str,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
 }
 
-impl ColourMap {
-    /// The colour at `t`, which is clamped to 0..1; not a number gives grey.
-    #[must_use]
-    pub fn at(self, t: f64) -> Rgb {
-        if t.is_nan() {
-            return Rgb::GREY;
-        }
-        let t = t.clamp(0.0, 1.0);
-        let (gradient, t) = match self {
-            Self::Rainbow => (colorous::SPECTRAL, 1.0 - t),
-            Self::BlueWhiteRed => (colorous::RED_BLUE, 1.0 - t),
-            Self::Viridis => (colorous::VIRIDIS, t),
-            Self::Magma => (colorous::MAGMA, t),
-        };
-        Rgb(gradient.eval_continuous(t).as_array())
-    }
+/// Blue, green, pale yellow, orange, red.
+fn rainbow(t: f64) -> Rgb {
+    Rgb(colorous::SPECTRAL.eval_continuous(1.0 - t).as_array())
 }
 
-/// How the ends of a colour scale are chosen from the data.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Limits {
-    /// Zero to the largest value.
-    FromZero,
-    /// Symmetric about zero, so that the middle of a diverging map means zero. The end is the magnitude that all but
-    /// two values in a thousand stay below: a few cells next to an interface would otherwise set the scale of all
-    /// others.
-    Symmetric,
-    /// The range of all but the smallest and the largest one in two hundred: shows the differences among most values
-    /// where a few stand out on either side.
-    Most,
-    /// Given ends, for series of pictures to be compared.
-    Fixed(f64, f64),
-}
-
-/// A colour map with the values of its two ends.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ColourScale {
-    map: ColourMap,
-    low: f64,
-    high: f64,
+/// Black, purple, pink, pale yellow.
+fn magma(t: f64) -> Rgb {
+    Rgb(colorous::MAGMA.eval_continuous(t).as_array())
 }
 
 impl ColourScale {
-    /// The scale of `map` over `values`, of which those that are not finite are left out. Ends that coincide are moved
-    /// apart, so that a constant gets the colour of the middle (or of the end, for [`Limits::FromZero`]).
-    #[must_use]
-    pub fn new(map: ColourMap, limits: Limits, values: &[f64]) -> Self {
-        let sorted = |value: fn(f64) -> f64| {
-            let mut all: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).map(value).collect();
-            all.sort_unstable_by(f64::total_cmp);
-            all
-        };
-        // The value that a share of the others lies above; zero if there are none.
-        let end = |sorted: &[f64], k: usize| sorted.get(k).copied().unwrap_or(0.0);
-        let (low, high) = match limits {
-            Limits::Fixed(low, high) => (low, high),
-            Limits::FromZero => (0.0, sorted(|v| v).last().map_or(0.0, |v| v.max(0.0))),
-            Limits::Most => {
-                let all = sorted(|v| v);
-                let rank = all.len() / 200;
-                (end(&all, rank), end(&all, all.len().saturating_sub(1 + rank)))
-            }
-            Limits::Symmetric => {
-                let all = sorted(f64::abs);
-                let high = end(&all, all.len().saturating_sub(1) * 998 / 1000);
-                (-high, high)
-            }
-        };
-        let (low, high) = if low <= high { (low, high) } else { (0.0, 0.0) };
-        let slack = 1e-12 * low.abs().max(high.abs()).max(1e-300);
-        if high - low > slack {
-            return Self { map, low, high };
-        }
+    /// From blue to red over all but the smallest and the largest one in two hundred of the values: shows the
+    /// differences among most of them where a few stand out on either side, such as pressures next to an interface.
+    pub(crate) fn of_most(values: impl Iterator<Item = f64>, label: &'static str) -> Self {
+        let mut sorted: Vec<f64> = values.filter(|v| v.is_finite()).collect();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let rank = sorted.len() / 200;
+        let end = |k: usize| sorted.get(k).copied().unwrap_or(0.0);
+        let (low, high) = (end(rank), end(sorted.len().saturating_sub(1 + rank)));
+        // A constant gets the colour of the middle.
         let half = if low == 0.0 { 1.0 } else { 0.5 * low.abs() };
-        match limits {
-            Limits::FromZero => Self { map, low: 0.0, high: 1.0 },
-            _ => Self { map, low: low - half, high: high + half },
-        }
+        let flat = high - low <= 1e-12 * low.abs().max(high.abs());
+        let (low, high) = if flat { (low - half, high + half) } else { (low, high) };
+        Self { map: rainbow, label, low, high }
     }
 
-    /// Values at the two ends.
-    #[must_use]
-    pub fn ends(&self) -> [f64; 2] {
-        [self.low, self.high]
+    /// From black to pale yellow over zero to the largest of the values.
+    pub(crate) fn from_zero(values: impl Iterator<Item = f64>, label: &'static str) -> Self {
+        let high = values.filter(|v| v.is_finite()).fold(0.0, f64::max);
+        Self { map: magma, label, low: 0.0, high: if high > 0.0 { high } else { 1.0 } }
     }
 
-    /// The colour of `value`; values beyond an end get the end's colour.
-    #[must_use]
-    pub fn colour(&self, value: f64) -> Rgb {
-        self.map.at((value - self.low) / (self.high - self.low))
+    /// The colour of `value`; not a number gives grey.
+    pub(crate) fn colour(&self, value: f64) -> Rgb {
+        let t = (value - self.low) / (self.high - self.low);
+        if t.is_nan() { Rgb::GREY } else { (self.map)(t.clamp(0.0, 1.0)) }
     }
 
     /// The colours of `levels` equal bands from the low to the high end: a table for fast lookup, and, with few
     /// levels, bands whose edges are contour lines.
     pub(crate) fn table(&self, levels: usize) -> Vec<Rgb> {
-        (0..levels).map(|k| self.map.at(k as f64 / (levels - 1) as f64)).collect()
+        (0..levels).map(|k| (self.map)(k as f64 / (levels - 1) as f64)).collect()
     }
 }
 

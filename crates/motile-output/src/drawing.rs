@@ -4,7 +4,6 @@
 pub(crate) mod axes;
 pub(crate) mod canvas;
 pub(crate) mod font;
-pub(crate) mod image;
 pub(crate) mod svg;
 pub(crate) mod ticks;
 
@@ -44,27 +43,22 @@ impl Rect {
     }
 }
 
-/// How a line is drawn: colour, width (pixels), opacity from 0 to 1, lengths of dash and gap (pixels).
+/// How a line is drawn: colour, width (pixels), opacity from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Pen {
     pub(crate) colour: Rgb,
     pub(crate) width: f64,
     pub(crate) opacity: f64,
-    pub(crate) dash: Option<[f64; 2]>,
 }
 
 impl Pen {
     /// A solid, opaque line.
     pub(crate) fn new(colour: Rgb, width: f64) -> Self {
-        Self { colour, width, opacity: 1.0, dash: None }
+        Self { colour, width, opacity: 1.0 }
     }
 
     pub(crate) fn opacity(self, opacity: f64) -> Self {
         Self { opacity, ..self }
-    }
-
-    pub(crate) fn dashed(self, dash: f64, gap: f64) -> Self {
-        Self { dash: Some([dash, gap]), ..self }
     }
 }
 
@@ -85,14 +79,12 @@ pub(crate) struct TextStyle {
     pub(crate) anchor: Anchor,
     /// Whether it reads upwards, as the label of a vertical axis does.
     pub(crate) upwards: bool,
-    /// Whether it is drawn with heavier strokes.
-    pub(crate) bold: bool,
 }
 
 impl TextStyle {
     /// Text of a size in [`Rgb::INK`].
     pub(crate) fn new(size: f64, anchor: Anchor) -> Self {
-        Self { size, colour: Rgb::INK, anchor, upwards: false, bold: false }
+        Self { size, colour: Rgb::INK, anchor, upwards: false }
     }
 
     pub(crate) fn upwards(self) -> Self {
@@ -103,21 +95,34 @@ impl TextStyle {
 /// Something to draw on: [`canvas::Canvas`] (pixels, for PNG and GIF) and [`svg::Svg`] (vectors). A plot is described
 /// once and drawn on either.
 pub(crate) trait Surface {
-    /// A line through `path`, with round ends and joints.
-    fn stroke(&mut self, path: &[Pixel], pen: &Pen);
+    /// Lines through `paths`, with round ends and joints; `label` says what they are, for search and screen readers.
+    fn strokes(&mut self, paths: &[Vec<Pixel>], label: &str, pen: &Pen);
 
     /// The area inside the closed curves `rings` (even-odd rule: a ring within a ring is a hole).
     fn fill(&mut self, rings: &[Vec<Pixel>], colour: Rgb, opacity: f64);
 
-    /// A line of text; `_{...}` and `^{...}` lower and raise what is in the braces.
-    fn text(&mut self, at: Pixel, text: &str, style: &TextStyle);
-
     /// Restricts what follows to a rectangle, or (`None`) lifts the restriction.
     fn clip(&mut self, to: Option<Rect>);
+
+    /// A line through `path`.
+    fn stroke(&mut self, path: &[Pixel], pen: &Pen) {
+        self.strokes(&[path.to_vec()], "", pen);
+    }
+
+    /// A line with lengths of dash and gap (pixels).
+    fn dashed(&mut self, path: &[Pixel], pen: &Pen, pattern: [f64; 2]) {
+        self.strokes(&dashes(path, pattern), "", pen);
+    }
+
+    /// A line of text; `_{...}` and `^{...}` lower and raise what is in the braces.
+    fn text(&mut self, at: Pixel, text: &str, style: &TextStyle) {
+        let (strokes, weight) = font::place(text, at, style);
+        self.strokes(&strokes, text, &Pen::new(style.colour, weight));
+    }
 }
 
 /// Cuts a path into the dashes of a pattern of dash and gap lengths.
-pub(crate) fn dashes(path: &[Pixel], [dash, gap]: [f64; 2]) -> Vec<Vec<Pixel>> {
+fn dashes(path: &[Pixel], [dash, gap]: [f64; 2]) -> Vec<Vec<Pixel>> {
     let mut pieces = Vec::new();
     let mut piece: Vec<Pixel> = path.first().map(|&p| vec![p]).unwrap_or_default();
     let (mut drawing, mut left) = (true, dash.max(0.1));

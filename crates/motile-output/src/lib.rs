@@ -25,7 +25,7 @@
 //! |---|---|
 //! | runs, as observers | [`TrajectoryCsv`], [`ParaView`], [`Film`], [`RunProgress`] |
 //! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
-//! | pictures of a flow of your own | [`Picture`] of [`Samples`] on a [`Raster`], drawn in a [`Format`]; [`Animation`]; [`streamlines()`] |
+//! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
 //! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG; [`time_series`] and [`concentration_plot`] of a droplet |
 //! | tables | [`CsvTable`], [`SolidMeter`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
@@ -47,27 +47,19 @@ mod solids;
 mod table;
 mod trajectory;
 
-pub use animation::{Animation, film::Film};
-pub use colour::{ColourMap, ColourScale, Limits, Rgb, SERIES_COLOURS};
-pub use drawing::{axes::AxisScale, image::Image};
+pub use animation::Film;
+pub(crate) use colour::ColourScale;
+pub use colour::{Rgb, SERIES_COLOURS};
+pub use drawing::axes::AxisScale;
 pub use error::Error;
-pub use field::{
-    raster::{Raster, Samples},
-    streamlines::streamlines,
-};
+pub use field::raster::{Raster, Samples};
+pub use field::streamlines::streamlines;
 pub use motile::ib_core::Vec2;
-pub use paraview::{
-    ParaView,
-    file::{VtkFile, VtkSeries},
-};
-pub use picture::{
-    Format, Picture, SolidShape,
-    look::{Look, Track},
-};
-pub use plot::{
-    Figure, Marker, Plot, Series,
-    droplet::{concentration_plot, time_series},
-};
+pub use paraview::ParaView;
+pub use paraview::file::{VtkFile, VtkSeries};
+pub use picture::{Look, SolidShape, Track};
+pub use plot::droplet::{concentration_plot, time_series};
+pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::{Progress, RunProgress};
 pub use snapshot::{DropletShape, Snapshot};
 pub use solids::SolidMeter;

@@ -6,10 +6,8 @@ mod solids;
 
 use std::path::Path;
 
-use motile::{
-    active_interface::{ActiveDroplet, observables::InterfaceState},
-    ib_core::{Hydrodynamics, Observer, System},
-};
+use motile::active_interface::{ActiveDroplet, observables::InterfaceState};
+use motile::ib_core::{Hydrodynamics, Observer, System};
 
 use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers};
 

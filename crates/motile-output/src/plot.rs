@@ -5,11 +5,11 @@ mod paint;
 
 use std::{fs, path::Path};
 
-use paint::Sheet;
+use paint::panels;
 
 use crate::{
     AxisScale, Error, Rgb,
-    drawing::{canvas::Canvas, image::Image, svg::Svg},
+    drawing::{canvas::Canvas, svg::Svg},
 };
 
 /// The shape of the points of a series.
@@ -174,22 +174,18 @@ impl Figure {
     /// # Errors
     /// [`Error::Empty`] without panels, [`Error::Size`] with panels too small or too large.
     pub fn svg(&self) -> Result<String, Error> {
-        let sheet = Sheet::new(self, 1.0)?;
-        let mut svg = Svg::new(sheet.size());
-        sheet.paint(&mut svg);
+        let (panels, size) = panels(self, 1.0)?;
+        let mut svg = Svg::new(size);
+        panels.iter().for_each(|panel| panel.paint(&mut svg));
         Ok(svg.document())
     }
 
     /// The figure as pixels, two a pixel of the SVG in each direction.
-    ///
-    /// # Errors
-    /// As [`Figure::svg`].
-    pub fn image(&self) -> Result<Image, Error> {
-        let sheet = Sheet::new(self, 2.0)?;
-        let [width, height] = sheet.size().map(|side| side.round() as usize);
-        let mut canvas = Canvas::new(width, height)?;
-        sheet.paint(&mut canvas);
-        Ok(canvas.into_image())
+    fn image(&self) -> Result<Canvas, Error> {
+        let (panels, size) = panels(self, 2.0)?;
+        let mut canvas = Canvas::new(size.map(|side| side.round() as usize))?;
+        panels.iter().for_each(|panel| panel.paint(&mut canvas));
+        Ok(canvas)
     }
 
     /// Writes the figure as `<name>.svg` and `<name>.png` into `directory`, which is made if it is not there.

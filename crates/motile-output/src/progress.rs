@@ -1,83 +1,64 @@
 //! How far a run is.
 
-use std::{
-    io::IsTerminal,
-    mem::discriminant,
-    time::{Duration, Instant},
-};
+use std::io::IsTerminal;
+use std::mem::discriminant;
+use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use motile::{
-    active_interface::{
-        ActiveDroplet, DropletWarning,
-        observables::{InterfaceState, centroid_velocity},
-    },
-    ib_core::{Hydrodynamics, Observer, System},
-};
+use motile::active_interface::observables::{InterfaceState, centroid_velocity};
+use motile::active_interface::{ActiveDroplet, DropletWarning};
+use motile::ib_core::{Hydrodynamics, Observer, System};
 
 /// Least time between two updates of the bar, and between two lines where there is no terminal.
 const BAR_INTERVAL: Duration = Duration::from_millis(80);
 const LINE_INTERVAL: Duration = Duration::from_secs(15);
 /// Divisions of the bar.
-const DIVISIONS: u64 = 1000;
+const DIVISIONS: f64 = 12.0;
+/// Returns to the start of a terminal's line and clears it (ECMA-48).
+const CLEAR: &str = "\r\x1b[K";
 
 /// A progress bar on the error output with what is said of the work and the time left. Where the output is not a
 /// terminal, a line now and then; hidden, nothing.
 #[derive(Debug)]
 pub struct Progress {
     started: Instant,
-    shown: Option<Instant>,
+    due: Instant,
     hidden: bool,
-    bar: Option<ProgressBar>,
+    terminal: bool,
 }
 
 impl Progress {
     /// A bar of work that starts now.
     #[must_use]
     pub fn new(hidden: bool) -> Self {
-        let bar = (!hidden && std::io::stderr().is_terminal()).then(|| {
-            let bar = ProgressBar::with_draw_target(Some(DIVISIONS), ProgressDrawTarget::stderr());
-            if let Ok(style) = ProgressStyle::with_template("[{bar:30}] {percent:>3} %  {msg}") {
-                bar.set_style(style.progress_chars("=> "));
-            }
-            bar
-        });
-        let started = Instant::now();
+        let (started, terminal) = (Instant::now(), std::io::stderr().is_terminal());
         // A bar appears at once, the first line when the work takes long.
-        let shown = bar.is_none().then_some(started);
-        Self { started, shown, hidden, bar }
+        Self { started, due: if terminal { started } else { started + LINE_INTERVAL }, hidden, terminal }
     }
 
     /// Tells which part of the work is done (0 to 1), and what `state` says of it. To be called often: mostly it
     /// returns at once.
     pub fn update(&mut self, done: f64, state: impl FnOnce() -> String) {
-        let interval = if self.bar.is_some() { BAR_INTERVAL } else { LINE_INTERVAL };
-        if self.hidden || self.shown.is_some_and(|shown| shown.elapsed() < interval) {
+        if self.hidden || Instant::now() < self.due {
             return;
         }
-        self.shown = Some(Instant::now());
-        let text = format!("{}  {} left", state(), left(self.seconds(), done));
-        match &self.bar {
-            Some(bar) => {
-                bar.set_position((done.clamp(0.0, 1.0) * DIVISIONS as f64) as u64);
-                bar.set_message(text);
-            }
-            None => eprintln!("{:>3.0} %  {text}", 100.0 * done),
+        self.due = Instant::now() + if self.terminal { BAR_INTERVAL } else { LINE_INTERVAL };
+        let text = format!("{:>3.0} %  {}  {} left", 100.0 * done, state(), left(self.seconds(), done));
+        if self.terminal {
+            eprint!("{CLEAR}[{:<12}] {text}", "=".repeat((DIVISIONS * done.clamp(0.0, 1.0)) as usize));
+        } else {
+            eprintln!("{text}");
         }
     }
 
-    /// Writes a line to the error output, above the bar.
+    /// Writes a line to the error output, in place of the bar until this is drawn again.
     pub fn note(&self, line: &str) {
-        match &self.bar {
-            Some(bar) => bar.suspend(|| eprintln!("{line}")),
-            None => eprintln!("{line}"),
-        }
+        eprintln!("{}{line}", if self.terminal { CLEAR } else { "" });
     }
 
     /// Takes the bar away; gives the wall clock time since the start (seconds).
     pub fn finish(&self) -> f64 {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
+        if self.terminal && !self.hidden {
+            eprint!("{CLEAR}");
         }
         self.seconds()
     }

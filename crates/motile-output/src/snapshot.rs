@@ -1,9 +1,7 @@
 //! All droplets, solids and the flow around them at one time.
 
-use motile::{
-    active_interface::{ActiveDroplet, curve::polygon_moments},
-    ib_core::{FlowSample, Hydrodynamics, System},
-};
+use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
+use motile::ib_core::{FlowSample, Hydrodynamics, System};
 
 use crate::{Error, Raster, SolidShape, Vec2, solids::solid_shape};
 

@@ -1,10 +1,8 @@
 //! What is seen of the elastic solids of a scene.
 
-use motile::{
-    SolidGap,
-    elastic_solids::{Solid, channel::width_between, solid::Observables},
-    ib_core::{Hydrodynamics, System},
-};
+use motile::SolidGap;
+use motile::elastic_solids::{Solid, channel::width_between, solid::Observables};
+use motile::ib_core::{Hydrodynamics, System};
 
 use crate::{Error, SolidShape, Vec2};
 

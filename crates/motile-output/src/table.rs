@@ -76,22 +76,12 @@ impl CsvTable {
     /// # Errors
     /// [`Error::Column`].
     pub fn curve(&self, x: &str, y: &str) -> Result<Vec<(f64, f64)>, Error> {
-        let (x, y) = (self.index(x)?, self.index(y)?);
+        let index = |name: &str| {
+            let missing = || Error::Column { name: name.to_string(), known: self.names.clone() };
+            self.names.iter().position(|n| n == name).ok_or_else(missing)
+        };
+        let (x, y) = (index(x)?, index(y)?);
         Ok(self.rows.iter().map(|row| (row[x], row[y])).collect())
-    }
-
-    /// The values of a column.
-    ///
-    /// # Errors
-    /// [`Error::Column`].
-    pub fn column(&self, name: &str) -> Result<Vec<f64>, Error> {
-        let index = self.index(name)?;
-        Ok(self.rows.iter().map(|row| row[index]).collect())
-    }
-
-    fn index(&self, name: &str) -> Result<usize, Error> {
-        let missing = || Error::Column { name: name.to_string(), known: self.names.clone() };
-        self.names.iter().position(|n| n == name).ok_or_else(missing)
     }
 
     /// Makes sure that all rows are in the file.

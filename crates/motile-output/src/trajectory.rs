@@ -2,17 +2,11 @@
 
 use std::path::Path;
 
-use motile::{
-    active_interface::{
-        ActiveDroplet,
-        trajectory::{TrajectoryRecord, TrajectoryRecorder},
-    },
-    ib_core::{Handle, Hydrodynamics, Observer, System},
-};
+use motile::active_interface::ActiveDroplet;
+use motile::active_interface::trajectory::{TrajectoryRecord, TrajectoryRecorder};
+use motile::ib_core::{Handle, Hydrodynamics, Observer, System};
 
 use crate::{CsvTable, Error, SolidMeter, Track};
-
-type Outcome = Result<(), Box<dyn std::error::Error + Send + Sync>>;
 
 /// Columns that only channels have, and of them those that elastic walls do not have: gap and flow beside the droplet
 /// are those up to rigid walls.
@@ -118,7 +112,7 @@ impl TrajectoryCsv {
 }
 
 impl<H: Hydrodynamics> Observer<H> for TrajectoryCsv {
-    fn observe(&mut self, system: &mut System<H>) -> Outcome {
+    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         self.records.observe(system)?;
         let entries = self.records.records().last().map(TrajectoryRecord::entries).unwrap_or_default();
         let mut row: Vec<f64> = self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect();

@@ -2,7 +2,7 @@
 
 use active_interface::ActiveDroplet;
 use elastic_solids::Solid;
-use ib_core::{Body, Boundary, Handle, Hydrodynamics, Observer, System};
+use ib_core::{Body, Handle, Hydrodynamics, Observer, System, gap::Boundary};
 
 /// Measures the gap between the droplets of a system and all its solids, keeps the smallest one, and
 /// ends the run where the droplet enters a solid deeper than it may.

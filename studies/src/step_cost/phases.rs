@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
-use motile::ib_core::{AnyKernel, FlowWork, Hydrodynamics, Scene, Transfer, Vec2};
+use motile::ib_core::{AnyKernel, Hydrodynamics, Scene, Transfer, Vec2, hydrodynamics::FlowWork};
 use motile::stokes_grid::{Grid, RealFft2, StaggeredField, Symbol};
 use motile_examples::Summary;
 use motile_timing::{PlainPair, median};

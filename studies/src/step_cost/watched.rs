@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use motile::ib_core::{
-    Body, BodyError, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, MarkerKind, Markers, Medium, StepInfo,
-    StepLimits, Vec2,
+    Body, BodyError, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Vec2,
+    body::{StepInfo, StepLimits},
+    hydrodynamics::{FlowReport, FlowWork},
 };
 use motile::stokes_grid::{
     CentreField, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work,

@@ -1,7 +1,7 @@
 //! Studies of channels.
 
 use motile::ib_core::{AnyKernel, StepSize};
-use motile::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
+use motile::{DropletSetup, GridMethod, Method, Particles, Region, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 use motile_tests::validation::swimmers::{speeds, steady};
 use motile_tests::validation::{Case, StudyError, Table, channel, lateral, order};
@@ -197,8 +197,7 @@ pub(crate) fn regimes(_quick: bool) -> Tables {
         (3.0, 18.0, -4.0, "stays on the centre line"),
         (3.0, 24.0, -4.0, "oscillates"),
     ] {
-        let particles = Particles { activity, excluded_volume: Exclusion::Step(13.5), ..Particles::default() };
-        let droplet = DropletSetup { centre: [0.0, 0.01], particles: Some(particles), ..DropletSetup::default() };
+        let droplet = DropletSetup { centre: [0.0, 0.01], ..DropletSetup::contractile(activity, 13.5) };
         let setup = Setup { region: open_channel(length, width), droplets: vec![droplet], ..Setup::default() };
         let mode = lateral::mode(&setup, 60.0, 200.0)?;
         table.push([

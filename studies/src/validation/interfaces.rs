@@ -254,31 +254,22 @@ pub(crate) fn cost(quick: bool) -> Tables {
     let mut tables = Vec::new();
     for activity in [-2.0, -4.0] {
         let mut rows: Vec<(String, f64, f64, usize)> = Vec::new();
-        let mut push = |name: String, run: &dyn Fn() -> Result<(f64, usize), StudyError>| -> Result<(), StudyError> {
+        let mut push = |name: String, setup: Setup| -> Result<(), StudyError> {
             let clock = Instant::now();
-            let (error, steps) = run()?;
-            rows.push((name, error, clock.elapsed().as_secs_f64(), steps));
+            let errors = steady(&reference(setup, activity), 60.0)?;
+            rows.push((name, errors.speed, clock.elapsed().as_secs_f64(), errors.steps));
             Ok(())
         };
         for (nodes, cells) in [(24, 96), (32, 128), (48, 192), (64, 256), (96, 384), (128, 512), (192, 768)] {
-            push(format!("without a grid, {nodes} nodes, {cells} cells"), &|| {
-                let errors = steady(&reference(without_grid(nodes, cells), activity), 60.0)?;
-                Ok((errors.speed, errors.steps))
-            })?;
+            push(format!("without a grid, {nodes} nodes, {cells} cells"), without_grid(nodes, cells))?;
         }
-        for h in if quick { &[0.2, 0.1, 0.05][..] } else { &[0.2, 0.1, 0.05, 0.025][..] } {
-            push(format!("immersed boundary, h = {h}"), &|| {
-                let errors = steady(&reference(on_grid(*h), activity), 60.0)?;
-                Ok((errors.speed, errors.steps))
-            })?;
+        for &h in if quick { &[0.2, 0.1, 0.05][..] } else { &[0.2, 0.1, 0.05, 0.025][..] } {
+            push(format!("immersed boundary, h = {h}"), on_grid(h))?;
         }
-        for h in if quick { &[0.1][..] } else { &[0.1, 0.05, 0.025][..] } {
-            push(format!("thesis, h = {h}, steps of 0.1 h"), &|| {
-                let method = Method::Grid(GridMethod { spacing: *h, ..GridMethod::thesis() });
-                let setup = Setup { method, step: StepSize::Fixed(0.1 * h), ..Setup::thesis() };
-                let errors = steady(&reference(setup, activity), 60.0)?;
-                Ok((errors.speed, errors.steps))
-            })?;
+        for &h in if quick { &[0.1][..] } else { &[0.1, 0.05, 0.025][..] } {
+            let method = Method::Grid(GridMethod { spacing: h, ..GridMethod::thesis() });
+            let setup = Setup { method, step: StepSize::Fixed(0.1 * h), ..Setup::thesis() };
+            push(format!("thesis, h = {h}, steps of 0.1 h"), setup)?;
         }
         let fastest = rows.iter().map(|row| row.2).fold(f64::INFINITY, f64::min);
         let title = format!(

@@ -1,6 +1,6 @@
 //! A body that is pulled by a constant force.
 
-use motile::ib_core::{Body, BodyError, MarkerKind, Medium, StepLimits, Vec2};
+use motile::ib_core::{Body, BodyError, MarkerKind, Medium, Vec2, body::StepLimits};
 
 /// Points on a circle about the origin that move with the fluid, with a constant force on the fluid shared among them.
 #[derive(Debug, Clone)]

@@ -203,12 +203,6 @@ impl Exact {
         &self.velocities[droplet]
     }
 
-    /// Velocity of the centroid of a droplet.
-    #[must_use]
-    pub fn centroid_velocity(&self, droplet: usize) -> Vec2 {
-        self.centroids[droplet]
-    }
-
     /// Whether a droplet moves, so that the error of its velocity can be relative to that.
     #[must_use]
     pub fn moves(&self, droplet: usize) -> bool {

@@ -6,21 +6,15 @@ use motile::{Built, Setup};
 use crate::validation::{Reference, ReferenceFile, StudyError};
 
 /// Height and lateral velocity of the centroid at the given times.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Track {
-    /// Times.
-    pub times: Vec<f64>,
-    /// Heights above the centre line (length).
-    pub heights: Vec<f64>,
-    /// Lateral velocities (length per time).
-    pub velocities: Vec<f64>,
+#[derive(Default)]
+struct Track {
+    times: Vec<f64>,
+    heights: Vec<f64>,
+    velocities: Vec<f64>,
 }
 
 /// Follows the first swimmer of a scene to `time`.
-///
-/// # Errors
-/// What a run can fail with.
-pub fn track(setup: &Setup, time: f64, every: f64) -> Result<Track, StudyError> {
+fn track(setup: &Setup, time: f64, every: f64) -> Result<Track, StudyError> {
     let Built { mut scene, droplets, .. } = setup.build()?;
     let mut track = Track::default();
     for i in 1..=(time / every).round() as usize {

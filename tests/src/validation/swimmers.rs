@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use motile::active_interface::{Observables, observables::net_flux};
-use motile::ib_core::{Every, Hydrodynamics, Scene, StepSize, System, wall_gap};
+use motile::ib_core::{Every, Hydrodynamics, Scene, System, gap::wall_gap};
 use motile::stokes_grid::flux;
 use motile::{AnyFlow, Built, Method, Region, Setup};
 
@@ -36,8 +36,6 @@ pub struct SteadyErrors {
     pub particle_change: f64,
     /// Steps taken.
     pub steps: usize,
-    /// Time step at the end.
-    pub dt: f64,
 }
 
 impl SteadyErrors {
@@ -82,11 +80,6 @@ pub fn steady(setup: &Setup, time: f64) -> Result<SteadyErrors, StudyError> {
         let markers = scene.body(droplets[0])?.markers();
         gap = Some(relative(wall_gap(markers, [-0.5 * width, 0.5 * width]), "min_gap")?);
     }
-    let dt = match scene.step_size() {
-        StepSize::Fixed(dt) => dt,
-        StepSize::OfLimit(fraction) => scene.system().step_limit().map_or(f64::NAN, |(limit, _)| fraction * limit.dt),
-        StepSize::Adaptive { .. } => f64::NAN,
-    };
     Ok(SteadyErrors {
         speed: relative(seen.speed(), "speed")?,
         aspect_ratio: relative(seen.aspect_ratio_moments, "AR_mom")?,
@@ -99,7 +92,6 @@ pub fn steady(setup: &Setup, time: f64) -> Result<SteadyErrors, StudyError> {
         area_change: seen.area / scene.body(droplets[0])?.initial_area() - 1.0,
         particle_change: seen.particle_number / particles - 1.0,
         steps: scene.steps(),
-        dt,
     })
 }
 

@@ -2,7 +2,11 @@
 
 use std::f64::consts::PI;
 
-use ib_core::{Body, BodyError, MarkerKind, Medium, SavedState, StepInfo, StepLimits, Vec2};
+use ib_core::{
+    Body, BodyError, MarkerKind, Medium, Vec2,
+    body::{StepInfo, StepLimits},
+    checkpoint::SavedState,
+};
 
 use super::geometry::{Geometry, equidistribute, outward};
 use super::redistribution::redistribute;
@@ -15,6 +19,8 @@ use crate::{
     curve::polygon::raw_area,
 };
 
+/// Concentrations (particles per length) whose tensions tell a law, in whatever units it is.
+const LAW_SAMPLES: [f64; 12] = [0.0, 0.01, 0.1, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 30.0, 100.0, 1000.0];
 /// Part of all particles in one segment from which on they have collapsed.
 const COLLAPSED: f64 = 0.15;
 
@@ -221,6 +227,26 @@ impl Body for ActiveDroplet {
         positions.fill((self.initial_area / PI).sqrt());
         let mean = self.numbers.iter().sum::<f64>() / self.numbers.len().max(1) as f64;
         numbers.fill(if mean > 0.0 { mean } else { 1.0 });
+    }
+
+    /// Viscosity, tension law and diffusion; the number of markers unless the fluid carries them along.
+    fn properties(&self) -> Vec<(String, f64)> {
+        let mut properties = Vec::new();
+        let mut push = |name: &str, value: f64| properties.push((name.to_owned(), value));
+        if let Some(viscosity) = self.viscosity_inside {
+            push("the viscosity inside", viscosity);
+        }
+        if self.transport.is_some() {
+            push("the diffusion constant", self.diffusion);
+        }
+        for concentration in LAW_SAMPLES {
+            let name = format!("the tension at a concentration of {concentration}");
+            push(&name, self.tension.value(concentration));
+        }
+        if !matches!(self.motion, Motion::WithFluid) {
+            push("the number of markers", self.marker_count() as f64);
+        }
+        properties
     }
 
     fn save(&self) -> SavedState {

@@ -1,6 +1,9 @@
 //! The stable time steps of a droplet.
 
-use ib_core::{Medium, StepCause, StepLimit, StepLimits};
+use ib_core::{
+    Medium,
+    body::{StepCause, StepLimit, StepLimits},
+};
 
 use super::{ActiveDroplet, Motion};
 

@@ -1,6 +1,6 @@
 //! What is seen of a droplet of a scene.
 
-use ib_core::{BodyError, BodyFlow, Handle, Hydrodynamics, Medium, Observe, SceneError, System};
+use ib_core::{BodyError, Handle, Hydrodynamics, Medium, Observe, SceneError, System, scene::BodyFlow};
 
 use crate::observables::InterfaceState;
 use crate::{ActiveDroplet, Convention, Observables, observe};

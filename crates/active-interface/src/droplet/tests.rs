@@ -1,6 +1,9 @@
 use super::*;
 use crate::{ContractileTension, Curve, InitialConcentration};
-use ib_core::{Body, Domain, FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, Markers, Scene};
+use ib_core::{
+    Body, Domain, FlowError, FlowSample, Hydrodynamics, Markers, Scene,
+    hydrodynamics::{FlowReport, FlowWork},
+};
 
 /// A converging flow, smooth (resolved by spectral accuracy) or on a grid.
 #[derive(Debug)]

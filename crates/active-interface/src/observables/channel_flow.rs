@@ -1,6 +1,9 @@
 //! Pressure drop and fluxes in a channel with a droplet.
 
-use ib_core::{BodyError, FlowError, FlowReport, FlowSample, Handle, Hydrodynamics, Medium, SceneError, System, Vec2};
+use ib_core::{
+    BodyError, FlowError, FlowSample, Handle, Hydrodynamics, Medium, SceneError, System, Vec2,
+    hydrodynamics::FlowReport,
+};
 
 use crate::curve::polygon::edges;
 use crate::error::{finite, positive};

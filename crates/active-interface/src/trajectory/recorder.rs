@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use ib_core::{Handle, Hydrodynamics, Observer, System, wall_gap};
+use ib_core::{Handle, Hydrodynamics, Observer, System, gap::wall_gap};
 
 use crate::{
     ActiveDroplet, Convention, InterfaceError, Observables,

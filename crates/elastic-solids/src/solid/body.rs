@@ -1,6 +1,11 @@
 //! The solid as a body of a scene.
 
-use ib_core::{Body, BodyError, Boundary, MarkerKind, Medium, SavedState, StepLimit, StepLimits, Vec2};
+use ib_core::{
+    Body, BodyError, MarkerKind, Medium, Vec2,
+    body::{StepLimit, StepLimits},
+    checkpoint::SavedState,
+    gap::Boundary,
+};
 
 use crate::solid::surface_correction::SurfaceCorrection;
 use crate::{Solid, SolidError};
@@ -97,6 +102,23 @@ impl Body for Solid {
                 boundary.push(self.positions[start], self.positions[start] + along);
             }
         }
+    }
+
+    /// The mesh at rest, and what it takes to shear and stretch it.
+    fn properties(&self) -> Vec<(String, f64)> {
+        let mesh = &self.mesh;
+        let strained: Vec<Vec2> = mesh.points().iter().map(|s| Vec2::new(s.x + 0.1 * s.y, 1.05 * s.y)).collect();
+        let triangles = mesh.areas().iter().enumerate();
+        let properties = [
+            ("the number of points", self.positions.len() as f64),
+            ("the number of triangles", mesh.triangles().len() as f64),
+            ("the area at rest", mesh.area()),
+            ("the polar moment of area at rest", triangles.map(|(k, a)| a * mesh.centroid(k).norm_squared()).sum()),
+            ("the number of free points", self.free.len() as f64),
+            ("the number of tethers", self.tethers.len() as f64),
+            ("the energy of a shear of 0.1 and a stretch of 1.05", self.law.energy(&strained).unwrap_or(f64::NAN)),
+        ];
+        properties.map(|(name, value)| (name.to_owned(), value)).to_vec()
     }
 
     /// All points, pinned ones too, and the tethers.

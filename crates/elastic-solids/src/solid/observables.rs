@@ -1,6 +1,6 @@
 //! What to look at in a deformed solid.
 
-use ib_core::{BodyError, BodyFlow, Medium, Observe, Vec2};
+use ib_core::{BodyError, Medium, Observe, Vec2, scene::BodyFlow};
 
 use crate::material::Mat2;
 use crate::{Solid, SolidError};

@@ -1,6 +1,6 @@
 //! The solid as a body, and what is measured on it.
 
-use ib_core::{Body, BodyError, Boundary, Domain, MarkerKind, Medium};
+use ib_core::{Body, BodyError, Domain, MarkerKind, Medium, gap::Boundary};
 
 use super::*;
 use crate::channel::{Constriction, width_between};

@@ -2,7 +2,10 @@
 
 use std::f64::consts::PI;
 
-use crate::{Body, BodyError, MarkerKind, Medium, StepLimit, StepLimits, Vec2};
+use crate::{
+    Body, BodyError, MarkerKind, Medium, Vec2,
+    body::{StepLimit, StepLimits},
+};
 
 /// Forces from positions, or rates from positions and velocities, marker by marker.
 type ForceLaw = Box<dyn FnMut(&[Vec2], &mut [Vec2]) + Send>;

@@ -1,6 +1,7 @@
 //! What can be wrong with a checkpoint on disk.
 
-use std::path::PathBuf;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 
 /// A checkpoint could not be written or read.
 #[derive(Debug, thiserror::Error)]
@@ -15,6 +16,24 @@ pub enum CheckpointError {
         path: PathBuf,
         /// Why it failed.
         source: std::io::Error,
+    },
+    /// No file at this path.
+    #[error("there is no checkpoint at {}", path.display())]
+    Missing {
+        /// The path.
+        path: PathBuf,
+    },
+    /// A directory at this path.
+    #[error("{} is a directory: give the path of a checkpoint in it", path.display())]
+    Directory {
+        /// The path.
+        path: PathBuf,
+    },
+    /// A file that may not be read.
+    #[error("there is no permission to read the checkpoint {}", path.display())]
+    Permission {
+        /// The path.
+        path: PathBuf,
     },
     /// Something else than a checkpoint.
     #[error("this is not a checkpoint: it does not start as one does")]
@@ -50,4 +69,17 @@ pub enum CheckpointError {
     /// The contents are not those of a checkpoint, though they are what was written.
     #[error("the contents of the checkpoint make no sense: use another one")]
     Contents(#[source] postcard::Error),
+}
+
+impl CheckpointError {
+    /// A file that could not be read.
+    pub(super) fn reading(path: &Path, source: std::io::Error) -> Self {
+        let path = path.to_owned();
+        match source.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory => Self::Missing { path },
+            ErrorKind::IsADirectory => Self::Directory { path },
+            ErrorKind::PermissionDenied => Self::Permission { path },
+            _ => Self::File { action: "read", path, source },
+        }
+    }
 }

@@ -11,7 +11,7 @@ use super::{Checkpoint, CheckpointError};
 
 const MARK: [u8; 8] = *b"motile\x00\x1a";
 /// Changes whenever older programs cannot read what is written, or the other way round.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER: usize = 24;
 
 fn part<const N: usize>(bytes: &[u8], start: usize) -> Option<[u8; N]> {
@@ -110,14 +110,12 @@ impl Checkpoint {
     /// Reads a file.
     ///
     /// # Errors
-    /// A file that cannot be read, or is not a complete and undamaged checkpoint of this version.
+    /// A file that is not there ([`CheckpointError::Missing`]) or cannot be read, or is not a complete and undamaged
+    /// checkpoint of this version.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
         let mut bytes = Vec::new();
-        File::open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(|source| CheckpointError::File {
-            action: "read",
-            path: path.to_owned(),
-            source,
-        })?;
+        let read = File::open(path).and_then(|mut file| file.read_to_end(&mut bytes));
+        read.map_err(|source| CheckpointError::reading(path, source))?;
         Self::from_bytes(&bytes)
     }
 }

@@ -19,3 +19,13 @@ fn a_refusal_leaves_the_flow_as_it_was() {
     assert!(matches!(scene.resume(&other), Err(SceneError::ForeignCheckpoint { .. })));
     assert_eq!(scene.checkpoint(""), before);
 }
+
+#[test]
+fn what_keeps_a_file_from_being_read_is_told() {
+    use std::io::ErrorKind;
+    let told = |kind: ErrorKind| CheckpointError::reading(std::path::Path::new("a/b"), kind.into()).to_string();
+    assert_eq!(told(ErrorKind::NotFound), "there is no checkpoint at a/b");
+    assert_eq!(told(ErrorKind::PermissionDenied), "there is no permission to read the checkpoint a/b");
+    assert!(told(ErrorKind::IsADirectory).starts_with("a/b is a directory"));
+    assert!(told(ErrorKind::Other).starts_with("could not read the checkpoint a/b"));
+}

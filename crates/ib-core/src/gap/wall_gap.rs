@@ -10,7 +10,7 @@ use crate::Vec2;
 /// wall is a corner.
 ///
 /// ```
-/// use ib_core::{Vec2, wall_gap};
+/// use ib_core::{Vec2, gap::wall_gap};
 /// let markers = [Vec2::new(0.0, -1.0), Vec2::new(5.0, 0.5)];
 /// assert_eq!(wall_gap(&markers, [-1.5, 1.25]), 0.5);
 /// ```

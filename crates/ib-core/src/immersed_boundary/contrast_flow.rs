@@ -6,7 +6,9 @@ use stokes_layers::{Forcing, Region};
 use super::{ImmersedBoundary, add, sampling};
 use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
 use crate::mobility::{Clearance, Setting};
-use crate::{FlowError, FlowReport, FlowSample, Kernel, Markers, SavedState, Transfer, Vec2};
+use crate::{
+    FlowError, FlowSample, Kernel, Markers, Transfer, Vec2, checkpoint::SavedState, hydrodynamics::FlowReport,
+};
 
 /// What interfaces to other viscosities need beside the grid.
 #[derive(Debug)]

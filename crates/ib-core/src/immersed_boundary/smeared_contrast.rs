@@ -4,8 +4,9 @@ use stokes_grid::{CentreField, Grid, NodeField, RealFft2, StaggeredField, Stokes
 
 use crate::contrast::other_viscosity;
 use crate::{
-    FlowError, FlowReport, FlowSample, FlowWork, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Medium, SavedState,
-    Transfer, Vec2,
+    FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Medium, Transfer, Vec2,
+    checkpoint::SavedState,
+    hydrodynamics::{FlowReport, FlowWork},
 };
 
 /// The immersed boundary method with the viscosity as a smooth field on the grid (thesis section 2.2.4): the outward

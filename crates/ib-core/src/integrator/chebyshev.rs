@@ -6,7 +6,7 @@ use coefficients::{Coefficients, interval, stages_for};
 
 use super::spectral_radius::PowerMethod;
 use super::{Integrator, IntegratorWork};
-use crate::{Hydrodynamics, SavedState, SceneError, System};
+use crate::{Hydrodynamics, SceneError, System, checkpoint::SavedState};
 
 /// Where the fastest rate of decay comes from, which says how many stages a step needs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

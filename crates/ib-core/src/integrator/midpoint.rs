@@ -1,7 +1,7 @@
 //! The midpoint rule.
 
 use super::{Integrator, IntegratorWork};
-use crate::{Hydrodynamics, SavedState, SceneError, System};
+use crate::{Hydrodynamics, SceneError, System, checkpoint::SavedState};
 
 /// Between the 1/24 of a rate that depends on time alone and the 1/6 of a decay.
 const ERROR_CONSTANT: f64 = 1.0 / 15.0;

@@ -1,6 +1,6 @@
 //! How far the markers of an interface are from solids.
 
-use crate::{MarkerGroup, MarkerKind, Markers, Vec2};
+use crate::{MarkerKind, Markers, Vec2, hydrodynamics::MarkerGroup};
 
 /// Distance up to which it is measured, in grid spacings.
 const REACH: f64 = 6.0;

@@ -1,5 +1,8 @@
 use super::*;
-use crate::{CubicQuadratic, Gaussian6, Peskin4};
+use crate::{
+    CubicQuadratic,
+    kernel::{Gaussian6, Peskin4},
+};
 
 #[test]
 fn cubic_quadratic_table() {

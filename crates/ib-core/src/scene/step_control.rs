@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::SavedState;
+use crate::checkpoint::SavedState;
 
 /// How long the steps of a run are.
 #[derive(Debug, Clone, Copy, PartialEq)]

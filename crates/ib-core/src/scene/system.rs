@@ -10,8 +10,10 @@ pub use bodies::BodyFlow;
 use super::SceneId;
 use crate::gap::{Gap, Gaps};
 use crate::{
-    Body, BodyError, FlowReport, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SavedState, SceneError,
-    StepInfo, StepLimit, Vec2,
+    Body, BodyError, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SceneError, Vec2,
+    body::{StepInfo, StepLimit},
+    checkpoint::SavedState,
+    hydrodynamics::FlowReport,
 };
 use forces::write_forces;
 
@@ -118,6 +120,16 @@ impl<H: Hydrodynamics> System<H> {
     #[must_use]
     pub fn report(&self) -> &FlowReport {
         &self.report
+    }
+
+    /// What the scene is made of, besides its bodies and its domain.
+    pub(crate) fn properties(&self) -> Vec<(String, f64)> {
+        let mut properties = vec![("the exterior viscosity".to_owned(), self.hydrodynamics.medium().viscosity)];
+        if let Some(repulsion) = &self.repulsion {
+            properties.push(("the strength of the repulsion".to_owned(), repulsion.strength()));
+            properties.push(("the range of the repulsion".to_owned(), repulsion.range()));
+        }
+        properties
     }
 
     /// Whether [`System::markers`] holds the flow of the present state.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{BodyError, BodyFlow, CubicQuadratic, ImmersedBoundary, MarkerBody, Medium, Midpoint, Vec2};
+use crate::{BodyError, CubicQuadratic, ImmersedBoundary, MarkerBody, Medium, Midpoint, Vec2, scene::BodyFlow};
 use stokes_grid::{Grid, PeriodicStokes};
 
 type Flow = ImmersedBoundary<PeriodicStokes, CubicQuadratic>;

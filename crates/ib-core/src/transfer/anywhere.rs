@@ -5,7 +5,10 @@ use stokes_grid::Grid;
 use super::inside::weights;
 use super::lanes::Portable;
 use super::spots::split;
-use crate::{Kernel, MAX_SUPPORT, Role};
+use crate::{
+    Kernel,
+    kernel::{MAX_SUPPORT, Role},
+};
 
 /// Weights along one direction, of the points `first, first + 1, ...`.
 #[derive(Debug, Clone, Copy)]

@@ -7,7 +7,7 @@ use super::anywhere::Anywhere;
 use super::spots::{Spot, Spots};
 use super::visits::{BLOCK, visits};
 use super::{Band, Markers, interpolate as interpolate_some, spread as spread_some, stride};
-use crate::{Kernel, MAX_SUPPORT, Vec2};
+use crate::{Kernel, Vec2, kernel::MAX_SUPPORT};
 
 /// Markers from which several threads pay.
 const LEAST_MARKERS: usize = 30_000;

@@ -6,7 +6,7 @@ use super::spots::{Edge, Spot};
 use super::visits::BLOCK;
 use super::{Band, Markers};
 use crate::kernel::CUBIC_QUADRATIC;
-use crate::{Kernel, Pieces, Vec2};
+use crate::{Kernel, Vec2, kernel::Pieces};
 
 /// Where the coefficients of a kernel come from.
 pub(super) trait Polynomials: Copy {

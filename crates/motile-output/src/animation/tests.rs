@@ -1,22 +1,20 @@
 use super::*;
-use crate::{
-    Rgb,
-    drawing::{Surface, canvas::Canvas},
-};
+use crate::Rgb;
 
 #[test]
 fn frames_come_back_from_the_file() {
     let path = std::env::temp_dir().join(format!("motile-animation-{}.gif", std::process::id()));
-    let mut animation = Animation::new(20.0);
-    let colours = [Rgb([250, 10, 10]), Rgb([10, 10, 250]), Rgb([10, 10, 250])];
-    for (k, colour) in colours.into_iter().enumerate() {
-        let mut canvas = Canvas::new(40, 30).unwrap();
-        let x = 5.0 + 10.0 * k.min(1) as f64;
-        canvas.fill(&[vec![[x, 5.0], [x + 10.0, 5.0], [x + 10.0, 15.0], [x, 15.0]]], colour, 1.0);
-        animation.push(&canvas.into_image()).unwrap();
-    }
-    assert!(animation.push(&Image::new(10, 10).unwrap()).is_err());
-    animation.write(&path).unwrap();
+    let (white, red, blue) = (Rgb::WHITE, Rgb([250, 10, 10]), Rgb([10, 10, 250]));
+    let mut histogram = Histogram::new();
+    let mut frame = |colour: Rgb, from: usize| -> Vec<u16> {
+        let pixel = |k: usize| {
+            let inside = (from..from + 10).contains(&(k % 40)) && (5..15).contains(&(k / 40));
+            if inside { colour } else { white }
+        };
+        (0..40 * 30).map(pixel).inspect(|&pixel| histogram.add(pixel)).map(code).collect()
+    };
+    let frames = [frame(red, 5), frame(blue, 15), frame(blue, 15)];
+    encode(&path, [40, 30], &frames, &histogram).unwrap();
 
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
@@ -38,5 +36,7 @@ fn frames_come_back_from_the_file() {
 
 #[test]
 fn an_animation_without_frames_is_refused() {
-    assert!(matches!(Animation::new(10.0).write("/nowhere/none.gif"), Err(Error::Empty(_))));
+    let raster = Raster::new([0.0; 2], [1.0; 2], [8; 2], [true; 2]).unwrap();
+    let film = Film::new(Look::default(), raster);
+    assert!(matches!(film.write(&[], "/nowhere/none.gif"), Err(Error::Empty(_))));
 }

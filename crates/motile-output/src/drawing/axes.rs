@@ -44,20 +44,25 @@ impl Axis {
         Self { label: label.to_string(), low, high, scale, ticks }
     }
 
+    /// An axis that shows nothing.
+    pub(crate) fn bare() -> Self {
+        Self { ticks: Ticks::default(), ..Self::new("", [0.0, 1.0], AxisScale::Linear, 2) }
+    }
+
     /// Position along the axis, 0 to 1 within its ends.
-    pub(crate) fn fraction(&self, value: f64) -> f64 {
+    fn fraction(&self, value: f64) -> f64 {
         let [low, high, value] = [self.low, self.high, value].map(|v| self.scale.straight(v));
         (value - low) / (high - low)
     }
 
     /// Width of the widest tick label (pixels).
-    pub(crate) fn label_width(&self, size: f64) -> f64 {
+    fn label_width(&self, size: f64) -> f64 {
         let labels = self.ticks.ticks.iter().filter_map(|t| t.label.as_deref());
         labels.map(|l| text_width(l, size)).fold(0.0, f64::max)
     }
 
     /// The power of ten that multiplies the tick labels, as text; empty for 1.
-    pub(crate) fn factor(&self) -> String {
+    fn factor(&self) -> String {
         match self.ticks.exponent {
             0 => String::new(),
             n => format!("×10^{{{n}}}").replace('-', "−"),
@@ -75,7 +80,7 @@ pub(crate) struct Frame {
 }
 
 /// Size of tick labels relative to that of axis labels.
-pub(crate) const TICK_SIZE: f64 = 0.88;
+const TICK_SIZE: f64 = 0.88;
 
 impl Frame {
     /// Where a point of the data lies.
@@ -99,14 +104,14 @@ impl Frame {
 
     /// Draws pale lines at the labelled ticks.
     pub(crate) fn draw_grid(&self, surface: &mut impl Surface) {
-        let pen = Pen::new(Rgb::PALE, (0.055 * self.em).max(0.8));
-        let area = self.area;
-        for tick in self.x.ticks.labelled() {
-            let x = self.place(tick, self.y.low)[0];
+        let (pen, area) = (Pen::new(Rgb::PALE, (0.055 * self.em).max(0.8)), self.area);
+        let labelled = |axis: &Axis| axis.ticks.ticks.clone().into_iter().filter(|tick| tick.label.is_some());
+        for tick in labelled(&self.x) {
+            let x = self.place(tick.value, self.y.low)[0];
             surface.stroke(&[[x, area.top], [x, area.bottom()]], &pen);
         }
-        for tick in self.y.ticks.labelled() {
-            let y = self.place(self.x.low, tick)[1];
+        for tick in labelled(&self.y) {
+            let y = self.place(self.x.low, tick.value)[1];
             surface.stroke(&[[area.left, y], [area.right(), y]], &pen);
         }
     }

@@ -1,9 +1,14 @@
 //! Drawing with anti-aliased lines, areas and text on an image.
 
+use std::{fs::File, io, io::BufWriter, path::Path};
+
 use crate::{
     Error, Rgb,
-    drawing::{Pen, Pixel, Rect, Surface, TextStyle, dashes, font, image::Image},
+    drawing::{Pen, Pixel, Rect, Surface},
 };
+
+/// Largest width and height (pixels).
+const LARGEST: f64 = 16_384.0;
 
 /// An image to draw on, white at first.
 ///
@@ -11,10 +16,13 @@ use crate::{
 /// overlapping parts of a line do not add up to spots.
 #[derive(Debug, Clone)]
 pub(crate) struct Canvas {
-    width: usize,
-    image: Image,
+    pub(crate) size: [usize; 2],
+    /// The pixels, row after row from the top.
+    pub(crate) pixels: Vec<Rgb>,
     coverage: Vec<f32>,
     tint: Vec<Rgb>,
+    /// Where the mask is not zero, at most.
+    touched: Span,
     clip: Span,
 }
 
@@ -36,40 +44,59 @@ impl Span {
         Self { x: axis(low[0], high[0], bounds.x), y: axis(low[1], high[1], bounds.y) }
     }
 
-    fn join(self, other: Self) -> Self {
-        let axis = |a: [usize; 2], b: [usize; 2]| if a[0] == a[1] { b } else { [a[0].min(b[0]), a[1].max(b[1])] };
-        if other.x[0] == other.x[1] || other.y[0] == other.y[1] {
-            return self;
-        }
-        Self { x: axis(self.x, other.x), y: axis(self.y, other.y) }
+    fn of(rect: Rect, bounds: &Self) -> Self {
+        Self::around([rect.left, rect.top], [rect.right(), rect.bottom()], bounds)
     }
 
-    const EMPTY: Self = Self { x: [0, 0], y: [0, 0] };
+    fn join(&mut self, other: &Self) {
+        for (own, other) in [(&mut self.x, other.x), (&mut self.y, other.y)] {
+            *own = [own[0].min(other[0]), own[1].max(other[1])];
+        }
+    }
+
+    const EMPTY: Self = Self { x: [usize::MAX, 0], y: [usize::MAX, 0] };
 }
 
 impl Canvas {
     /// A white image.
-    pub(crate) fn new(width: usize, height: usize) -> Result<Self, Error> {
-        let (image, count) = (Image::new(width, height)?, width * height);
-        let clip = Span { x: [0, width], y: [0, height] };
-        Ok(Self { width, image, coverage: vec![0.0; count], tint: vec![Rgb::WHITE; count], clip })
+    ///
+    /// # Errors
+    /// [`Error::Size`]: no pixels, or more than 16384 in a direction.
+    pub(crate) fn new(size: [usize; 2]) -> Result<Self, Error> {
+        for side in size {
+            Error::check_size("an image with a side (pixels)", side as f64, 1.0, LARGEST)?;
+        }
+        let [pixels, tint] = [0, 1].map(|_| vec![Rgb::WHITE; size[0] * size[1]]);
+        let clip = Span { x: [0, size[0]], y: [0, size[1]] };
+        Ok(Self { size, coverage: vec![0.0; pixels.len()], pixels, tint, touched: Span::EMPTY, clip })
     }
 
-    /// What was drawn.
-    pub(crate) fn into_image(self) -> Image {
-        self.image
+    /// Writes the image as PNG.
+    ///
+    /// # Errors
+    /// [`Error::Write`].
+    pub(crate) fn write_png(&self, path: impl AsRef<Path>) -> Result<(), Error> {
+        let path = path.as_ref();
+        let write = || -> io::Result<()> {
+            let file = BufWriter::new(File::create(path)?);
+            let [width, height] = self.size.map(|side| side as u32);
+            let mut encoder = png::Encoder::new(file, width, height);
+            encoder.set_color(png::ColorType::Rgb);
+            encoder.set_depth(png::BitDepth::Eight);
+            let bytes: Vec<u8> = self.pixels.iter().flat_map(|p| p.0).collect();
+            Ok(encoder.write_header()?.write_image_data(&bytes)?)
+        };
+        write().map_err(Error::writing(path))
     }
 
-    /// Colours each pixel whose centre lies in `area` by `colour(x, y)` of that centre (pixels); `None` leaves it.
+    /// Colours the pixels in `area`, whose edges are on whole ones, by `colour(x, y)` of their centres (pixels); `None`
+    /// leaves one.
     pub(crate) fn shade(&mut self, area: Rect, mut colour: impl FnMut(f64, f64) -> Option<Rgb>) {
-        let span = Span::around([area.left, area.top], [area.right(), area.bottom()], &self.clip);
+        let span = Span::of(area, &self.clip);
         for row in span.y[0]..span.y[1] {
-            let y = row as f64 + 0.5;
             for column in span.x[0]..span.x[1] {
-                let x = column as f64 + 0.5;
-                let inside = x >= area.left && x < area.right() && y >= area.top && y < area.bottom();
-                if inside && let Some(c) = colour(x, y) {
-                    self.image.pixels[row * self.width + column] = c;
+                if let Some(colour) = colour(column as f64 + 0.5, row as f64 + 0.5) {
+                    self.pixels[row * self.size[0] + column] = colour;
                 }
             }
         }
@@ -77,18 +104,17 @@ impl Canvas {
 
     /// A solid line whose colour runs linearly from vertex to vertex; `colours` has as many entries as `path`.
     pub(crate) fn stroke_coloured(&mut self, path: &[Pixel], colours: &[Rgb], width: f64) {
-        let mut touched = Span::EMPTY;
         for (ends, tints) in path.windows(2).zip(colours.windows(2)) {
-            touched = touched.join(self.cover(ends[0], ends[1], width, [tints[0], tints[1]]));
+            self.cover(ends[0], ends[1], width, [tints[0], tints[1]]);
         }
-        self.blend(touched, 1.0);
+        self.blend(1.0);
     }
 
     /// Adds the line from `a` to `b` to the mask: the coverage of a pixel falls from 1 to 0 over one pixel about the
     /// line's edge.
-    fn cover(&mut self, a: Pixel, b: Pixel, width: f64, tints: [Rgb; 2]) -> Span {
+    fn cover(&mut self, a: Pixel, b: Pixel, width: f64, tints: [Rgb; 2]) {
         if ![a[0], a[1], b[0], b[1]].iter().all(|v| v.is_finite()) {
-            return Span::EMPTY;
+            return;
         }
         // Long slanted lines in pieces: what is visited is the bounding box.
         let length = (b[0] - a[0]).hypot(b[1] - a[1]);
@@ -96,14 +122,15 @@ impl Canvas {
         if slant > 24.0 && length < 1e5 {
             let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
             let tint = tints[0].mix(tints[1], 0.5);
-            let first = self.cover(a, middle, width, [tints[0], tint]);
-            return first.join(self.cover(middle, b, width, [tint, tints[1]]));
+            self.cover(a, middle, width, [tints[0], tint]);
+            return self.cover(middle, b, width, [tint, tints[1]]);
         }
         let (half, full) = ((0.5 * width) as f32, (width as f32).min(1.0));
         let reach = 0.5 * width + 0.5;
         let low = [a[0].min(b[0]) - reach, a[1].min(b[1]) - reach];
         let high = [a[0].max(b[0]) + reach, a[1].max(b[1]) + reach];
         let span = Span::around(low, high, &self.clip);
+        self.touched.join(&span);
         let (dx, dy) = ((b[0] - a[0]) as f32, (b[1] - a[1]) as f32);
         let inverse = if length > 0.0 { 1.0 / (dx * dx + dy * dy) } else { 0.0 };
         let plain = tints[0] == tints[1];
@@ -114,24 +141,24 @@ impl Canvas {
                 let t = ((x * dx + y * dy) * inverse).clamp(0.0, 1.0);
                 let distance = (x - t * dx).hypot(y - t * dy);
                 let coverage = (half + 0.5 - distance).min(full);
-                let index = row * self.width + column;
+                let index = row * self.size[0] + column;
                 if coverage > self.coverage[index] {
                     self.coverage[index] = coverage;
                     self.tint[index] = if plain { tints[0] } else { tints[0].mix(tints[1], f64::from(t)) };
                 }
             }
         }
-        span
     }
 
     /// Blends the mask into the image and clears it.
-    fn blend(&mut self, span: Span, opacity: f64) {
+    fn blend(&mut self, opacity: f64) {
+        let span = std::mem::replace(&mut self.touched, Span::EMPTY);
         for row in span.y[0]..span.y[1] {
-            for index in row * self.width + span.x[0]..row * self.width + span.x[1] {
+            for index in row * self.size[0] + span.x[0]..row * self.size[0] + span.x[1] {
                 let coverage = std::mem::take(&mut self.coverage[index]);
                 if coverage > 0.0 {
                     let t = f64::from(coverage.min(1.0)) * opacity;
-                    self.image.pixels[index] = self.image.pixels[index].mix(self.tint[index], t);
+                    self.pixels[index] = self.pixels[index].mix(self.tint[index], t);
                 }
             }
         }
@@ -139,34 +166,28 @@ impl Canvas {
 }
 
 impl Surface for Canvas {
-    fn stroke(&mut self, path: &[Pixel], pen: &Pen) {
-        let tints = [pen.colour, pen.colour];
-        let mut touched = Span::EMPTY;
-        let pieces = match pen.dash {
-            Some(pattern) => dashes(path, pattern),
-            None => vec![path.to_vec()],
-        };
-        for ends in pieces.iter().flat_map(|piece| piece.windows(2)) {
-            touched = touched.join(self.cover(ends[0], ends[1], pen.width, tints));
+    fn strokes(&mut self, paths: &[Vec<Pixel>], _label: &str, pen: &Pen) {
+        for ends in paths.iter().flat_map(|path| path.windows(2)) {
+            self.cover(ends[0], ends[1], pen.width.max(1.0), [pen.colour; 2]);
         }
-        self.blend(touched, pen.opacity);
+        self.blend(pen.opacity);
     }
 
     fn fill(&mut self, rings: &[Vec<Pixel>], colour: Rgb, opacity: f64) {
         // Four scan lines a row of pixels, with exact coverage along each.
         const LINES: usize = 4;
-        let vertices = || rings.iter().flatten();
-        if vertices().any(|p| !(p[0].is_finite() && p[1].is_finite())) {
-            return;
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for p in rings.iter().flatten() {
+            low = [low[0].min(p[0]), low[1].min(p[1])];
+            high = [high[0].max(p[0]), high[1].max(p[1])];
+            if !(p[0].is_finite() && p[1].is_finite()) {
+                return;
+            }
         }
-        let extreme =
-            |axis: usize, start: f64, pick: fn(f64, f64) -> f64| vertices().map(|p| p[axis]).fold(start, pick);
-        let low = [extreme(0, f64::INFINITY, f64::min), extreme(1, f64::INFINITY, f64::min)];
-        let high = [extreme(0, f64::NEG_INFINITY, f64::max), extreme(1, f64::NEG_INFINITY, f64::max)];
         let span = Span::around(low, high, &self.clip);
         let mut crossings = Vec::new();
         for row in span.y[0]..span.y[1] {
-            let line = &mut self.coverage[row * self.width..(row + 1) * self.width];
+            let line = &mut self.coverage[row * self.size[0]..(row + 1) * self.size[0]];
             for k in 0..LINES {
                 let y = row as f64 + (k as f64 + 0.5) / LINES as f64;
                 crossings.clear();
@@ -191,32 +212,15 @@ impl Surface for Canvas {
                     }
                 }
             }
-            self.tint[row * self.width + span.x[0]..row * self.width + span.x[1]].fill(colour);
+            self.tint[row * self.size[0] + span.x[0]..row * self.size[0] + span.x[1]].fill(colour);
         }
-        self.blend(span, opacity);
-    }
-
-    fn text(&mut self, at: Pixel, text: &str, style: &TextStyle) {
-        let (strokes, weight) = font::place(text, at, style);
-        let tints = [style.colour, style.colour];
-        let mut touched = Span::EMPTY;
-        for ends in strokes.iter().flat_map(|stroke| stroke.windows(2)) {
-            touched = touched.join(self.cover(ends[0], ends[1], weight.max(1.0), tints));
-        }
-        self.blend(touched, 1.0);
+        self.touched.join(&span);
+        self.blend(opacity);
     }
 
     fn clip(&mut self, to: Option<Rect>) {
-        let all = Span { x: [0, self.width], y: [0, self.image.size[1]] };
-        self.clip = to.map_or(all, |r| {
-            let round = |v: f64, end: usize| (v.round().max(0.0) as usize).min(end);
-            let x0 = round(r.left, self.width);
-            let y0 = round(r.top, self.image.size[1]);
-            Span {
-                x: [x0, round(r.right(), self.width).max(x0)],
-                y: [y0, round(r.bottom(), self.image.size[1]).max(y0)],
-            }
-        });
+        let all = Span { x: [0, self.size[0]], y: [0, self.size[1]] };
+        self.clip = to.map_or(all, |rect| Span::of(rect, &all));
     }
 }
 

@@ -15,6 +15,8 @@ const GLYPHS: &str = include_str!("glyphs.txt");
 const CAPITAL: f64 = 0.7;
 /// Units of the grid per size of type.
 const UNITS: f64 = 14.0 / CAPITAL;
+/// Width of the strokes relative to the size of the type.
+const WEIGHT: f64 = 0.082;
 /// Space between two letters (units).
 const GAP: f64 = 3.6;
 /// Width of a space without the gaps (units).
@@ -86,7 +88,7 @@ pub(crate) fn place(text: &str, at: Pixel, style: &TextStyle) -> (Vec<Vec<Pixel>
         let (x, y) = (p[0] + shift, p[1] - 0.5 * CAPITAL * style.size);
         *p = if style.upwards { [at[0] - y, at[1] - x] } else { [at[0] + x, at[1] - y] };
     }
-    (strokes, style.size * if style.bold { 0.12 } else { 0.082 })
+    (strokes, WEIGHT * style.size)
 }
 
 /// The width of a line of text (pixels).

@@ -3,11 +3,9 @@
 //! Written by hand: lines, areas and text are three elements, and their coordinates keep fractions of a pixel, which
 //! drawing libraries with integer coordinates round away.
 
-use std::fmt::Write as _;
-
 use crate::{
     Rgb,
-    drawing::{Pen, Pixel, Rect, Surface, TextStyle, font},
+    drawing::{Pen, Pixel, Rect, Surface},
 };
 
 /// A drawing that is written as SVG. Its text is drawn, so that it looks the same everywhere; what it says is in the
@@ -62,22 +60,19 @@ fn escape(text: &str) -> String {
 }
 
 impl Surface for Svg {
-    fn stroke(&mut self, path: &[Pixel], pen: &Pen) {
-        let Some(data) = path_data(path) else { return };
-        let mut element = format!(
-            "<path d=\"{data}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"",
-            pen.colour.hex(),
-            short(pen.width)
-        );
-        // Writing to a string cannot fail.
-        let _ = match pen.dash {
-            Some([dash, gap]) => write!(element, " stroke-dasharray=\"{} {}\"", short(dash), short(gap)),
-            None => write!(element, " stroke-linecap=\"round\""),
-        };
-        if pen.opacity < 1.0 {
-            let _ = write!(element, " stroke-opacity=\"{}\"", short(pen.opacity));
+    fn strokes(&mut self, paths: &[Vec<Pixel>], label: &str, pen: &Pen) {
+        let Some(data) = paths.iter().map(|path| path_data(path)).collect::<Option<String>>() else { return };
+        if data.is_empty() {
+            return;
         }
-        self.push(&format!("{element}/>"));
+        let (colour, width) = (pen.colour.hex(), short(pen.width));
+        let label = if label.is_empty() { String::new() } else { format!(" aria-label=\"{}\"", escape(label)) };
+        let opacity =
+            if pen.opacity < 1.0 { format!(" stroke-opacity=\"{}\"", short(pen.opacity)) } else { String::new() };
+        self.push(&format!(
+            "<path{label} d=\"{data}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"{opacity} \
+             stroke-linejoin=\"round\" stroke-linecap=\"round\"/>"
+        ));
     }
 
     fn fill(&mut self, rings: &[Vec<Pixel>], colour: Rgb, opacity: f64) {
@@ -85,22 +80,6 @@ impl Surface for Svg {
         let opacity = if opacity < 1.0 { format!(" fill-opacity=\"{}\"", short(opacity)) } else { String::new() };
         let data = data.join("Z");
         self.push(&format!("<path d=\"{data}Z\" fill-rule=\"evenodd\" fill=\"{}\"{opacity}/>", colour.hex()));
-    }
-
-    fn text(&mut self, at: Pixel, text: &str, style: &TextStyle) {
-        let (strokes, weight) = font::place(text, at, style);
-        let Some(data) = strokes.iter().map(|s| path_data(s)).collect::<Option<Vec<_>>>() else { return };
-        if data.is_empty() {
-            return;
-        }
-        self.push(&format!(
-            "<path aria-label=\"{}\" d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" \
-             stroke-linejoin=\"round\" stroke-linecap=\"round\"/>",
-            escape(text),
-            data.concat(),
-            style.colour.hex(),
-            short(weight)
-        ));
     }
 
     fn clip(&mut self, to: Option<Rect>) {

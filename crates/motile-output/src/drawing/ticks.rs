@@ -8,7 +8,7 @@ pub(crate) struct Tick {
 }
 
 /// The ticks of an axis.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Ticks {
     pub(crate) ticks: Vec<Tick>,
     /// Power of ten that the labels are to be multiplied by; 0 mostly.
@@ -16,11 +16,6 @@ pub(crate) struct Ticks {
 }
 
 impl Ticks {
-    /// Values of the ticks that have a label.
-    pub(crate) fn labelled(&self) -> impl Iterator<Item = f64> + '_ {
-        self.ticks.iter().filter(|tick| tick.label.is_some()).map(|tick| tick.value)
-    }
-
     /// About `target` ticks at multiples of 1, 2 or 5 times a power of ten within `low..=high`.
     pub(crate) fn linear(low: f64, high: f64, target: usize) -> Self {
         let span = high - low;
@@ -55,7 +50,7 @@ impl Ticks {
     pub(crate) fn logarithmic(low: f64, high: f64) -> Self {
         let positive = low > 0.0 && high.is_finite() && high > low;
         if !positive {
-            return Self { ticks: vec![], exponent: 0 };
+            return Self::default();
         }
         let (first, last) = (low.log10().floor() as i32, high.log10().ceil() as i32);
         let decades = (high / low).log10();
@@ -91,14 +86,14 @@ fn nice_step(raw: f64) -> f64 {
 }
 
 /// The largest of 1, 2, 5 times a power of ten that is not above `raw`.
-pub(crate) fn nice_step_below(raw: f64) -> f64 {
+fn nice_step_below(raw: f64) -> f64 {
     let decade = 10f64.powf(raw.log10().floor());
     let multiple = [5.0, 2.0].into_iter().find(|m| m * decade <= raw * (1.0 + 1e-9)).unwrap_or(1.0);
     multiple * decade
 }
 
 /// A number as text, to four significant figures without trailing zeros.
-pub(crate) fn number(value: f64) -> String {
+fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".into() } else { signed(&value.to_string()) };
     }

@@ -16,10 +16,10 @@ const MOST_OF_SCENE: f64 = 512.0;
 /// Entry (i, j) is number `j * nx + i` and lies at `origin + ((i + 1/2) dx, (j + 1/2) dy)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Raster {
-    origin: [f64; 2],
-    size: [f64; 2],
-    cells: [usize; 2],
-    periodic: [bool; 2],
+    pub(crate) origin: [f64; 2],
+    pub(crate) size: [f64; 2],
+    pub(crate) cells: [usize; 2],
+    pub(crate) periodic: [bool; 2],
 }
 
 impl Raster {
@@ -61,28 +61,10 @@ impl Raster {
         Self { cells: self.cells.map(|n| (n * most.min(longest) / longest).max(1)), ..self }
     }
 
-    /// Lower left corner (length).
-    #[must_use]
-    pub fn origin(&self) -> [f64; 2] {
-        self.origin
-    }
-
-    /// Width and height (length).
-    #[must_use]
-    pub fn size(&self) -> [f64; 2] {
-        self.size
-    }
-
     /// Cells in x and y.
     #[must_use]
     pub fn cells(&self) -> [usize; 2] {
         self.cells
-    }
-
-    /// Whether the fields repeat beyond the rectangle in x and in y.
-    #[must_use]
-    pub fn periodic(&self) -> [bool; 2] {
-        self.periodic
     }
 
     /// The sample points (length), in the order of the samples.
@@ -117,8 +99,8 @@ impl Raster {
 /// A scalar (`f64`) or vector ([`Vec2`]) field sampled on a raster.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Samples<T> {
-    raster: Raster,
-    values: Vec<T>,
+    pub(crate) raster: Raster,
+    pub(crate) values: Vec<T>,
 }
 
 impl<T: Copy + Mul<f64, Output = T> + Add<Output = T>> Samples<T> {
@@ -129,18 +111,6 @@ impl<T: Copy + Mul<f64, Output = T> + Add<Output = T>> Samples<T> {
     pub fn new(raster: Raster, values: Vec<T>) -> Result<Self, Error> {
         Error::check_count("samples on a raster", values.len(), raster.cells[0] * raster.cells[1])?;
         Ok(Self { raster, values })
-    }
-
-    /// The raster.
-    #[must_use]
-    pub fn raster(&self) -> &Raster {
-        &self.raster
-    }
-
-    /// The values.
-    #[must_use]
-    pub fn values(&self) -> &[T] {
-        &self.values
     }
 
     /// The bilinear interpolant at `point` (length); beyond a border that is not periodic, that at the nearest point.

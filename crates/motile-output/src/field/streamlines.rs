@@ -27,12 +27,12 @@ const STAGNANT: f64 = 1e-4;
 /// [`Error::Streamlines`]: a spacing that is not positive and finite, or so small that there would be more than a million
 /// cells of it.
 pub fn streamlines(field: &Samples<Vec2>, spacing: f64, anchor: Vec2) -> Result<Vec<Vec<Vec2>>, Error> {
-    let raster = field.raster();
-    let size = raster.size();
+    let raster = &field.raster;
+    let size = raster.size;
     if !(spacing.is_finite() && spacing > 0.0 && size[0] * size[1] / (spacing * spacing) < 1e6) {
         return Err(Error::Streamlines { spacing, size });
     }
-    let fastest = field.values().iter().map(Vec2::norm).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let fastest = field.values.iter().map(Vec2::norm).filter(|v| v.is_finite()).fold(0.0, f64::max);
     if fastest == 0.0 {
         return Ok(Vec::new());
     }
@@ -63,15 +63,15 @@ fn seeds_beside(line: &[Vec2], spacing: f64) -> Vec<Vec2> {
 
 /// A lattice of points over the raster, the one at the anchor first.
 fn spare_seeds(raster: &Raster, spacing: f64, anchor: Vec2) -> Vec<Vec2> {
-    let [nx, ny] = [0, 1].map(|k| (raster.size()[k] / spacing).ceil() as usize);
-    let [dx, dy] = [raster.size()[0] / nx as f64, raster.size()[1] / ny as f64];
+    let [nx, ny] = [0, 1].map(|k| (raster.size[k] / spacing).ceil() as usize);
+    let [dx, dy] = [raster.size[0] / nx as f64, raster.size[1] / ny as f64];
     let mut seeds = vec![anchor];
     for j in 0..ny {
         for i in 0..nx {
             let mut seed = anchor + Vec2::new(i as f64 * dx, j as f64 * dy);
             for k in 0..2 {
-                let start = raster.origin()[k];
-                seed[k] = start + (seed[k] - start).rem_euclid(raster.size()[k]);
+                let start = raster.origin[k];
+                seed[k] = start + (seed[k] - start).rem_euclid(raster.size[k]);
             }
             seeds.push(seed);
         }
@@ -91,28 +91,25 @@ impl Tracer<'_> {
     /// The streamline through `seed`, unless that is too near a line or the line comes out too short; it is then part
     /// of the neighbourhood.
     fn line(&mut self, seed: Vec2) -> Option<Vec<Vec2>> {
-        if !self.field.raster().covers(seed) || self.near.closer(seed, self.spacing) {
+        if !self.field.raster.covers(seed) || self.near.any(seed, self.spacing, |_| true) {
             return None;
         }
-        let mut own = Neighbourhood::like(&self.near);
-        own.add(seed, 0);
-        let mut ahead = self.follow(seed, 1.0, &mut own);
+        self.near.kept.push(true);
+        self.near.add(seed, 0);
+        let mut ahead = self.follow(seed, 1.0);
         let end = self.closing(&ahead, seed);
         ahead.extend(end);
         let mut line: Vec<Vec2> = match end {
             Some(_) => Vec::new(),
-            None => self.follow(seed, -1.0, &mut own).into_iter().rev().collect(),
+            None => self.follow(seed, -1.0).into_iter().rev().collect(),
         };
         line.push(seed);
         line.extend(ahead);
         let length: f64 = line.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
-        if length < SHORTEST * self.spacing {
-            return None;
-        }
-        for &p in &line {
-            self.near.add(p, 0);
-        }
-        Some(line)
+        let keep = length >= SHORTEST * self.spacing;
+        self.near.kept.pop();
+        self.near.kept.push(keep);
+        keep.then_some(line)
     }
 
     /// Where a line that returned to its seed, or to an image of it, is to end: there.
@@ -121,28 +118,26 @@ impl Tracer<'_> {
         let end = self.near.nearest_image(seed, *last);
         let gap = end - last;
         let along = (last - before).normalize();
-        let beside = (along.x * gap.y - along.y * gap.x).abs();
         let near = gap.norm() < (NEAREST_SELF + 2.0 / STEPS) * self.spacing;
-        (near && along.dot(&gap) > 0.0 && beside < 0.1 * self.spacing).then_some(end)
+        (near && along.dot(&gap) > 0.0 && along.perp(&gap).abs() < 0.1 * self.spacing).then_some(end)
     }
 
     /// The line from `seed` on, downstream (`sign` 1) or upstream (-1), without the seed.
-    fn follow(&self, seed: Vec2, sign: f64, own: &mut Neighbourhood) -> Vec<Vec2> {
-        let step = self.spacing / STEPS;
-        let limit = (LONGEST * STEPS) as i64;
+    fn follow(&mut self, seed: Vec2, sign: f64) -> Vec<Vec2> {
+        let apart = (2.0 * STEPS) as i64;
         let mut line = Vec::new();
         let mut p = seed;
-        for count in 1..limit {
-            let Some(next) = self.step(p, sign * step) else { break };
+        for count in 1..(LONGEST * STEPS) as i64 {
+            let Some(next) = self.step(p, sign * self.spacing / STEPS) else { break };
             // Upstream points are numbered -1, -2, ...: what is near along the line may be near in space.
             let number = if sign > 0.0 { count } else { -count };
-            let apart = (2.0 * STEPS) as i64;
-            if self.near.closer(next, NEAREST_OTHER * self.spacing)
-                || own.closer_than_along(next, NEAREST_SELF * self.spacing, number, apart)
+            let (other, own) = (NEAREST_OTHER * self.spacing, NEAREST_SELF * self.spacing);
+            if self.near.any(next, other, |place| place.is_none())
+                || self.near.any(next, own, |place| place.is_some_and(|n| (n - number).abs() > apart))
             {
                 break;
             }
-            own.add(next, number);
+            self.near.add(next, number);
             line.push(next);
             p = next;
         }
@@ -152,7 +147,7 @@ impl Tracer<'_> {
     /// One step of given length along the field (classical Runge-Kutta on its direction), if the field is known there.
     fn step(&self, p: Vec2, length: f64) -> Option<Vec2> {
         let direction = |p: Vec2| {
-            let v = if self.field.raster().covers(p) { self.field.at(p) } else { return None };
+            let v = self.field.raster.covers(p).then(|| self.field.at(p))?;
             let speed = v.norm();
             (speed > self.slowest).then(|| v / speed)
         };
@@ -161,74 +156,66 @@ impl Tracer<'_> {
         let c = direction(p + b * (0.5 * length))?;
         let d = direction(p + c * length)?;
         let next = p + (a + b * 2.0 + c * 2.0 + d) * (length / 6.0);
-        self.field.raster().covers(next).then_some(next)
+        self.field.raster.covers(next).then_some(next)
     }
 }
 
-/// Points sorted into cells of at least one spacing, for questions of nearness; periodic as the raster is.
+/// Points of lines sorted into cells of at least one spacing, for questions of nearness; periodic as the raster is.
 struct Neighbourhood {
     raster: Raster,
     cells: [usize; 2],
-    points: Vec<Vec<(Vec2, i64)>>,
+    /// Points with the number of their line, and their number on it.
+    points: Vec<Vec<(Vec2, usize, i64)>>,
+    /// Which lines count, the last one being the present one.
+    kept: Vec<bool>,
 }
 
 impl Neighbourhood {
     fn new(raster: &Raster, spacing: f64) -> Self {
-        let cells = [0, 1].map(|k| ((raster.size()[k] / spacing) as usize).max(1));
-        Self { raster: *raster, cells, points: vec![Vec::new(); cells[0] * cells[1]] }
-    }
-
-    fn like(other: &Self) -> Self {
-        Self { raster: other.raster, cells: other.cells, points: vec![Vec::new(); other.points.len()] }
+        let cells = [0, 1].map(|k| ((raster.size[k] / spacing) as usize).max(1));
+        Self { raster: *raster, cells, points: vec![Vec::new(); cells[0] * cells[1]], kept: Vec::new() }
     }
 
     fn cell(&self, p: Vec2) -> [usize; 2] {
         [0, 1].map(|k| {
-            let t = (p[k] - self.raster.origin()[k]) / self.raster.size()[k];
-            let t = if self.raster.periodic()[k] { t.rem_euclid(1.0) } else { t.clamp(0.0, 1.0) };
+            let t = (p[k] - self.raster.origin[k]) / self.raster.size[k];
+            let t = if self.raster.periodic[k] { t.rem_euclid(1.0) } else { t.clamp(0.0, 1.0) };
             ((t * self.cells[k] as f64) as usize).min(self.cells[k] - 1)
         })
     }
 
+    /// Adds a point to the present line.
     fn add(&mut self, p: Vec2, number: i64) {
         let [i, j] = self.cell(p);
-        self.points[j * self.cells[0] + i].push((p, number));
+        self.points[j * self.cells[0] + i].push((p, self.kept.len() - 1, number));
     }
 
     /// The periodic image of `p` that is nearest to `q`.
     fn nearest_image(&self, mut p: Vec2, q: Vec2) -> Vec2 {
-        for k in 0..2 {
-            if self.raster.periodic()[k] {
-                p[k] -= self.raster.size()[k] * ((p[k] - q[k]) / self.raster.size()[k]).round();
-            }
+        for k in (0..2).filter(|&k| self.raster.periodic[k]) {
+            p[k] -= self.raster.size[k] * ((p[k] - q[k]) / self.raster.size[k]).round();
         }
         p
     }
 
-    /// Distance, the shortest over periodic images.
-    fn distance(&self, p: Vec2, q: Vec2) -> f64 {
-        (self.nearest_image(p, q) - q).norm()
-    }
-
-    fn closer(&self, p: Vec2, distance: f64) -> bool {
-        self.any_near(p, |q, _| self.distance(p, q) < distance)
-    }
-
-    /// As [`Self::closer`], leaving out points numbered within `apart` of `number`.
-    fn closer_than_along(&self, p: Vec2, distance: f64, number: i64, apart: i64) -> bool {
-        self.any_near(p, |q, n| (n - number).abs() > apart && self.distance(p, q) < distance)
-    }
-
-    fn any_near(&self, p: Vec2, mut test: impl FnMut(Vec2, i64) -> bool) -> bool {
+    /// Whether a point of a line, given by its number on the present line or `None` on another, is nearer than
+    /// `distance` (at most a spacing), the shortest over periodic images.
+    fn any(&self, p: Vec2, distance: f64, wanted: impl Fn(Option<i64>) -> bool) -> bool {
         let at = self.cell(p);
         let around = |k: usize| {
-            let (n, periodic) = (self.cells[k] as i64, self.raster.periodic()[k]);
+            let (n, periodic) = (self.cells[k] as i64, self.raster.periodic[k]);
             (-1..=1).map(move |d| at[k] as i64 + d).filter_map(move |c| {
                 let inside = (0..n).contains(&c);
                 (inside || periodic).then(|| c.rem_euclid(n) as usize)
             })
         };
-        around(1).any(|j| around(0).any(|i| self.points[j * self.cells[0] + i].iter().any(|&(q, n)| test(q, n))))
+        let last = self.kept.len().wrapping_sub(1);
+        let near = |&(q, line, number): &(Vec2, usize, i64)| {
+            self.kept[line]
+                && wanted((line == last).then_some(number))
+                && (self.nearest_image(p, q) - q).norm() < distance
+        };
+        around(1).any(|j| around(0).any(|i| self.points[j * self.cells[0] + i].iter().any(near)))
     }
 }
 

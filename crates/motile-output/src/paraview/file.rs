@@ -13,14 +13,6 @@ use std::{
 use super::base64::encode;
 use crate::{Error, Raster, Vec2};
 
-/// The points and cells of a file.
-#[derive(Debug, Clone, PartialEq)]
-enum Geometry {
-    Image(Raster),
-    ClosedLines(Vec<Vec<Vec2>>),
-    Triangles(Vec<Vec2>, Vec<[usize; 3]>),
-}
-
 /// The values of a named array, one a point or one a cell, as they are stored.
 #[derive(Debug, Clone, PartialEq)]
 struct Array {
@@ -53,32 +45,71 @@ impl Array {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct VtkFile {
-    geometry: Geometry,
+    kind: &'static str,
+    extension: &'static str,
+    attributes: String,
+    /// Attributes of its only piece.
+    piece: String,
+    /// Points and cells.
+    geometry: String,
+    /// Numbers of points and cells, and the number of points that cells refer to.
+    points: usize,
+    cells: usize,
+    needed: usize,
     point_data: Vec<Array>,
     cell_data: Vec<Array>,
 }
 
 impl VtkFile {
-    fn new(geometry: Geometry) -> Self {
-        Self { geometry, point_data: Vec::new(), cell_data: Vec::new() }
+    fn new(kind: &'static str, extension: &'static str, points: usize, cells: usize) -> Self {
+        let (attributes, piece, geometry) = Default::default();
+        let (point_data, cell_data) = Default::default();
+        Self { kind, extension, attributes, piece, geometry, points, cells, needed: points, point_data, cell_data }
     }
 
     /// The cells of a raster (ImageData, `.vti`): samples at its points are cell data.
     #[must_use]
     pub fn image(raster: Raster) -> Self {
-        Self::new(Geometry::Image(raster))
+        let ([nx, ny], [x, y], [width, height]) = (raster.cells, raster.origin, raster.size);
+        let (dx, dy, extent) = (width / nx as f64, height / ny as f64, format!("0 {nx} 0 {ny} 0 0"));
+        let attributes = format!(" WholeExtent=\"{extent}\" Origin=\"{x} {y} 0\" Spacing=\"{dx} {dy} 1\"");
+        let piece = format!("Extent=\"{extent}\"");
+        Self { attributes, piece, ..Self::new("ImageData", "vti", (nx + 1) * (ny + 1), nx * ny) }
     }
 
     /// Closed polylines (PolyData, `.vtp`), each one cell; values at their points are given line after line.
     #[must_use]
     pub fn closed_lines(lines: &[Vec<Vec2>]) -> Self {
-        Self::new(Geometry::ClosedLines(lines.to_vec()))
+        let (mut corners, mut ends, mut first): (Vec<i64>, Vec<i64>, i64) = Default::default();
+        for line in lines {
+            let next = first + line.len() as i64;
+            corners.extend((first..next).chain((first < next).then_some(first)));
+            ends.push(corners.len() as i64);
+            first = next;
+        }
+        let (points, cells) = (first as usize, lines.len());
+        let piece = format!(
+            "NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"{cells}\" NumberOfStrips=\"0\" \
+             NumberOfPolys=\"0\""
+        );
+        let cell_text = connectivity(&corners, &ends);
+        let geometry = format!("{}<Lines>\n{cell_text}</Lines>\n", positions(lines.iter().flatten()));
+        Self { piece, geometry, ..Self::new("PolyData", "vtp", points, cells) }
     }
 
     /// Triangles of points (UnstructuredGrid, `.vtu`).
     #[must_use]
     pub fn triangles(points: &[Vec2], triangles: &[[usize; 3]]) -> Self {
-        Self::new(Geometry::Triangles(points.to_vec(), triangles.to_vec()))
+        let cells = triangles.len();
+        let corners: Vec<i64> = triangles.iter().flatten().map(|&k| k as i64).collect();
+        let ends: Vec<i64> = (1..=cells).map(|k| 3 * k as i64).collect();
+        let cell_text = connectivity(&corners, &ends) + &array("UInt8", "types", 1, &vec![5; cells]);
+        Self {
+            piece: format!("NumberOfPoints=\"{}\" NumberOfCells=\"{cells}\"", points.len()),
+            geometry: format!("{}<Cells>\n{cell_text}</Cells>\n", positions(points)),
+            needed: triangles.iter().flatten().max().map_or(0, |last| last + 1),
+            ..Self::new("UnstructuredGrid", "vtu", points.len(), cells)
+        }
     }
 
     /// Adds a scalar at each point.
@@ -109,68 +140,23 @@ impl VtkFile {
         self
     }
 
-    /// The ending of names of such files.
-    #[must_use]
-    pub fn extension(&self) -> &'static str {
-        match self.geometry {
-            Geometry::Image(_) => "vti",
-            Geometry::ClosedLines(_) => "vtp",
-            Geometry::Triangles(..) => "vtu",
-        }
-    }
-
     /// The text of the file.
     ///
     /// # Errors
     /// [`Error::Count`]: arrays of the wrong length, corners of triangles that are not points. [`Error::Name`]: names
     /// with other characters than letters, digits, `_`, `-` and space.
     pub fn document(&self) -> Result<String, Error> {
-        let [points, cells] = match &self.geometry {
-            Geometry::Image(raster) => {
-                let [nx, ny] = raster.cells();
-                [(nx + 1) * (ny + 1), nx * ny]
-            }
-            Geometry::ClosedLines(lines) => [lines.iter().map(Vec::len).sum(), lines.len()],
-            Geometry::Triangles(points, triangles) => [points.len(), triangles.len()],
-        };
-        let data =
-            attributes("PointData", &self.point_data, points)? + &attributes("CellData", &self.cell_data, cells)?;
-        Ok(match &self.geometry {
-            Geometry::Image(raster) => {
-                let ([nx, ny], [x, y], [width, height]) = (raster.cells(), raster.origin(), raster.size());
-                let (dx, dy) = (width / nx as f64, height / ny as f64);
-                let extent = format!("0 {nx} 0 {ny} 0 0");
-                let attributes = format!("WholeExtent=\"{extent}\" Origin=\"{x} {y} 0\" Spacing=\"{dx} {dy} 1\"");
-                wrap("ImageData", &attributes, &format!("Extent=\"{extent}\""), &data)
-            }
-            Geometry::ClosedLines(lines) => {
-                let (mut corners, mut ends): (Vec<i64>, Vec<i64>) = Default::default();
-                let mut first = 0;
-                for line in lines {
-                    let next = first + line.len() as i64;
-                    corners.extend((first..next).chain((first < next).then_some(first)));
-                    ends.push(corners.len() as i64);
-                    first = next;
-                }
-                let cell_text = format!("<Lines>\n{}</Lines>\n", connectivity(&corners, &ends));
-                let counts = format!(
-                    "NumberOfPoints=\"{points}\" NumberOfVerts=\"0\" NumberOfLines=\"{cells}\" NumberOfStrips=\"0\" \
-                     NumberOfPolys=\"0\""
-                );
-                wrap("PolyData", "", &counts, &(data + &positions(lines.iter().flatten()) + &cell_text))
-            }
-            Geometry::Triangles(vertices, triangles) => {
-                if let Some(&beyond) = triangles.iter().flatten().find(|&&k| k >= points) {
-                    Error::check_count("points of triangles", points, beyond + 1)?;
-                }
-                let corners: Vec<i64> = triangles.iter().flatten().map(|&k| k as i64).collect();
-                let ends: Vec<i64> = (1..=cells).map(|k| 3 * k as i64).collect();
-                let types = array("UInt8", "types", "", &vec![5; cells]);
-                let cell_text = format!("<Cells>\n{}{types}</Cells>\n", connectivity(&corners, &ends));
-                let counts = format!("NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\"");
-                wrap("UnstructuredGrid", "", &counts, &(data + &positions(vertices) + &cell_text))
-            }
-        })
+        let Self { kind, attributes, piece, geometry, points, cells, .. } = self;
+        if self.needed > *points {
+            Error::check_count("points of triangles", *points, self.needed)?;
+        }
+        let point_data = data("PointData", &self.point_data, *points)?;
+        let cell_data = data("CellData", &self.cell_data, *cells)?;
+        Ok(format!(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
+             header_type=\"UInt64\">\n<{kind}{attributes}>\n<Piece {piece}>\n{point_data}{cell_data}{geometry}</Piece>\n\
+             </{kind}>\n</VTKFile>\n"
+        ))
     }
 
     /// Writes the file.
@@ -182,48 +168,38 @@ impl VtkFile {
     }
 }
 
-fn wrap(kind: &str, attributes: &str, piece: &str, content: &str) -> String {
-    format!(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
-         header_type=\"UInt64\">\n<{kind} {attributes}>\n<Piece {piece}>\n{content}</Piece>\n</{kind}>\n</VTKFile>\n"
-    )
-}
-
 /// A data array with its bytes in base64, preceded by their number.
-fn array(kind: &str, name: &str, attributes: &str, bytes: &[u8]) -> String {
-    let mut block = (bytes.len() as u64).to_le_bytes().to_vec();
-    block.extend_from_slice(bytes);
+fn array(kind: &str, name: &str, components: usize, bytes: &[u8]) -> String {
+    let block = [&(bytes.len() as u64).to_le_bytes(), bytes].concat();
     format!(
-        "<DataArray type=\"{kind}\" Name=\"{name}\" {attributes} format=\"binary\">{}</DataArray>\n",
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">{}\
+         </DataArray>\n",
         encode(&block)
     )
 }
 
-fn attributes(tag: &str, data: &[Array], count: usize) -> Result<String, Error> {
+fn data(tag: &str, arrays: &[Array], count: usize) -> Result<String, Error> {
     let mut text = format!("<{tag}>\n");
-    for Array { name, vectors, values } in data {
+    for Array { name, vectors, values } in arrays {
         if name.is_empty() || !name.chars().all(|c| c.is_alphanumeric() || "_- ".contains(c)) {
             return Err(Error::Name { name: name.clone(), what: "an array" });
         }
         let components = if *vectors { 3 } else { 1 };
         Error::check_count(&format!("values of array {name}"), values.len() / components, count)?;
         let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
-        text += &array("Float32", name, &format!("NumberOfComponents=\"{components}\""), &bytes);
+        text += &array("Float32", name, components, &bytes);
     }
     Ok(text + &format!("</{tag}>\n"))
 }
 
 fn positions<'a>(points: impl IntoIterator<Item = &'a Vec2>) -> String {
     let bytes: Vec<u8> = points.into_iter().flat_map(|p| [p.x, p.y, 0.0]).flat_map(f64::to_le_bytes).collect();
-    format!("<Points>\n{}</Points>\n", array("Float64", "Points", "NumberOfComponents=\"3\"", &bytes))
+    format!("<Points>\n{}</Points>\n", array("Float64", "Points", 3, &bytes))
 }
 
 fn connectivity(corners: &[i64], ends: &[i64]) -> String {
-    let integers = |name: &str, values: &[i64]| {
-        let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
-        array("Int64", name, "", &bytes)
-    };
-    integers("connectivity", corners) + &integers("offsets", ends)
+    let bytes = |values: &[i64]| values.iter().flat_map(|v| v.to_le_bytes()).collect::<Vec<u8>>();
+    array("Int64", "connectivity", 1, &bytes(corners)) + &array("Int64", "offsets", 1, &bytes(ends))
 }
 
 /// A series of VTK files with their times: `<name>_0000.vtp`, ... and `<name>.pvd`, the file to open in ParaView.
@@ -251,7 +227,7 @@ impl VtkSeries {
     /// # Errors
     /// As [`VtkFile::write`].
     pub fn push(&mut self, time: f64, file: &VtkFile) -> Result<(), Error> {
-        let name = format!("{}_{:04}.{}", self.name, self.count, file.extension());
+        let name = format!("{}_{:04}.{}", self.name, self.count, file.extension);
         file.write(self.directory.join(&name))?;
         self.count += 1;
         // Writing to a string cannot fail.

@@ -1,68 +1,84 @@
 use super::*;
-use crate::{ColourMap, Limits, Raster, Rgb};
+use crate::{DropletShape, Raster, Rgb};
+use motile::ib_core::FlowSample;
 
-const SCALE: (ColourMap, f64, f64) = (ColourMap::Viridis, 0.0, 1.0);
-
-fn scale() -> ColourScale {
-    ColourScale::new(SCALE.0, Limits::Fixed(SCALE.1, SCALE.2), &[])
-}
-
-/// A field that is 0 in the left and 1 in the right half of a square box around the origin.
-fn halves() -> Picture {
+/// A pressure that is 0 in the left and 1 in the right half of a square box around the origin, without flow.
+fn halves() -> Snapshot {
     let raster = Raster::new([-3.0, -3.0], [6.0, 6.0], [60, 60], [true, true]).unwrap();
-    let values = raster.points().iter().map(|p| if p.x < 0.0 { 0.0 } else { 1.0 }).collect();
-    Picture::new(Samples::new(raster, values).unwrap(), scale(), "step")
+    let sample = |p: &Vec2| FlowSample { pressure: if p.x < 0.0 { 0.0 } else { 1.0 }, ..FlowSample::default() };
+    let flow = raster.points().iter().map(sample).collect();
+    Snapshot { time: 0.0, raster, flow, droplets: Vec::new(), solids: Vec::new(), walls: None }
 }
 
-fn count(image: &Image, colour: Rgb) -> usize {
-    image.pixels().iter().filter(|&&p| p == colour).count()
+fn circle(x: f64) -> DropletShape {
+    let angles = (0..90).map(|k| f64::from(k) * 4f64.to_radians());
+    let markers = angles.map(|t| Vec2::new(x + t.cos(), t.sin())).collect();
+    DropletShape { markers, concentration: vec![0.5; 90], centroid: Vec2::new(x, 0.0) }
+}
+
+fn draw(seen: &Snapshot, tracks: &[Track], format: &Format) -> Canvas {
+    let look = Look::default();
+    look.draw(seen, &look.legends(std::slice::from_ref(seen)), tracks, format).unwrap()
+}
+
+fn count(image: &Canvas, colour: Rgb) -> f64 {
+    image.pixels.iter().filter(|&&p| p == colour).count() as f64
 }
 
 #[test]
-fn the_field_fills_its_halves_and_the_view_shifts_it() {
-    let format = Format::frame();
-    let (low, high) = (SCALE.0.at(0.0), SCALE.0.at(1.0));
-    let image = halves().draw(&format).unwrap();
-    let (left, right) = (count(&image, low) as f64, count(&image, high) as f64);
+fn the_pressure_fills_its_halves() {
+    let seen = halves();
+    let scale = Look::default().legends(std::slice::from_ref(&seen)).pressure;
+    let image = draw(&seen, &[], &Format::FRAME);
+    let (left, right) = (count(&image, scale.colour(0.0)), count(&image, scale.colour(1.0)));
     assert!(left > 40_000.0 && (left / right - 1.0).abs() < 0.1, "{left} {right}");
-    let shifted = halves().view(Vec2::new(0.2, -3.0), Vec2::new(2.8, 3.0)).unwrap().draw(&format).unwrap();
-    // What is left of the colour of the low end is in its colour bar.
-    assert!(count(&shifted, low) < 400, "{}", count(&shifted, low));
 }
 
 #[test]
-fn an_interface_across_the_border_shows_on_both_sides() {
-    let circle = |x: f64| -> Vec<Vec2> {
-        (0..90).map(|k| f64::from(k) * 4f64.to_radians()).map(|t| Vec2::new(x + t.cos(), t.sin())).collect()
+fn droplets_across_the_border_show_on_both_sides_and_all_of_them_show() {
+    let format = Format { width: 800, ..Format::FRAME };
+    let ink = |droplets: &[f64]| {
+        let droplets = droplets.iter().map(|&x| circle(x)).collect();
+        count(&draw(&Snapshot { droplets, ..halves() }, &[], &format), Rgb::INK)
     };
-    let ink = |x: f64| {
-        let picture = halves().interface(&circle(x), &[0.5; 90]).unwrap();
-        count(&picture.draw(&Format { width: 800, ..Format::frame() }).unwrap(), Rgb::INK) as f64
-    };
-    let (inside, across, far) = (ink(1.5), ink(3.0), ink(3.0 - 60.0));
+    // Without droplets there is no legend for them either.
+    let (inside, across, far) = (ink(&[1.5]), ink(&[3.0]), ink(&[3.0 - 60.0]));
     assert!((across / inside - 1.0).abs() < 0.05, "{across} {inside}");
     assert!((far / across - 1.0).abs() < 1e-3, "{far} {across}");
+    let (two, three) = (ink(&[-1.5, 1.5]), ink(&[-1.5, 1.5, 4.5]));
+    let one = two - inside;
+    assert!(one > 300.0, "{two} {inside}");
+    // The third is on the first.
+    assert!((three / two - 1.0).abs() < 1e-3, "{three} {two}");
 }
 
 #[test]
-fn bad_sizes_views_and_interfaces_are_refused() {
-    assert!(halves().draw(&Format { width: 10, ..Format::frame() }).is_err());
-    assert!(halves().draw(&Format { width: 1_000_000, ..Format::frame() }).is_err());
-    assert!(halves().view(Vec2::new(0.0, 0.0), Vec2::new(0.0, 1.0)).is_err());
-    assert!(halves().view(Vec2::new(0.0, 0.0), Vec2::new(f64::NAN, 1.0)).is_err());
-    assert!(halves().interface(&[Vec2::zeros(); 4], &[0.0; 3]).is_err());
+fn a_single_droplet_is_in_the_middle_of_a_still() {
+    let seen = Snapshot { droplets: vec![circle(2.0)], ..halves() };
+    let image = draw(&seen, &[], &Format::STILL);
+    let other = draw(&Snapshot { droplets: vec![circle(2.0), circle(2.0)], ..halves() }, &[], &Format::STILL);
+    assert_ne!(image.pixels, other.pixels);
 }
 
 #[test]
 fn values_that_are_not_numbers_do_no_harm() {
     let raster = Raster::new([0.0, 0.0], [4.0, 2.0], [8, 4], [true, false]).unwrap();
-    let field = Samples::new(raster, vec![f64::NAN; 32]).unwrap();
-    let flow = Samples::new(raster, vec![Vec2::new(f64::NAN, 0.0); 32]).unwrap();
-    let picture = Picture::new(field, scale(), "nothing")
-        .walls(0.0, 2.0)
-        .streamlines(flow, 0.2, Vec2::new(1.0, 1.0))
-        .track(&[Vec2::new(f64::NAN, 1.0), Vec2::new(1.0, 1.0)])
-        .interface(&[Vec2::new(f64::NAN, 0.0); 3], &[f64::NAN; 3])
-        .unwrap();
-    assert!(picture.draw(&Format::frame()).is_ok());
+    let bad = Vec2::new(f64::NAN, 1.0);
+    let flow = vec![FlowSample { velocity: bad, pressure: f64::NAN, ..FlowSample::default() }; 32];
+    let droplets = vec![DropletShape { markers: vec![bad; 3], concentration: vec![f64::NAN; 3], centroid: bad }];
+    let solids = vec![SolidShape { area: vec![vec![bad; 3]], edges: vec![vec![bad; 3], Vec::new()] }];
+    let seen = Snapshot { time: 1.0, raster, flow, droplets, solids, walls: Some([0.0, 2.0]) };
+    draw(&seen, &[vec![(0.0, bad), (0.5, Vec2::new(1.0, 1.0))], Vec::new()], &Format::STILL);
+    let look = Look::default();
+    let short = Snapshot { flow: Vec::new(), ..seen };
+    let drawn = look.draw(&short, &look.legends(&[]), &[], &Format::FRAME);
+    assert!(matches!(drawn, Err(Error::Count { given: 0, expected: 32, .. })));
+}
+
+#[test]
+fn paths_end_with_the_state_and_are_shorter_than_the_period() {
+    let path: Vec<Vec2> = (0..100).map(|k| Vec2::new(0.1 * f64::from(k), 0.0)).collect();
+    let end = last_period(&path, 4.0);
+    assert!((end[0].x - 6.9).abs() < 1e-9 && end.last() == path.last());
+    assert!(last_period(&[], 1.0).is_empty());
 }

@@ -27,7 +27,7 @@ pub fn time_series(table: &CsvTable) -> Result<Figure, Error> {
                 .horizontal(0.0, "pushers above, pullers below"),
         )
         .panel(plot("Squirmer parameter", "β = B_{2}/|B_{1}|").series(line("", "beta")?).horizontal(0.0, "neutral"));
-    if table.column("gap").is_err() {
+    if table.curve("time", "gap").is_err() {
         return Ok(figure);
     }
     Ok(figure

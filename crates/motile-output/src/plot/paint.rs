@@ -1,13 +1,8 @@
 //! Plots of series of points: how they are drawn.
 
-use crate::{
-    AxisScale, Error, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series,
-    drawing::{
-        Anchor, Pen, Pixel, Rect, Surface, TextStyle,
-        axes::{Axis, Frame},
-        font::text_width,
-    },
-};
+use crate::drawing::axes::{Axis, Frame};
+use crate::drawing::{Anchor, Pen, Pixel, Rect, Surface, TextStyle, font::text_width};
+use crate::{AxisScale, Error, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series};
 
 /// Size of the type (pixels of the SVG).
 const EM: f64 = 13.0;
@@ -16,62 +11,39 @@ const MARGIN: f64 = 0.05;
 /// Least length of a linear axis relative to its values, so that round-off does not fill a plot.
 const LEAST_SPAN: f64 = 1e-3;
 
-/// The panels of a figure, laid out.
-pub(crate) struct Sheet<'a> {
-    panels: Vec<Panel<'a>>,
-    size: [f64; 2],
-}
-
-struct Panel<'a> {
+/// A plot, laid out.
+pub(crate) struct Panel<'a> {
     plot: &'a Plot,
     frame: Frame,
 }
 
-impl<'a> Sheet<'a> {
-    /// Lays out a figure, with `scale` pixels a pixel of the SVG.
-    pub(crate) fn new(figure: &'a Figure, scale: f64) -> Result<Self, Error> {
-        let [width, height] = figure.panel_size;
-        if figure.panels.is_empty() {
-            return Err(Error::Empty("a figure without plots"));
-        }
-        Error::check_size("a panel with a width (pixels)", width, 200.0, 4000.0)?;
-        Error::check_size("a panel with a height (pixels)", height, 150.0, 4000.0)?;
-        let (width, height, em) = (width * scale, height * scale, EM * scale);
-        let columns = figure.columns.min(figure.panels.len());
-        let rows = figure.panels.len().div_ceil(columns);
-        let panel = |(k, plot): (usize, &'a Plot)| {
-            let (column, row) = ((k % columns) as f64, (k / columns) as f64);
-            let outer = Rect { left: column * width, top: row * height, width, height };
-            Panel { plot, frame: frame(plot, outer, em) }
-        };
-        let panels = figure.panels.iter().enumerate().map(panel).collect();
-        Ok(Self { panels, size: [columns as f64 * width, rows as f64 * height] })
+/// The panels of a figure with `scale` pixels a pixel of the SVG, and the size of all.
+pub(crate) fn panels(figure: &Figure, scale: f64) -> Result<(Vec<Panel<'_>>, [f64; 2]), Error> {
+    let [width, height] = figure.panel_size;
+    if figure.panels.is_empty() {
+        return Err(Error::Empty("a figure without plots"));
     }
-
-    pub(crate) fn size(&self) -> [f64; 2] {
-        self.size
-    }
-
-    pub(crate) fn paint(&self, surface: &mut impl Surface) {
-        for panel in &self.panels {
-            panel.paint(surface);
-        }
-    }
+    Error::check_size("a panel with a width (pixels)", width, 200.0, 4000.0)?;
+    Error::check_size("a panel with a height (pixels)", height, 150.0, 4000.0)?;
+    let (width, height) = (width * scale, height * scale);
+    let columns = figure.columns.min(figure.panels.len());
+    let rows = figure.panels.len().div_ceil(columns);
+    let panel = |(k, plot)| {
+        let (left, top) = ((k % columns) as f64 * width, (k / columns) as f64 * height);
+        Panel { plot, frame: frame(plot, Rect { left, top, width, height }, EM * scale) }
+    };
+    Ok((figure.panels.iter().enumerate().map(panel).collect(), [columns as f64 * width, rows as f64 * height]))
 }
 
 /// The axes of a plot within its panel.
 fn frame(plot: &Plot, outer: Rect, em: f64) -> Frame {
-    let usable = |&[low, high]: &[f64; 2]| {
-        let [low, high] = [low, high].map(|end| plot.scales[0].straight(end));
-        low.is_finite() && high.is_finite() && low < high
-    };
     let axis = |k: usize, range: [f64; 2], length: f64| {
         Axis::new(&plot.labels[k], range, plot.scales[k], ((length / (4.0 * em)) as usize).clamp(3, 9))
     };
     let y = axis(1, data_range(plot, 1), outer.height);
     let left = Frame::left_margin(&y, em) + 0.4 * em;
     let top = if plot.title.is_empty() { 1.4 } else { 2.9 } * em;
-    let x = axis(0, plot.x_range.filter(usable).unwrap_or_else(|| data_range(plot, 0)), outer.width - left);
+    let x = axis(0, plot.x_range.unwrap_or_else(|| data_range(plot, 0)), outer.width - left);
     let area = Rect {
         left: outer.left + left,
         top: outer.top + top,
@@ -104,7 +76,7 @@ fn data_range(plot: &Plot, axis: usize) -> [f64; 2] {
 }
 
 impl Panel<'_> {
-    fn paint(&self, surface: &mut impl Surface) {
+    pub(crate) fn paint(&self, surface: &mut impl Surface) {
         let (frame, em) = (&self.frame, self.frame.em);
         frame.draw_grid(surface);
         surface.clip(Some(frame.area));
@@ -117,7 +89,7 @@ impl Panel<'_> {
         frame.draw_axes(surface);
         let shift = if frame.y.ticks.exponent == 0 { 0.0 } else { 3.4 * em };
         let at = [frame.area.left + shift, frame.area.top - 1.15 * em];
-        surface.text(at, &self.plot.title, &TextStyle { bold: true, ..TextStyle::new(1.1 * em, Anchor::Start) });
+        surface.text(at, &self.plot.title, &TextStyle::new(1.1 * em, Anchor::Start));
     }
 
     /// The series with their colours.
@@ -133,11 +105,11 @@ impl Panel<'_> {
 
     fn references(&self, surface: &mut impl Surface) {
         let (area, em) = (self.frame.area, self.frame.em);
-        let pen = Pen::new(Rgb::GREY, 0.09 * em).dashed(0.45 * em, 0.3 * em);
+        let pen = Pen::new(Rgb::GREY, 0.09 * em);
         let style = TextStyle { colour: Rgb::GREY, ..TextStyle::new(0.85 * em, Anchor::End) };
         for (value, label) in &self.plot.references {
             let y = self.frame.place(self.frame.x.low, *value)[1];
-            surface.stroke(&[[area.left, y], [area.right(), y]], &pen);
+            surface.dashed(&[[area.left, y], [area.right(), y]], &pen, [0.45 * em, 0.3 * em]);
             let side = if y - area.top < 1.6 * em { 0.75 } else { -0.75 };
             surface.text([area.right() - 0.5 * em, y + side * em], label, &style);
         }
@@ -148,7 +120,7 @@ impl Panel<'_> {
         let pixels = self.pixels(series);
         if series.line {
             for piece in pixels.split(|p| !(p[0].is_finite() && p[1].is_finite())).filter(|p| p.len() > 1) {
-                surface.stroke(&thinned(piece, 0.04 * em), &line_pen(series, colour, em));
+                line(surface, piece, series, colour, em);
             }
         }
         if let Some(marker) = series.marker {
@@ -173,24 +145,22 @@ impl Panel<'_> {
         let corners = [area.right() - gap - width, area.left + gap].into_iter().flat_map(|left| {
             [area.top + gap, area.bottom() - gap - height].map(|top| Rect { left, top, width, height })
         });
+        // What it would hide: the share of each series, and lines with a label.
         let hidden = |panel: &Rect| {
             let inside =
                 |p: &Pixel| (panel.left..panel.right()).contains(&p[0]) && (panel.top..panel.bottom()).contains(&p[1]);
-            let lines = self.plot.references.iter().filter(|(_, label)| !label.is_empty());
-            let label = |value: f64| [area.right() - gap, self.frame.place(self.frame.x.low, value)[1]];
-            // The line between points hides as much as points do.
-            let dense = |s: &Series| -> usize {
-                let pixels = self.pixels(s);
-                let between = |w: &[Pixel]| {
-                    (0..8)
-                        .map(|k| f64::from(k) / 8.0)
-                        .filter(|t| inside(&[w[0][0] + t * (w[1][0] - w[0][0]), w[0][1] + t * (w[1][1] - w[0][1])]))
-                        .count()
-                };
-                pixels.windows(2).map(between).sum::<usize>() + pixels.iter().filter(|p| inside(p)).count()
+            let share = |series: &Series| {
+                // The line between points hides as much as points do.
+                let pixels = self.pixels(series);
+                let between = pixels.windows(2).flat_map(|w| {
+                    (0..8).map(|k| f64::from(k) / 8.0).map(|t| [0, 1].map(|n| w[0][n] + t * (w[1][n] - w[0][n])))
+                });
+                let count = between.chain(pixels.iter().copied()).filter(inside).count();
+                1000 * count / (9 * pixels.len().max(1))
             };
-            let points: usize = self.plot.series.iter().map(|s| 1000 * dense(s) / (s.points.len().max(1) * 9)).sum();
-            points + lines.filter(|(value, _)| inside(&label(*value))).count() * 50
+            let lines = self.plot.references.iter().filter(|(_, label)| !label.is_empty());
+            let ends = lines.map(|(value, _)| [area.right() - gap, self.frame.place(self.frame.x.low, *value)[1]]);
+            self.plot.series.iter().map(share).sum::<usize>() + 50 * ends.filter(inside).count()
         };
         let Some(panel) = corners.min_by_key(hidden) else { return };
         surface.fill(&[panel.outline()], Rgb::WHITE, 0.85);
@@ -198,7 +168,7 @@ impl Panel<'_> {
             let y = panel.top + (1.4 * k as f64 + 0.95) * em;
             let (from, to) = (panel.left + 0.5 * em, panel.left + 2.5 * em);
             if series.line {
-                surface.stroke(&[[from, y], [to, y]], &line_pen(series, colour, em));
+                line(surface, &[[from, y], [to, y]], series, colour, em);
             }
             if let Some(marker) = series.marker {
                 draw_marker(surface, marker, [0.5 * (from + to), y], 0.3 * em, colour);
@@ -208,25 +178,14 @@ impl Panel<'_> {
     }
 }
 
-fn line_pen(series: &Series, colour: Rgb, em: f64) -> Pen {
+/// The line of a series.
+fn line(surface: &mut impl Surface, path: &[Pixel], series: &Series, colour: Rgb, em: f64) {
     let pen = Pen::new(colour, 0.14 * em);
-    if series.dashed { pen.dashed(0.55 * em, 0.35 * em) } else { pen }
-}
-
-/// A path without the points that lie less than `apart` (pixels) from the last one kept; the ends stay.
-fn thinned(path: &[Pixel], apart: f64) -> Vec<Pixel> {
-    let mut kept: Vec<Pixel> = Vec::with_capacity(path.len());
-    for &p in path {
-        if kept.last().is_none_or(|q| (p[0] - q[0]).hypot(p[1] - q[1]) >= apart) {
-            kept.push(p);
-        }
+    if series.dashed {
+        surface.dashed(path, &pen, [0.55 * em, 0.35 * em]);
+    } else {
+        surface.stroke(path, &pen);
     }
-    if let Some(&end) = path.last()
-        && kept.last() != Some(&end)
-    {
-        kept.push(end);
-    }
-    kept
 }
 
 fn draw_marker(surface: &mut impl Surface, marker: Marker, [x, y]: Pixel, radius: f64, colour: Rgb) {

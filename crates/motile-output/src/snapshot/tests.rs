@@ -11,7 +11,7 @@ fn a_snapshot_of_a_box_and_of_a_channel() {
     };
     let mut scene = setup.build().unwrap().scene;
     let raster = Raster::of(scene.system(), 0.25).unwrap();
-    assert_eq!((raster.cells(), raster.periodic()), ([24, 16], [true, true]));
+    assert_eq!((raster.cells(), raster.periodic), ([24, 16], [true, true]));
     assert_eq!(raster.coarsened(12).cells(), [12, 8]);
     let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
     assert!((seen.droplets[0].centroid - Vec2::new(1.0, 0.5)).norm() < 1e-9);
@@ -27,8 +27,8 @@ fn a_snapshot_of_a_box_and_of_a_channel() {
     let region = Region::Channel { length: 6.0, width: 4.0, drive: Drive::ZeroGradient };
     let scene = Setup { region, ..setup }.build().unwrap().scene;
     let raster = Raster::of(scene.system(), 0.25).unwrap();
-    assert_eq!((raster.origin(), raster.size()), ([-3.0, -2.0], [6.0, 4.0]));
-    assert_eq!(raster.periodic(), [true, false]);
+    assert_eq!((raster.origin, raster.size), ([-3.0, -2.0], [6.0, 4.0]));
+    assert_eq!(raster.periodic, [true, false]);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings, forcing};
 use elastic_solids::Solid;
-use ib_core::{Body, Boundary, Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
+use ib_core::{Body, Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2, gap::Boundary};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{

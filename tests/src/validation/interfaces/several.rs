@@ -21,8 +21,6 @@ pub struct Several {
     pub particle_change: f64,
     /// Iterations an evaluation, on average.
     pub iterations: f64,
-    /// Time steps.
-    pub steps: usize,
 }
 
 /// Two swimmers like the first of a scene, of radius one, in unbounded fluid, that come towards each other along lines
@@ -81,7 +79,7 @@ fn run(base: &Setup, region: Region, places: &[([f64; 2], f64)], time: f64) -> R
         .collect::<Result<_, StudyError>>()?;
     let work = scene.system().hydrodynamics().work();
     let iterations = work.iterations as f64 / work.evaluations as f64;
-    Ok(Several { centroids, gap: least, area_change, particle_change, iterations, steps: scene.steps() })
+    Ok(Several { centroids, gap: least, area_change, particle_change, iterations })
 }
 
 /// Smallest distance of the markers of one droplet from the sides of another, the closest image of it; periods are

@@ -1,7 +1,7 @@
 use super::*;
 use crate::Curve;
 use approx::assert_relative_eq;
-use ib_core::{CubicQuadratic, Domain, FlowWork, ImmersedBoundary, Markers, Scene};
+use ib_core::{CubicQuadratic, Domain, ImmersedBoundary, Markers, Scene, hydrodynamics::FlowWork};
 use stokes_grid::{ChannelStokes, Drive, Grid, flux};
 
 /// A channel between y = -1 and y = 2 with the flow `plug + shear y + curve y^2`, whatever the forces are.

@@ -2,7 +2,8 @@ use super::*;
 use crate::{ContractileTension, Curve, InitialConcentration, trajectory::Regime};
 use approx::assert_relative_eq;
 use ib_core::{
-    Domain, Every, FlowError, FlowReport, FlowSample, FlowWork, Markers, Medium, Scene, SceneError, StepSize, Vec2,
+    Domain, Every, FlowError, FlowSample, Markers, Medium, Scene, SceneError, StepSize, Vec2,
+    hydrodynamics::{FlowReport, FlowWork},
 };
 
 /// A wind between walls at y = -1 and y = 3 whose vertical part drives points back to y = 1 or away from it.

@@ -1,4 +1,7 @@
-use crate::{AnyKernel, Kernel, MAX_SUPPORT, Role};
+use crate::{
+    AnyKernel, Kernel,
+    kernel::{MAX_SUPPORT, Role},
+};
 
 #[test]
 fn polynomials_are_the_weights() {

@@ -1,7 +1,9 @@
 use std::convert::Infallible;
 
 use super::*;
-use crate::{CubicQuadratic, ImmersedBoundary, IntegratorWork, MarkerBody, Midpoint, RungeKuttaChebyshev, Vec2};
+use crate::{
+    CubicQuadratic, ImmersedBoundary, MarkerBody, Midpoint, RungeKuttaChebyshev, Vec2, integrator::IntegratorWork,
+};
 use stokes_grid::{Grid, PeriodicStokes};
 
 type Flow = ImmersedBoundary<PeriodicStokes, CubicQuadratic>;

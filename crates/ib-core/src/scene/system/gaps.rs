@@ -2,7 +2,7 @@
 
 use super::System;
 use crate::gap::Gap;
-use crate::{Hydrodynamics, Medium, Repulsion, SceneError, wall_gap};
+use crate::{Hydrodynamics, Medium, Repulsion, SceneError, gap::wall_gap};
 
 /// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the
 /// round-off of a grid.

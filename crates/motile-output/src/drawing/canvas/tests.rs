@@ -2,14 +2,14 @@ use super::*;
 
 /// Ink on the image: sum of darkness over pixels, 1 for a black one.
 fn ink(canvas: &Canvas) -> f64 {
-    canvas.image.pixels().iter().map(|p| 1.0 - f64::from(p.0[0]) / 255.0).sum()
+    canvas.pixels.iter().map(|p| 1.0 - f64::from(p.0[0]) / 255.0).sum()
 }
 
 const BLACK: Rgb = Rgb([0, 0, 0]);
 
 #[test]
 fn areas_of_polygons_come_out_as_ink() {
-    let mut canvas = Canvas::new(60, 60).unwrap();
+    let mut canvas = Canvas::new([60, 60]).unwrap();
     let square = vec![[10.3, 10.0], [40.8, 10.0], [40.8, 30.0], [10.3, 30.0]];
     let hole = vec![[20.0, 15.0], [30.0, 15.0], [30.0, 25.0], [20.0, 25.0]];
     canvas.fill(&[square, hole], BLACK, 1.0);
@@ -21,7 +21,7 @@ fn areas_of_polygons_come_out_as_ink() {
 
 #[test]
 fn a_line_of_many_pieces_is_as_dark_as_one() {
-    let mut one = Canvas::new(200, 50).unwrap();
+    let mut one = Canvas::new([200, 50]).unwrap();
     let mut many = one.clone();
     let pen = Pen::new(BLACK, 3.0).opacity(0.5);
     one.stroke(&[[10.0, 10.0], [190.0, 40.0]], &pen);
@@ -35,7 +35,7 @@ fn a_line_of_many_pieces_is_as_dark_as_one() {
 
 #[test]
 fn clipping_keeps_ink_inside_and_nan_draws_nothing() {
-    let mut canvas = Canvas::new(40, 40).unwrap();
+    let mut canvas = Canvas::new([40, 40]).unwrap();
     canvas.clip(Some(Rect { left: 10.0, top: 10.0, width: 5.0, height: 5.0 }));
     canvas.stroke(&[[0.0, 12.0], [40.0, 12.0]], &Pen::new(BLACK, 20.0));
     assert!((ink(&canvas) - 25.0).abs() < 1e-6, "{}", ink(&canvas));
@@ -47,6 +47,6 @@ fn clipping_keeps_ink_inside_and_nan_draws_nothing() {
 
 #[test]
 fn images_without_pixels_are_refused() {
-    assert!(Canvas::new(0, 10).is_err());
-    assert!(Canvas::new(10, 1_000_000).is_err());
+    assert!(Canvas::new([0, 10]).is_err());
+    assert!(Canvas::new([10, 1_000_000]).is_err());
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::drawing::Anchor;
+use crate::drawing::{Anchor, TextStyle};
 
 #[test]
 fn elements_have_their_coordinates_and_groups_close() {

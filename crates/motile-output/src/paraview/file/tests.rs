@@ -5,7 +5,7 @@ const CORNERS: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 #[test]
 fn arrays_hold_their_size_and_values() {
     // Eight bytes of length (4) and the single-precision 1.0: 00 00 80 3f.
-    assert!(array("Float32", "a", "", &1f32.to_le_bytes()).contains(">BAAAAAAAAAAAAIA/<"));
+    assert!(array("Float32", "a", 1, &1f32.to_le_bytes()).contains(">BAAAAAAAAAAAAIA/<"));
 }
 
 #[test]

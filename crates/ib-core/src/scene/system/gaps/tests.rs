@@ -2,8 +2,8 @@ use std::f64::consts::TAU;
 
 use crate::gap::Boundary;
 use crate::{
-    Body, BodyError, CubicQuadratic, ImmersedBoundary, MarkerBody, MarkerKind, Medium, Scene, SceneError, StepLimits,
-    StepSize, Vec2,
+    Body, BodyError, CubicQuadratic, ImmersedBoundary, MarkerBody, MarkerKind, Medium, Scene, SceneError, StepSize,
+    Vec2, body::StepLimits,
 };
 use stokes_grid::{Grid, PeriodicStokes};
 
