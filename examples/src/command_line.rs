@@ -31,9 +31,9 @@ const MISUSE: u8 = 2;
 /// }
 ///
 /// fn swim(flags: &Flags) -> anyhow::Result<()> {
-///     flags.region.check(&flags.method)?;
-///     let cells = flags.method.cells(flags.region.side, "box")?;
-///     println!("{cells} x {cells} cells");
+///     let mut setup = flags.method.setup(&flags.droplet, None)?;
+///     flags.region.apply(&mut setup, &flags.method)?;
+///     println!("{setup:?}");
 ///     Ok(())
 /// }
 ///

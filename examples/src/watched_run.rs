@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail, ensure};
 use motile::{
-
     active_interface::{
         ActiveDroplet,
         observables::{ConcentrationProfile, Frame, concentration_profile},

@@ -1,7 +1,7 @@
 //! What is seen of the elastic solids of a scene.
 
-use motile::ib_core::gap::SolidGap;
 use motile::elastic_solids::{Solid, channel::width_between, solid::Observables};
+use motile::ib_core::gap::SolidGap;
 use motile::ib_core::{Hydrodynamics, System};
 
 use crate::{Error, SolidShape, Vec2};

@@ -1,10 +1,10 @@
 //! Gaps between droplets and elastic walls.
 
-use motile::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
 use motile::elastic_solids::{NeoHookean, Solid, forces::Springs, mesh::equilateral_strip};
 use motile::ib_core::gap::{SolidEntered, SolidGap};
 use motile::ib_core::{Observer, Vec2};
 use motile::stokes_grid::Drive;
+use motile::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
 
 #[test]
 fn a_droplet_inside_a_wall_is_an_error() {

@@ -27,7 +27,7 @@ fn parse(line: &str) -> Result<Flags, String> {
 fn all_flags_with_their_values() {
     let line = "--activity -4 --excluded-volume 8 --viscosity 10 --box 12 --spacing 0.1 --dt auto --time 250 \
                 --angle -30 --offset -0.03,0.01 --kernel gaussian6 --preset thesis --initial perturbed --seed 7 \
-                --no-pictures --out somewhere --width 2.4 --length 8 --lateral-offset -0.2 --drive zero-flux";
+                --no-pictures --out somewhere --width 2.5 --length 8 --lateral-offset -0.2 --drive zero-flux";
     let flags = parse(line).unwrap();
     assert_eq!((flags.method.time, flags.method.preset), (250.0, Preset::Thesis));
     assert!(flags.output.no_pictures && flags.output.out.as_deref() == Some("somewhere".as_ref()));
@@ -40,7 +40,7 @@ fn all_flags_with_their_values() {
     assert_eq!(particles.excluded_volume, Exclusion::Step(8.0));
     assert_eq!(particles.start, Start::Perturbed { amplitude: 0.05, seed: 7 });
     flags.channel.apply(&mut setup, &flags.method).unwrap();
-    assert_eq!(setup.region, Region::Channel { length: 8.0, width: 2.4, drive: motile::stokes_grid::Drive::ZeroFlux });
+    assert_eq!(setup.region, Region::Channel { length: 8.0, width: 2.5, drive: motile::stokes_grid::Drive::ZeroFlux });
     assert_eq!(setup.droplets[0].centre, [0.0, -0.2]);
 }
 

@@ -2,7 +2,6 @@
 
 use anyhow::{Result, bail};
 use clap::ValueEnum;
-use motile::ib_core::gap::SolidGap;
 use motile::active_interface::{
     ActiveDroplet,
     trajectory::{RegimeCriteria, TrajectoryRecorder},
@@ -12,6 +11,7 @@ use motile::elastic_solids::{
     channel::{Constriction, width_between},
     solid::Observables,
 };
+use motile::ib_core::gap::SolidGap;
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
 use motile::stokes_grid::Drive;
 use motile::{

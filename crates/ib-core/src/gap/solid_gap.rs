@@ -132,7 +132,9 @@ impl<H: Hydrodynamics> Observer<H> for SolidGap {
         if gap < -self.allowed {
             let interface = system.any_body(interface)?.name().to_owned();
             let (allowed, at_start) = (self.allowed, system.steps() == 0);
-            return Err(SolidEntered { interface, at_start, marker, x: place.x, y: place.y, depth: -gap, allowed }.into());
+            return Err(
+                SolidEntered { interface, at_start, marker, x: place.x, y: place.y, depth: -gap, allowed }.into()
+            );
         }
         Ok(())
     }

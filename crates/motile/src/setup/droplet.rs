@@ -8,7 +8,7 @@ use ib_core::Vec2;
 /// A droplet: a closed fluid interface with a tension of its own and, unless it is passive, active particles.
 ///
 /// ```
-/// use motile::*;
+/// use motile::prelude::*;
 ///
 /// let strong = DropletSetup { centre: [1.0, 0.0], angle: 0.3, ..DropletSetup::active(-4.0) };
 /// let drop_of_oil = DropletSetup { viscosity: Some(10.0), ..DropletSetup::passive(10.0) };

@@ -28,7 +28,7 @@ use ib_core::StepSize;
 /// has been built.
 ///
 /// ```
-/// use motile::*;
+/// use motile::prelude::*;
 ///
 /// // Two droplets of different activity and viscosity, abreast.
 /// let setup = Setup {

@@ -11,7 +11,8 @@ use crate::SetupError;
 /// An elastic solid in the fluid: a wall, an island, a nucleus.
 ///
 /// ```
-/// use motile::*;
+/// use motile::prelude::*;
+/// use motile::{Axis, Grading};
 ///
 /// // A soft channel of width 2, stiffening along x, in a region of 12 x 5 whose rigid walls hold the outermost rows.
 /// let material = Material::NeoHookean { shear: 200.0, bulk: 400.0 };

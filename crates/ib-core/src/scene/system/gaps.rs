@@ -42,10 +42,7 @@ impl<H: Hydrodynamics> System<H> {
     ///
     /// # Errors
     /// [`SceneError::ForeignHandle`].
-    pub fn gap_around(
-        &self,
-        body: impl Into<Handle<dyn Body>>,
-    ) -> Result<Option<(f64, Handle<dyn Body>)>, SceneError> {
+    pub fn gap_around(&self, body: impl Into<Handle<dyn Body>>) -> Result<Option<(f64, Handle<dyn Body>)>, SceneError> {
         let body = body.into();
         let (outline, periods) = (Outline::of(self.any_body(body)?), self.hydrodynamics.medium().domain.periods);
         let others = self.all_bodies().filter(|(handle, _)| *handle != body);
