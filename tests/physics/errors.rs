@@ -87,7 +87,7 @@ fn droplets_in_droplets_of_another_viscosity_are_refused() {
                 ..DropletSetup::passive(0.0)
             };
             let setup = Setup {
-                method: method.clone(),
+                method,
                 viscosity: 100.0,
                 droplets: vec![inside(1.0, outer), inside(0.3, inner)],
                 ..Setup::default()

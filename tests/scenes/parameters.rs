@@ -296,7 +296,7 @@ fn makers() -> Vec<Maker> {
         }),
         maker("Setup shape.points", &[1.0, 0.1], "--", |v| {
             let mut points: Vec<[f64; 2]> =
-                (0..16_u8).map(|k| 0.392_699 * f64::from(k)).map(|t| [t.cos(), t.sin()]).collect();
+                (0..16_u8).map(|k| std::f64::consts::FRAC_PI_8 * f64::from(k)).map(|t| [t.cos(), t.sin()]).collect();
             points[0] = [v[0], v[1]];
             shape_builds(&DropletShape::Points(points))
         }),

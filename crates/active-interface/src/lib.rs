@@ -13,8 +13,8 @@
 //!
 //! * [`curve`]: a [`Curve`] makes equidistant markers from a circle, an ellipse, Fourier modes, a function, or points;
 //!   crossings; area, moments and perimeter of polygons, exact.
-//! * [`concentration`]: an [`InitialConcentration`] to start from, [`concentration::Transport`] to carry particles along
-//!   the interface without losing any.
+//! * [`concentration`]: an [`InitialConcentration`] to start from, and the [`Flux`] by which particles are carried
+//!   along the interface without losing any.
 //! * [`tension`]: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
 //! * [`observables`]: [`observe`] for all [`Observables`] at once, and a function for each; fluxes along a channel.
 //! * [`trajectory`]: a [`trajectory::TrajectoryRecorder`] for a run, [`trajectory::Trajectory::regime`] for what the

@@ -44,7 +44,7 @@ impl SineCosine {
         self.turns.len()
     }
 
-    /// Sines in cells; entry n - 1 of the result is F[n].
+    /// Sines in cells; entry n - 1 of the result is `F[n]`.
     ///
     /// # Errors
     /// Another number of values than N.
@@ -56,7 +56,7 @@ impl SineCosine {
         Ok(())
     }
 
-    /// Values of sines in cells; entry n - 1 of `values` is F[n].
+    /// Values of sines in cells; entry n - 1 of `values` is `F[n]`.
     ///
     /// # Errors
     /// Another number of values than N.
@@ -113,7 +113,7 @@ impl SineCosine {
         Ok(())
     }
 
-    /// Sines on nodes; entry j - 1 of `values` is node j, entry n - 1 of the result F[n].
+    /// Sines on nodes; entry j - 1 of `values` is node j, entry n - 1 of the result `F[n]`.
     ///
     /// # Errors
     /// Another number of values than N - 1.
@@ -121,7 +121,7 @@ impl SineCosine {
         self.node_sines(values, 2.0 / self.cells() as f64)
     }
 
-    /// Values of sines on nodes; entry n - 1 of `values` is F[n], entry j - 1 of the result node j.
+    /// Values of sines on nodes; entry n - 1 of `values` is `F[n]`, entry j - 1 of the result node j.
     ///
     /// # Errors
     /// Another number of values than N - 1.

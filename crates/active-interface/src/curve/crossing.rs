@@ -98,7 +98,7 @@ impl CrossingFinder {
     }
 }
 
-/// [`CrossingFinder::first_crossing`] for a single use.
+/// The first pair of segments of a closed polygon that cross, by their numbers; `None` where it does not cross itself.
 ///
 /// # Errors
 /// Fewer than three points, points that are not finite.

@@ -1,7 +1,7 @@
 //! How near the bodies come to one another and to walls.
 
 use super::System;
-use crate::gap::{Gap, Outline, wall_gap};
+use crate::gap::{Gap, Neighbour, Outline, wall_gap};
 use crate::{Body, Handle, Hydrodynamics, Medium, Repulsion, SceneError};
 
 /// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the
@@ -42,7 +42,7 @@ impl<H: Hydrodynamics> System<H> {
     ///
     /// # Errors
     /// [`SceneError::ForeignHandle`].
-    pub fn gap_around(&self, body: impl Into<Handle<dyn Body>>) -> Result<Option<(f64, Handle<dyn Body>)>, SceneError> {
+    pub fn gap_around(&self, body: impl Into<Handle<dyn Body>>) -> Result<Option<Neighbour>, SceneError> {
         let body = body.into();
         let (outline, periods) = (Outline::of(self.any_body(body)?), self.hydrodynamics.medium().domain.periods);
         let others = self.all_bodies().filter(|(handle, _)| *handle != body);
