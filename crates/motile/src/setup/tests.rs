@@ -70,11 +70,6 @@ fn what_makes_no_scene_is_refused_with_its_key() {
         ("method.grid.spacing = 0.07: a length of 6 is not a whole number", grid(GridMethod::of_spacing(0.07))),
         ("method.grid.spacing = 0.0000001: a length of 6 would take", grid(GridMethod::of_spacing(1e-7))),
         ("method.grid.marker-spacing = 0.0000000001", grid(GridMethod { marker_spacing: Some(1e-10), ..coarse })),
-        ("method.grid.marker-spacing = 0.05: droplet would have", {
-            let shape = DropletShape::Squeezed { radius: 1.0, half_height: 1e-8, to: Squeezed::Stadium };
-            let flat = DropletSetup { shape, ..DropletSetup::default() };
-            Setup { region: Region::Box { lengths: [6.0, 6.0] }, droplets: vec![flat], ..grid(coarse) }
-        }),
         ("region = plane", Setup { region: Region::Plane, ..grid(coarse) }),
         ("method = integral: solids need a grid", Setup { method: Method::default(), ..elastic(3.0, Surface::Plain) }),
         ("method.grid.corrected = true", Setup { droplets: vec![DropletSetup::thesis()], ..grid(coarse) }),
