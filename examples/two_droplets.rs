@@ -165,16 +165,16 @@ fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> R
     let domain = system.hydrodynamics().medium().domain;
     let time = system.time();
     system.evaluate()?;
-    let mut seen = [(Vec2::zeros(), 0.0); 2];
+    let mut seen = [(Vec2::ZERO, 0.0); 2];
     for ((place, speed), droplet) in seen.iter_mut().zip(droplets) {
         let state = InterfaceState::of(system, droplet)?;
         *place = polygon_moments(state.markers)?.centroid;
-        *speed = centroid_velocity(state.markers, state.velocities)?.norm();
+        *speed = centroid_velocity(state.markers, state.velocities)?.length();
     }
     let [(a, speed1), (b, speed2)] = seen;
     let mut apart = b - a;
-    for (component, period) in apart.iter_mut().zip(domain.periods) {
-        *component -= period.map_or(0.0, |period| period * (*component / period).round());
+    for (axis, period) in domain.periods.into_iter().enumerate() {
+        apart[axis] -= period.map_or(0.0, |period| period * (apart[axis] / period).round());
     }
-    Ok([time, a.x, a.y, speed1, b.x, b.y, speed2, apart.norm()])
+    Ok([time, a.x, a.y, speed1, b.x, b.y, speed2, apart.length()])
 }

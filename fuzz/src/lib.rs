@@ -128,7 +128,7 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
             files.clone().into_iter().chain(contents).collect()
         }
         "gmsh" => {
-            let strip = |columns, rows| elastic_solids::mesh::equilateral_block(ib_core::Vec2::zeros(), columns, rows, 0.5);
+            let strip = |columns, rows| elastic_solids::mesh::equilateral_block(ib_core::Vec2::ZERO, columns, rows, 0.5);
             [strip(2, 2), strip(4, 3)].into_iter().flatten().flat_map(|mesh| GmshMesh { mesh, groups: Vec::new() }.to_text()).map(String::into_bytes).collect()
         }
         "scene" => [Setup::default(), Setup::thesis()]

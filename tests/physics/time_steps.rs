@@ -130,7 +130,7 @@ fn the_predicted_step_between_stiff_walls_is_stable() {
         // Of fewer stages, whose number follows the step, the least are just enough.
         for part in [0.7, 0.99] {
             (0..30).for_each(|_| scene.step(part * limit).expect("a stable step"));
-            let moved = scene.body(droplet).unwrap().markers().iter().zip(&start).map(|(a, b)| (a - b).norm());
+            let moved = scene.body(droplet).unwrap().markers().iter().zip(&start).map(|(a, b)| (a - b).length());
             assert!(moved.fold(0.0, f64::max) < 0.2, "{stages} stages, {part} of the limit");
         }
     }
@@ -153,7 +153,7 @@ fn run_and_look<H: Hydrodynamics, I: Integrator>(scene: &mut Scene<H, I>) -> (f6
     scene.system_mut().evaluate().expect("a flow");
     let markers = scene.system().markers();
     let velocity = centroid_velocity(&markers.positions, &markers.velocities).expect("an interface");
-    (velocity.norm(), scene.steps())
+    (velocity.length(), scene.steps())
 }
 
 fn adaptive<I: Integrator>(integrator: I, tolerance: f64) -> (Scene<AnyFlow, I>, Handle<ActiveDroplet>) {

@@ -2,11 +2,11 @@
 
 mod markers;
 
-pub use markers::{MarkerGroup, MarkerKind, Markers, Vec2};
+pub use markers::{MarkerGroup, MarkerKind, Markers};
 
 use std::sync::Arc;
 
-pub use stokes_layers::FlowSample;
+pub use stokes_layers::{FlowSample, Vec2};
 
 use crate::{FlowError, MobilityDeficit, checkpoint::SavedState};
 

@@ -203,7 +203,7 @@ impl DoubleLayerMatrix {
                 0.0
             };
             for ((j, normal), position) in nodes.zip(&curve.normals).zip(&curve.positions) {
-                let amount = growth - curve.contrast * background * position.dot(&total);
+                let amount = growth - curve.contrast * background * position.dot(total);
                 ux[j] += amount * normal.x;
                 uy[j] += amount * normal.y;
             }
@@ -216,10 +216,10 @@ impl DoubleLayerMatrix {
     /// `-(1/V) sum D X (v.n) w` in a box.
     fn mean(&self, curves: &[NodeCurve], v: &[f64]) -> Vec2 {
         if self.area.is_infinite() {
-            return Vec2::zeros();
+            return Vec2::ZERO;
         }
         let n = self.nodes;
-        let mut sum = Vec2::zeros();
+        let mut sum = Vec2::ZERO;
         for curve in curves {
             for (k, (x, normal)) in curve.positions.iter().zip(&curve.normals).enumerate() {
                 let i = curve.first + k;

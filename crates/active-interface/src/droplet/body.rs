@@ -73,7 +73,7 @@ impl Body for ActiveDroplet {
     fn write_state(&self, state: &mut [f64]) {
         let (positions, numbers) = state.split_at_mut(2 * self.shape.markers.len());
         for (pair, marker) in positions.chunks_exact_mut(2).zip(&self.shape.markers) {
-            pair.copy_from_slice(marker.as_slice());
+            pair.copy_from_slice(&marker.to_array());
         }
         numbers.copy_from_slice(&self.numbers);
     }
@@ -98,7 +98,7 @@ impl Body for ActiveDroplet {
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         let count = self.shape.markers.len();
-        self.motions.resize(count, Vec2::zeros());
+        self.motions.resize(count, Vec2::ZERO);
         self.slip.resize(count, 0.0);
         match self.motion {
             Motion::Equidistributed { relaxation, .. } => {
@@ -119,7 +119,7 @@ impl Body for ActiveDroplet {
         }
         let (positions, numbers) = rate.split_at_mut(2 * count);
         for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {
-            pair.copy_from_slice(motion.as_slice());
+            pair.copy_from_slice(&motion.to_array());
         }
         numbers.fill(0.0);
         if let Some(transport) = self.transport.as_mut() {

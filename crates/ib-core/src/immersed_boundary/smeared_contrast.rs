@@ -139,7 +139,7 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
             for k in 0..count {
                 let d = 0.5 * (positions[(k + 1) % count] - positions[(k + count - 1) % count]);
                 let normal = Vec2::new(d.y, -d.x);
-                mean += (inside - outside) * 0.5 * (positions[k] - positions[0]).dot(&normal) / (lx * ly);
+                mean += (inside - outside) * 0.5 * (positions[k] - positions[0]).dot(normal) / (lx * ly);
                 self.spread.push((inside - outside) * normal);
                 self.positions.push(positions[k]);
             }
