@@ -229,7 +229,7 @@ impl Body for ActiveDroplet {
         numbers.fill(if mean > 0.0 { mean } else { 1.0 });
     }
 
-    /// Viscosity, tension law and diffusion; the number of markers unless the fluid carries them along.
+    /// Viscosity, tension law and diffusion, and the number of markers at the start.
     fn properties(&self) -> Vec<(String, f64)> {
         let mut properties = Vec::new();
         let mut push = |name: &str, value: f64| properties.push((name.to_owned(), value));
@@ -243,9 +243,7 @@ impl Body for ActiveDroplet {
             let name = format!("the tension at a concentration of {concentration}");
             push(&name, self.tension.value(concentration));
         }
-        if !matches!(self.motion, Motion::WithFluid) {
-            push("the number of markers", self.marker_count() as f64);
-        }
+        push("the number of markers at the start", self.initial_markers as f64);
         properties
     }
 
