@@ -17,12 +17,12 @@ fn body(c: &mut Criterion, name: &str, n: usize, mut body: impl Body) {
     let solver = PeriodicStokes::new(grid, 1.0).expect("a good viscosity");
     let medium = ImmersedBoundary::new(solver, AnyKernel::BSpline4).medium();
     let count = body.marker_count();
-    let (mut positions, mut forces) = (vec![Vec2::zeros(); count], vec![Vec2::zeros(); count]);
+    let (mut positions, mut forces) = (vec![Vec2::ZERO; count], vec![Vec2::ZERO; count]);
     body.write_markers(&mut positions);
     body.write_forces(&medium, &mut forces).expect("a good state");
     let given = forces.clone();
     let (mut density, velocity) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
-    let mut velocities = vec![Vec2::zeros(); count];
+    let mut velocities = vec![Vec2::ZERO; count];
     let mut transfer = Transfer::new(grid, AnyKernel::BSpline4);
     transfer.locate(&positions);
     let (spreading, interpolating) = (transfer.clone(), transfer.clone());

@@ -12,7 +12,7 @@ fn wall() -> Result<Region, SolidError> {
 }
 
 fn meshes(c: &mut Criterion) {
-    let disc = Outline::circle(Vec2::zeros(), 1.0).and_then(|outline| Region::new([outline]));
+    let disc = Outline::circle(Vec2::ZERO, 1.0).and_then(|outline| Region::new([outline]));
     for (name, region, spacing) in [("wavy wall", wall(), 0.046), ("disc", disc, 0.1)] {
         let region = region.expect("good outlines");
         let mesher = Mesher::new(spacing).expect("a good spacing");

@@ -10,10 +10,8 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
-use motile::{Built, ChannelShape};
-use motile_examples::{
-    DropletFlags, ElasticFlags, MethodFlags, OutputFlags, Passage, SurfaceRule, WatchedRun, caption, positive, say,
-};
+use motile::{Built, ChannelShape, Surface};
+use motile_examples::{ElasticFlags, Passage, SceneFlags, WatchedRun, positive};
 
 /// An active droplet meets a constriction between elastic walls.
 #[derive(Debug, Parser)]
@@ -31,13 +29,7 @@ struct Flags {
     #[arg(long, default_value_t = 400.0, value_parser = positive, allow_hyphen_values = true)]
     patience: f64,
     #[command(flatten)]
-    droplet: DropletFlags,
-    #[command(flatten)]
-    walls: ElasticFlags,
-    #[command(flatten)]
-    method: MethodFlags,
-    #[command(flatten)]
-    output: OutputFlags,
+    scene: SceneFlags<ElasticFlags>,
 }
 
 fn main() -> ExitCode {
@@ -47,33 +39,29 @@ fn main() -> ExitCode {
 fn meet(flags: &Flags) -> Result<()> {
     // The channel, and the droplet half a period away from the middle of the throat.
     let &Flags { throat, throat_length, ramp, patience, .. } = flags;
-    let method = MethodFlags { time: patience, ..flags.method.clone() };
-    // Droplets that are pressed against the mouth for long enter corrected surfaces.
-    let surface = Some(SurfaceRule::SetBack);
-    let ElasticFlags { length: period, width, .. } = flags.walls;
+    let mut flags = flags.scene.clone();
+    flags.method.time = patience;
+    let (width, period) = (flags.region.width, flags.region.along.length);
     ensure!(throat <= width, "--throat {throat} is wider than the channel: give a number up to --width {width}");
     ensure!(
         throat_length + 2.0 * ramp <= period,
         "--throat-length {throat_length} and two --ramp {ramp} do not fit into --length {period}: make one of them smaller"
     );
     let shape = ChannelShape::Constriction { width, throat, throat_length, ramp, centre: 0.0 };
-    let setup = flags.walls.setup(&shape, &flags.droplet, &method, -0.5 * period, surface)?;
+    // Droplets that are pressed against the mouth for long enter corrected surfaces.
+    let setup = flags.setup(&shape, -0.5 * period, Some(Surface::SetBack))?;
     let Built { mut scene, droplets, .. } = setup.build()?;
 
     // The run, with all that watches it, until the verdict.
-    let title = format!("{},  {}", caption(&setup), flags.walls.caption()?);
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &method, &flags.output, "constriction", title)?;
+    let caption = flags.region.caption()?;
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &flags, "constriction", &caption)?;
     let mut passage = Passage::new(0.5 * throat_length + ramp);
-    let outcome = run.go_until(&mut scene, &mut passage)?;
+    run.go(&mut scene, Some(&mut passage))?;
 
     // The results, also of a run that broke off.
-    let mut summary = run.summary()?;
+    let mut summary = run.summary(&scene)?;
     passage.put(&mut summary);
     summary.put("throat", throat, "(R0)");
     summary.put("throat_length", throat_length, "(R0)");
-    summary.write(&run.directory().join("summary.json"))?;
-    say(summary.table().trim_end());
-    run.write_pictures(&mut scene)?;
-    say(format_args!("results in {}", run.directory().display()));
-    Ok(outcome?)
+    run.finish(&mut scene, &summary)
 }

@@ -12,7 +12,7 @@ use clap::{Parser, ValueEnum};
 use motile::elastic_solids::{Channel, SolidError};
 use motile::ib_core::Scene;
 use motile::{Built, ChannelShape, Method, Setup};
-use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
+use motile_examples::{ElasticFlags, SceneFlags, WatchedRun, say};
 
 /// A channel whose walls are functions of x: bumps below, and a step to a narrower part above.
 fn closure(period: f64, width: f64) -> Result<Channel, SolidError> {
@@ -65,29 +65,23 @@ struct Flags {
     #[arg(long, value_enum, default_value_t = Case::Closure)]
     case: Case,
     #[command(flatten)]
-    droplet: DropletFlags,
-    #[command(flatten)]
-    walls: ElasticFlags,
-    #[command(flatten)]
-    method: MethodFlags,
-    #[command(flatten)]
-    output: OutputFlags,
+    scene: SceneFlags<ElasticFlags>,
 }
 
 fn main() -> ExitCode {
     motile_examples::run(swim)
 }
 
-fn swim(flags: &Flags) -> Result<()> {
+fn swim(Flags { case, scene: flags }: &Flags) -> Result<()> {
     // The walls, and a droplet where the channel begins.
-    let ElasticFlags { length, width, .. } = flags.walls;
-    let setup = |shape| flags.walls.setup(&shape, &flags.droplet, &flags.method, -0.5 * length, None);
-    let setup = match flags.case {
-        Case::Closure => setup(ChannelShape::Straight { width })?,
-        Case::Ratchet => setup(ratchet(width))?,
-        Case::Branch => setup(branch(length, width))?,
+    let (width, length) = (flags.region.width, flags.region.along.length);
+    let shape = match case {
+        Case::Closure => ChannelShape::Straight { width },
+        Case::Ratchet => ratchet(width),
+        Case::Branch => branch(length, width),
     };
-    let Built { mut scene, droplets, solids } = match flags.case {
+    let setup = flags.setup(&shape, -0.5 * length, None)?;
+    let Built { mut scene, droplets, solids } = match case {
         Case::Closure => build_with(&setup, &closure(length, width)?)?,
         Case::Ratchet | Case::Branch => setup.build()?,
     };
@@ -96,14 +90,9 @@ fn swim(flags: &Flags) -> Result<()> {
     }
 
     // The run and its results.
-    let title = format!("{},  {}", caption(&setup), flags.walls.caption()?);
-    let mut run =
-        WatchedRun::new(&mut scene, &droplets, &setup, &flags.method, &flags.output, "custom_geometry", title)?;
-    let outcome = run.go(&mut scene)?;
-    let summary = run.summary()?;
-    summary.write(&run.directory().join("summary.json"))?;
-    say(summary.table().trim_end());
-    run.write_pictures(&mut scene)?;
-    say(format_args!("results in {}", run.directory().display()));
-    Ok(outcome?)
+    let caption = flags.region.caption()?;
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "custom_geometry", &caption)?;
+    run.go(&mut scene, None)?;
+    let summary = run.summary(&scene)?;
+    run.finish(&mut scene, &summary)
 }

@@ -8,55 +8,38 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
-use motile::active_interface::trajectory::{Evidence, RegimeCriteria};
 use motile::ib_core::Body;
 use motile::{Built, ChannelShape};
-use motile_examples::{DropletFlags, ElasticFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
+use motile_examples::{ElasticFlags, SceneFlags, WatchedRun, say};
 
 /// An active droplet swims between elastic walls.
 #[derive(Debug, Parser)]
 struct Flags {
     #[command(flatten)]
-    droplet: DropletFlags,
-    #[command(flatten)]
-    walls: ElasticFlags,
-    #[command(flatten)]
-    method: MethodFlags,
-    #[command(flatten)]
-    output: OutputFlags,
+    scene: SceneFlags<ElasticFlags>,
 }
 
 fn main() -> ExitCode {
     motile_examples::run(swim)
 }
 
-fn swim(flags: &Flags) -> Result<()> {
+fn swim(Flags { scene: flags }: &Flags) -> Result<()> {
     // The droplet and the walls.
-    let shape = ChannelShape::Straight { width: flags.walls.width };
-    let setup = flags.walls.setup(&shape, &flags.droplet, &flags.method, 0.0, None)?;
+    let shape = ChannelShape::Straight { width: flags.region.width };
+    let setup = flags.setup(&shape, 0.0, None)?;
     let Built { mut scene, droplets, solids } = setup.build()?;
     for wall in &solids {
         say(format_args!("{}: {}", scene.body(*wall)?.name(), scene.body(*wall)?.mesh().quality()));
     }
 
     // The run, with all that watches it.
-    let title = format!("{},  {}", caption(&setup), flags.walls.caption()?);
-    let mut run =
-        WatchedRun::new(&mut scene, &droplets, &setup, &flags.method, &flags.output, "elastic_channel", title)?;
-    let outcome = run.go(&mut scene)?;
+    let caption = flags.region.caption()?;
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "elastic_channel", &caption)?;
+    run.go(&mut scene, None)?;
 
     // The results, also of a run that broke off.
-    let mut summary = run.summary()?;
-    let report = run.recorder().records().regime(&RegimeCriteria::default())?;
-    let Evidence { amplitude, .. } = report.evidence;
-    summary.put("regime", report.regime.to_string(), "across the channel");
-    summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
-    if let Some(last) = run.recorder().records().records().last() {
-        summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
-    }
-    summary.write(&run.directory().join("summary.json"))?;
-    say(summary.table().trim_end());
-    run.write_pictures(&mut scene)?;
-    say(format_args!("results in {}", run.directory().display()));
-    Ok(outcome?)
+    let mut summary = run.summary(&scene)?;
+    run.put_regime(&mut summary)?;
+    summary.put("pressure_gradient", run.last()?.pressure_gradient, "mean along the channel");
+    run.finish(&mut scene, &summary)
 }

@@ -9,61 +9,44 @@ use std::process::ExitCode;
 use anyhow::Result;
 use clap::Parser;
 use motile::Built;
-use motile::active_interface::{
-    observables::net_flux,
-    trajectory::{Evidence, RegimeCriteria},
-};
-use motile_examples::{ChannelFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
+use motile::active_interface::{observables::net_flux, trajectory::Evidence};
+use motile_examples::{ChannelFlags, SceneFlags, WatchedRun};
 
 /// An active droplet swims in a channel with rigid walls.
 #[derive(Debug, Parser)]
 struct Flags {
     #[command(flatten)]
-    droplet: DropletFlags,
-    #[command(flatten)]
-    channel: ChannelFlags,
-    #[command(flatten)]
-    method: MethodFlags,
-    #[command(flatten)]
-    output: OutputFlags,
+    scene: SceneFlags<ChannelFlags>,
 }
 
 fn main() -> ExitCode {
     motile_examples::run(swim)
 }
 
-fn swim(flags: &Flags) -> Result<()> {
+fn swim(Flags { scene: flags }: &Flags) -> Result<()> {
     // The droplet, in the middle of its channel unless an offset is given, and the channel.
-    let ChannelFlags { width, length, .. } = flags.channel;
+    let (width, length) = (flags.region.width, flags.region.along.length);
     let mut setup = flags.method.setup(&flags.droplet, None)?;
-    flags.channel.apply(&mut setup, &flags.method)?;
+    flags.region.apply(&mut setup, &flags.method)?;
     let Built { mut scene, droplets, .. } = setup.build()?;
 
     // The run, with all that watches it.
-    let title = format!("{},  w = {width},  l = {length}", caption(&setup));
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &flags.method, &flags.output, "rigid_channel", title)?;
-    let outcome = run.go(&mut scene)?;
+    let caption = format!("w = {width},  l = {length}");
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "rigid_channel", &caption)?;
+    run.go(&mut scene, None)?;
 
     // The results, also of a run that broke off.
-    let mut summary = run.summary()?;
-    let report = run.recorder().records().regime(&RegimeCriteria::default())?;
-    let Evidence { amplitude, period, growth_rate, .. } = report.evidence;
-    summary.put("regime", report.regime.to_string(), "across the channel");
-    summary.put("amplitude", amplitude, "largest distance from the centre line, in the end (R0)");
+    let mut summary = run.summary(&scene)?;
+    let Evidence { period, growth_rate, .. } = run.put_regime(&mut summary)?;
     summary.put("period", period.map(|period| period.value), "of the oscillation");
     summary.put("growth_rate", growth_rate.map(|rate| rate.value), "of its amplitude");
-    if let Some(last) = run.recorder().records().records().last() {
-        summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
-        // Far from the interface, where the flow is smooth.
-        let flux = net_flux(scene.system_mut(), last.observables.centroid.x + 0.5 * length)?;
-        summary.put("net_flux", flux, "along the channel (R0^2 per time)");
-        summary.put("retrograde_flow", last.flow.map(|flow| flow.retrograde()), "past the droplet, seen from it");
-        summary.put("gap", last.gap, "to the walls, in the end (R0)");
-    }
+    let last = run.last()?;
+    summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
+    // Far from the interface, where the flow is smooth.
+    let flux = net_flux(scene.system_mut(), last.observables.centroid.x + 0.5 * length)?;
+    summary.put("net_flux", flux, "along the channel (R0^2 per time)");
+    summary.put("retrograde_flow", last.flow.map(|flow| flow.retrograde()), "past the droplet, seen from it");
+    summary.put("gap", last.gap, "to the walls, in the end (R0)");
     summary.put("minimum_gap", scene.system().minimum_wall_gap(), "to the walls, over the run (R0)");
-    summary.write(&run.directory().join("summary.json"))?;
-    say(summary.table().trim_end());
-    run.write_pictures(&mut scene)?;
-    say(format_args!("results in {}", run.directory().display()));
-    Ok(outcome?)
+    run.finish(&mut scene, &summary)
 }

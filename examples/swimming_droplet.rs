@@ -16,31 +16,25 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 use clap::Parser;
 use motile::{Built, Setup};
-use motile_examples::{BoxFlags, DropletFlags, MethodFlags, OutputFlags, WatchedRun, caption, say};
+use motile_examples::{BoxFlags, SceneFlags, WatchedRun};
 
 /// An active droplet swims in a periodic box.
 #[derive(Debug, Parser)]
 struct Flags {
     /// Scene file (TOML) to start from: any region, method, droplets and solids; the other flags override its entries
-    #[arg(long, value_name = "FILE")]
-    scene: Option<PathBuf>,
+    #[arg(long = "scene", value_name = "FILE")]
+    file: Option<PathBuf>,
     #[command(flatten)]
-    droplet: DropletFlags,
-    #[command(flatten)]
-    region: BoxFlags,
-    #[command(flatten)]
-    method: MethodFlags,
-    #[command(flatten)]
-    output: OutputFlags,
+    scene: SceneFlags<BoxFlags>,
 }
 
 fn main() -> ExitCode {
     motile_examples::run(swim)
 }
 
-fn swim(flags: &Flags) -> Result<()> {
+fn swim(Flags { file, scene: flags }: &Flags) -> Result<()> {
     // The scene: a droplet in a box, or what the file says.
-    let file = flags.scene.as_ref().map(|path| -> Result<Setup> {
+    let file = file.as_ref().map(|path| -> Result<Setup> {
         let read = || Ok::<_, anyhow::Error>(Setup::from_toml(&std::fs::read_to_string(path)?)?);
         read().with_context(|| format!("--scene {}", path.display()))
     });
@@ -49,16 +43,10 @@ fn swim(flags: &Flags) -> Result<()> {
     let Built { mut scene, droplets, .. } = setup.build()?;
 
     // The run, with all that watches it.
-    let title = caption(&setup);
-    let mut run =
-        WatchedRun::new(&mut scene, &droplets, &setup, &flags.method, &flags.output, "swimming_droplet", title)?;
-    let outcome = run.go(&mut scene)?;
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "swimming_droplet", "")?;
+    run.go(&mut scene, None)?;
 
     // The results, also of a run that broke off.
-    let summary = run.summary()?;
-    summary.write(&run.directory().join("summary.json"))?;
-    say(summary.table().trim_end());
-    run.write_pictures(&mut scene)?;
-    say(format_args!("results in {}", run.directory().display()));
-    Ok(outcome?)
+    let summary = run.summary(&scene)?;
+    run.finish(&mut scene, &summary)
 }

@@ -17,12 +17,10 @@ use motile::active_interface::{
     curve::polygon_moments,
     observables::{InterfaceState, centroid_velocity},
 };
-use motile::ib_core::{Every, Handle, Hydrodynamics, SceneError, System, Vec2};
+use motile::ib_core::{Every, Handle, Hydrodynamics, System, Vec2};
 use motile::{AnyFlow, Built, DropletSetup, Particles, Region, RepulsionSetup};
-use motile_examples::{
-    DropletFlags, MethodFlags, OutputFlags, Summary, check_run, pair, positive, say, settle_contrast,
-};
-use motile_output::{CsvTable, Look, Raster, RunProgress, Snapshot};
+use motile_examples::{DropletFlags, Job, MethodFlags, OutputFlags, Summary, pair, positive, settle_contrast};
+use motile_output::{CsvTable, Look, Raster, Snapshot};
 
 /// How the droplets start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -111,20 +109,12 @@ fn meet(flags: &Flags) -> Result<()> {
     let mut scene = scene.with_least_gap(0.0)?;
 
     // The run, observed.
-    let end = flags.method.time;
-    check_run(&scene, end, setup.step)?;
-    flags.output.write_scene(&setup)?;
-    let description = format!("two_droplets: scene {}", setup.fingerprint());
-    flags.output.checkpoints.resume(&mut scene, &description, end)?;
-    let directory = flags.output.directory("two_droplets")?;
+    let mut job = Job::new(&mut scene, &setup, &flags.method, &flags.output, "two_droplets")?;
     let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
-    let mut table = CsvTable::create(directory.join("trajectory.csv"), &names)?;
-    let mut progress = RunProgress::new(end, flags.output.quiet);
+    let mut table = CsvTable::create(job.directory.join("trajectory.csv"), &names)?;
     let mut record = |system: &mut System<AnyFlow>| -> Result<()> { Ok(table.push(&look(system, droplets)?)?) };
-    let run = scene.run(end).observe(Every::StepAfter(end / ROWS), &mut record).observe(Every::Steps(1), &mut progress);
-    let outcome = flags.output.checkpoints.watch(run, &description)?.go();
-    let seconds = progress.finish();
-    flags.output.checkpoints.save(&scene, &description, &outcome)?;
+    let every = Every::StepAfter(job.end / ROWS);
+    job.go(&mut scene, vec![(every, &mut record)])?;
 
     // The results, also of a run that broke off.
     let [_, x1, y1, speed1, x2, y2, speed2, distance] = look(scene.system_mut(), droplets)?;
@@ -138,26 +128,23 @@ fn meet(flags: &Flags) -> Result<()> {
     summary.put("repulsion", flags.repulsion.map(|values| values.to_vec()), "strength and range, if there was one");
     for (name, droplet) in ["first_area_change", "second_area_change"].into_iter().zip(droplets) {
         let body = scene.body(droplet)?;
-        summary.put(
-            name,
-            polygon_moments(body.markers())?.area / body.initial_area() - 1.0,
-            "relative, since the start",
-        );
+        let change = polygon_moments(body.markers())?.area / body.initial_area() - 1.0;
+        summary.put(name, change, "relative, since the start");
     }
     summary.put("time", scene.time(), "simulated");
     summary.put("steps", scene.steps(), "");
-    summary.put("seconds", seconds, "of computation");
-    summary.put("failure", outcome.as_ref().err().map(SceneError::explanation), "if the run broke off");
-    summary.write(&directory.join("summary.json"))?;
-    say(summary.table().trim_end());
-    if !flags.output.no_pictures {
-        let raster = Raster::of(scene.system(), flags.method.spacing(&setup))?;
-        let seen = Snapshot::take(scene.system_mut(), raster)?;
-        let concentration = setup.droplets[0].particles.map(|particles| particles.concentration);
-        Look { concentration, ..Look::default() }.write_picture(&seen, &[], directory.join("final.png"))?;
-    }
-    say(format_args!("results in {}", directory.display()));
-    Ok(outcome?)
+    summary.put("seconds", job.seconds, "of computation");
+    summary.put("failure", job.failure(), "if the run broke off");
+    let (draws, picture) = (job.draws(), job.directory.join("final.png"));
+    job.finish(&summary, || {
+        if draws {
+            let raster = Raster::of(scene.system(), flags.method.spacing(&setup))?;
+            let seen = Snapshot::take(scene.system_mut(), raster)?;
+            let concentration = setup.droplets[0].particles.map(|particles| particles.concentration);
+            Look { concentration, ..Look::default() }.write_picture(&seen, &[], picture)?;
+        }
+        Ok(())
+    })
 }
 
 /// Time, position and speed of both droplets, and the distance of their centres or nearest images.
@@ -165,16 +152,16 @@ fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> R
     let domain = system.hydrodynamics().medium().domain;
     let time = system.time();
     system.evaluate()?;
-    let mut seen = [(Vec2::zeros(), 0.0); 2];
+    let mut seen = [(Vec2::ZERO, 0.0); 2];
     for ((place, speed), droplet) in seen.iter_mut().zip(droplets) {
         let state = InterfaceState::of(system, droplet)?;
         *place = polygon_moments(state.markers)?.centroid;
-        *speed = centroid_velocity(state.markers, state.velocities)?.norm();
+        *speed = centroid_velocity(state.markers, state.velocities)?.length();
     }
     let [(a, speed1), (b, speed2)] = seen;
     let mut apart = b - a;
-    for (component, period) in apart.iter_mut().zip(domain.periods) {
-        *component -= period.map_or(0.0, |period| period * (*component / period).round());
+    for (axis, period) in domain.periods.into_iter().enumerate() {
+        apart[axis] -= period.map_or(0.0, |period| period * (apart[axis] / period).round());
     }
-    Ok([time, a.x, a.y, speed1, b.x, b.y, speed2, apart.norm()])
+    Ok([time, a.x, a.y, speed1, b.x, b.y, speed2, apart.length()])
 }

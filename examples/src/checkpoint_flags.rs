@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::{Context, Result, ensure};
 use clap::Args;
-use motile::ib_core::{Checkpoint, Hydrodynamics, Integrator, Run, Scene, SceneError};
+use motile::AnyFlow;
+use motile::ib_core::{Checkpoint, Midpoint, Run, Scene, SceneError};
 
 use crate::parse::steps;
 
@@ -35,21 +36,13 @@ impl CheckpointFlags {
     ///
     /// # Errors
     /// A checkpoint that cannot be read or is of another scene, or one that is not before `end`.
-    pub fn resume<H: Hydrodynamics, I: Integrator>(
-        &self,
-        scene: &mut Scene<H, I>,
-        description: &str,
-        end: f64,
-    ) -> Result<()> {
+    pub fn resume(&self, scene: &mut Scene<AnyFlow>, description: &str, end: f64) -> Result<()> {
         let Some(path) = &self.resume else { return Ok(()) };
-        let checkpoint = Checkpoint::read(path).with_context(|| format!("--resume {}", path.display()))?;
-        ensure!(
-            checkpoint.time() < end,
-            "--resume {}: the checkpoint is of t = {}, give a --time after that",
-            path.display(),
-            checkpoint.time()
-        );
-        scene.resume(&checkpoint).with_context(|| format!("--resume {}", path.display()))?;
+        let flag = || format!("--resume {}", path.display());
+        let checkpoint = Checkpoint::read(path).with_context(flag)?;
+        let time = checkpoint.time();
+        ensure!(time < end, "{}: the checkpoint is of t = {time}, give a --time after that", flag());
+        scene.resume(&checkpoint).with_context(flag)?;
         if checkpoint.description() != description {
             eprintln!(
                 "note: the checkpoint was saved with other settings ({}), the run goes on with those given now",
@@ -63,11 +56,11 @@ impl CheckpointFlags {
     ///
     /// # Errors
     /// Ctrl-C that cannot be listened to.
-    pub fn watch<'a, H: Hydrodynamics, I: Integrator>(
+    pub fn watch<'a>(
         &'a self,
-        run: Run<'a, H, I>,
+        run: Run<'a, AnyFlow, Midpoint>,
         description: &'a str,
-    ) -> Result<Run<'a, H, I>> {
+    ) -> Result<Run<'a, AnyFlow, Midpoint>> {
         let Some(path) = &self.checkpoint else { return Ok(run) };
         match ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed)) {
             // A second run of the same program is listened to already.
@@ -82,26 +75,14 @@ impl CheckpointFlags {
     ///
     /// # Errors
     /// A file that cannot be written.
-    pub fn save<H: Hydrodynamics, I: Integrator>(
-        &self,
-        scene: &Scene<H, I>,
-        description: &str,
-        outcome: &Result<(), SceneError>,
-    ) -> Result<()> {
+    pub fn save(&self, scene: &Scene<AnyFlow>, description: &str, outcome: &Result<(), SceneError>) -> Result<()> {
         let Some(path) = &self.checkpoint else { return Ok(()) };
-        let path = match outcome {
-            Ok(()) | Err(SceneError::Stopped { .. }) => path.clone(),
-            Err(_) => last(path),
-        };
-        Ok(scene.checkpoint(description).write(&path)?)
+        let mut path = path.clone().into_os_string();
+        if !matches!(outcome, Ok(()) | Err(SceneError::Stopped { .. })) {
+            path.push(".last");
+        }
+        Ok(scene.checkpoint(description).write(Path::new(&path))?)
     }
-}
-
-/// The file for the last state before a failure.
-fn last(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".last");
-    PathBuf::from(name)
 }
 
 #[cfg(test)]

@@ -6,10 +6,11 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, Result, ensure};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use motile::stokes_grid::Drive;
 use motile::{DropletSetup, Exclusion, Region, Setup, Start};
 
-use crate::parse::{activity, finite, not_negative, pair, positive, seed};
+use crate::parse::{activity, finite, not_negative, one_of, pair, positive, seed};
 use crate::{CheckpointFlags, MethodFlags};
 
 /// Radius of a droplet, the unit of length.
@@ -19,32 +20,16 @@ const LONGEST: f64 = 1000.0;
 /// Relative amplitude of the random perturbation.
 const PERTURBATION: f64 = 0.05;
 
-/// How the concentration starts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Initial {
-    /// c = (1 - cos(theta)) c0, thesis (2.46).
-    Polarised,
-    /// c0 with a small random perturbation.
-    Perturbed,
-}
-
+/// How the concentration starts; the seed is that of `--seed`.
+const STARTS: [(&str, &str, Start); 2] = [
+    ("polarised", "c = (1 - cos(theta)) c0, thesis (2.46)", Start::Polarised),
+    ("perturbed", "c0 with a small random perturbation", Start::Perturbed { amplitude: PERTURBATION, seed: 0 }),
+];
 /// What drives the flow along a channel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Drive {
-    /// No net flux.
-    ZeroFlux,
-    /// No mean pressure gradient, as in the thesis.
-    ZeroGradient,
-}
-
-impl From<Drive> for motile::stokes_grid::Drive {
-    fn from(drive: Drive) -> Self {
-        match drive {
-            Drive::ZeroFlux => Self::ZeroFlux,
-            Drive::ZeroGradient => Self::ZeroGradient,
-        }
-    }
-}
+const DRIVES: [(&str, &str, Drive); 2] = [
+    ("zero-flux", "No net flux", Drive::ZeroFlux),
+    ("zero-gradient", "No mean pressure gradient, as in the thesis", Drive::ZeroGradient),
+];
 
 /// The droplet. What is not given stays as it is in the scene, by default as listed.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -68,8 +53,8 @@ pub struct DropletFlags {
     #[arg(long, value_parser = finite, allow_hyphen_values = true)]
     pub angle: Option<f64>,
     /// Initial concentration [default: polarised]
-    #[arg(long, value_enum)]
-    pub initial: Option<Initial>,
+    #[arg(long, value_parser = one_of(&STARTS))]
+    pub initial: Option<Start>,
     /// Seed of the random perturbation
     #[arg(long, default_value_t = 1, value_parser = seed, allow_hyphen_values = true)]
     pub seed: u64,
@@ -88,9 +73,8 @@ impl DropletFlags {
         particles.activity = self.activity.unwrap_or(particles.activity);
         particles.excluded_volume = self.excluded_volume.map_or(particles.excluded_volume, Exclusion::Step);
         particles.start = match self.initial {
-            None => particles.start,
-            Some(Initial::Polarised) => Start::Polarised,
-            Some(Initial::Perturbed) => Start::Perturbed { amplitude: PERTURBATION, seed: self.seed },
+            Some(Start::Perturbed { amplitude, .. }) => Start::Perturbed { amplitude, seed: self.seed },
+            start => start.unwrap_or(particles.start),
         };
     }
 }
@@ -135,15 +119,9 @@ pub struct ChannelFlags {
     /// Distance of the walls (R0)
     #[arg(long, default_value_t = 3.0, value_parser = positive, allow_hyphen_values = true)]
     pub width: f64,
-    /// Period along the channel (R0)
-    #[arg(long, default_value_t = 12.0, value_parser = positive, allow_hyphen_values = true)]
-    pub length: f64,
-    /// Initial distance of the droplet from the centre line (R0)
-    #[arg(long, default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true)]
-    pub lateral_offset: f64,
-    /// What drives the flow
-    #[arg(long, value_enum, default_value_t = Drive::ZeroGradient)]
-    pub drive: Drive,
+    /// The period
+    #[command(flatten)]
+    pub along: AlongFlags,
 }
 
 impl ChannelFlags {
@@ -153,19 +131,59 @@ impl ChannelFlags {
     /// A droplet that does not fit between the walls or into the period; a time step or spacing that does not fit
     /// ([`MethodFlags::check`]).
     pub fn apply(&self, setup: &mut Setup, method: &MethodFlags) -> Result<()> {
-        let (width, length, offset) = (self.width, self.length, self.lateral_offset);
+        let (width, offset) = (self.width, self.along.lateral_offset);
         ensure!(width >= 2.0 * RADIUS, "--width {width} is too small for a droplet of diameter 2: give at least 2");
-        ensure!(length > 2.0 * RADIUS, "--length {length} is too small for a droplet of diameter 2: give more than 2");
-        ensure!(width.max(length) <= LONGEST, "a channel of {length} x {width} is too large: give at most {LONGEST}");
         let room = 0.5 * width - RADIUS;
         ensure!(
             offset.abs() <= room,
             "--lateral-offset {offset} puts the droplet into a wall: give at most {room} for --width {width}"
         );
-        setup.region = Region::Channel { length, width, drive: self.drive.into() };
-        setup.droplets[0].centre = [0.0, offset];
-        method.check(setup, &[(length, "length"), (width, "width")])
+        self.along.apply(setup, method, 0.0, (width, "width"))
     }
+}
+
+/// A period of a channel: the droplet in it, and what drives the flow.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct AlongFlags {
+    /// Period along the channel (R0)
+    #[arg(long, default_value_t = 12.0, value_parser = positive, allow_hyphen_values = true)]
+    pub length: f64,
+    /// Initial distance of the droplet from the centre line (R0)
+    #[arg(long, default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true)]
+    pub lateral_offset: f64,
+    /// What drives the flow
+    #[arg(long, default_value = "zero-gradient", value_parser = one_of(&DRIVES))]
+    pub drive: Drive,
+}
+
+impl AlongFlags {
+    /// Puts a channel between rigid walls into a scene, and the droplet `x` along it (R0). The distance of the walls
+    /// (R0) comes with what it is named after.
+    pub(crate) fn apply(&self, setup: &mut Setup, method: &MethodFlags, x: f64, walls: (f64, &str)) -> Result<()> {
+        let (length, width) = (self.length, walls.0);
+        ensure!(length > 2.0 * RADIUS, "--length {length} is too small for a droplet of diameter 2: give more than 2");
+        ensure!(width.max(length) <= LONGEST, "a channel of {length} x {width} is too large: give at most {LONGEST}");
+        setup.region = Region::Channel { length, width, drive: self.drive };
+        setup.droplets[0].centre = [x, self.lateral_offset];
+        method.check(setup, &[(length, "length"), walls])
+    }
+}
+
+/// What a run of a droplet is told: the droplet, the region `R`, the method, the output.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct SceneFlags<R: Args> {
+    /// The droplet
+    #[command(flatten)]
+    pub droplet: DropletFlags,
+    /// The region
+    #[command(flatten)]
+    pub region: R,
+    /// The method
+    #[command(flatten)]
+    pub method: MethodFlags,
+    /// The output
+    #[command(flatten)]
+    pub output: OutputFlags,
 }
 
 /// What is written where.

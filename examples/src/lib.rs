@@ -2,15 +2,15 @@
 //!
 //! | for | there are |
 //! |---|---|
-//! | flags | [`run`] around groups such as [`DropletFlags`], [`MethodFlags`], [`BoxFlags`], [`ChannelFlags`], [`OutputFlags`] |
+//! | flags | [`run`] around [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`] or [`ElasticFlags`] |
 //! | results | [`Summary`] (`summary.json` and a table) |
-//! | runs with a droplet | [`WatchedRun`] |
+//! | runs | [`Job`] of any scene, [`WatchedRun`] of one with a droplet |
 //! | constrictions | [`Passage`] |
 
 mod checkpoint_flags;
 mod command_line;
-mod droplet_summary;
 mod flags;
+mod job;
 mod method_flags;
 mod parse;
 mod passage;
@@ -21,12 +21,12 @@ mod watched_run;
 
 pub use checkpoint_flags::CheckpointFlags;
 pub use command_line::{run, say};
-pub use droplet_summary::{RunCost, droplet_summary, put_solids};
-pub use flags::{BoxFlags, ChannelFlags, Drive, DropletFlags, Initial, OutputFlags};
-pub use method_flags::{Contrast, FlowMethod, MethodFlags, Preset, settle_contrast};
-pub use parse::{TimeStep, activity, count, finite, kernel, not_negative, pair, positive, seed};
+pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, OutputFlags, SceneFlags};
+pub use job::Job;
+pub use method_flags::{MethodFlags, Preset, settle_contrast};
+pub use parse::{activity, pair, positive};
 pub use passage::{Decided, Passage, Verdict};
 pub use steady::Steadiness;
 pub use summary::{Summary, make_directory};
-pub use wall_flags::{ElasticFlags, Material, Mesh, SurfaceRule};
-pub use watched_run::{WatchedRun, caption, check_run};
+pub use wall_flags::{ElasticFlags, Material};
+pub use watched_run::WatchedRun;

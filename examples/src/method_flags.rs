@@ -3,16 +3,14 @@
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 use motile::ib_core::{AnyKernel, StepSize};
-use motile::{GridMethod, IntegralMethod, Method, MethodKind, Setup};
+use motile::{Contrast, GridMethod, IntegralMethod, Method, MethodKind, Setup};
 
 use crate::DropletFlags;
 use crate::flags::RADIUS;
-use crate::parse::{TimeStep, count, kernel, positive};
+use crate::parse::{count, kernel, one_of, positive, time_step};
 
 /// Most cells of a grid in a direction.
 const MOST_CELLS: f64 = 4096.0;
-/// Automatic time steps, as a fraction of the stability limit.
-const STEP_OF_LIMIT: f64 = 0.5;
 
 /// Settings that go together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -24,35 +22,28 @@ pub enum Preset {
 }
 
 /// How the flow is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FlowMethod {
-    /// Without a grid.
-    BoundaryIntegral,
-    /// On a grid.
-    ImmersedBoundary,
-}
-
+pub(crate) const METHODS: [(&str, &str, MethodKind); 2] = [
+    ("boundary-integral", "Without a grid", MethodKind::Integral),
+    ("immersed-boundary", "On a grid", MethodKind::Grid),
+];
 /// How a grid treats two viscosities.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Contrast {
-    /// A jump at the interface.
-    Sharp,
-    /// A smooth viscosity, as in the thesis.
-    Arithmetic,
-}
+const CONTRASTS: [(&str, &str, Contrast); 2] = [
+    ("sharp", "A jump at the interface", Contrast::Sharp),
+    ("arithmetic", "A smooth viscosity, as in the thesis", Contrast::Arithmetic),
+];
 
 /// The numerical method.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct MethodFlags {
     /// How the flow is computed; without it on a grid if a flag of the grid is given, and without a grid otherwise
-    #[arg(long, value_enum)]
-    pub method: Option<FlowMethod>,
+    #[arg(long, value_parser = one_of(&METHODS))]
+    pub method: Option<MethodKind>,
     /// Grid spacing h (R0); without a grid, that of pictures [default: 0.05]
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub spacing: Option<f64>,
     /// Time step, 'auto' (half of what is stable), 'adaptive' or 'adaptive:TOLERANCE'; without it the preset's
-    #[arg(long, allow_hyphen_values = true)]
-    pub dt: Option<TimeStep>,
+    #[arg(long, value_parser = time_step, allow_hyphen_values = true)]
+    pub dt: Option<StepSize>,
     /// Time to be simulated
     #[arg(long, default_value_t = 60.0, value_parser = positive, allow_hyphen_values = true)]
     pub time: f64,
@@ -61,7 +52,7 @@ pub struct MethodFlags {
     #[arg(long, value_parser = kernel)]
     pub kernel: Option<AnyKernel>,
     /// How a grid treats two viscosities; without it the preset's
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = one_of(&CONTRASTS))]
     pub contrast_method: Option<Contrast>,
     /// Nodes of the interface without a grid [default: 72]
     #[arg(long, value_parser = count, allow_hyphen_values = true)]
@@ -84,24 +75,16 @@ impl MethodFlags {
             Preset::Thesis => Setup::thesis(),
             Preset::Accurate => Setup::default(),
         });
-        setup.method = match (self.kind(setup.method.kind()), setup.method) {
-            (MethodKind::Grid, method) => {
-                let base = match (method, self.preset) {
-                    (Method::Grid(grid), _) => grid,
-                    (Method::Integral(_), Preset::Thesis) => GridMethod::thesis(),
-                    (Method::Integral(_), Preset::Accurate) => GridMethod::default(),
-                };
-                Method::Grid(self.grid(base)?)
-            }
-            (MethodKind::Integral, Method::Integral(base)) => Method::Integral(self.integral(base)?),
-            (MethodKind::Integral, Method::Grid(_)) => Method::Integral(self.integral(IntegralMethod::default())?),
+        let preset = if self.preset == Preset::Thesis { GridMethod::thesis() } else { GridMethod::default() };
+        let (grid, integral) = match setup.method {
+            Method::Grid(grid) => (grid, IntegralMethod::default()),
+            Method::Integral(integral) => (preset, integral),
         };
-        setup.step = match self.dt {
-            Some(TimeStep::Fixed(dt)) => StepSize::Fixed(dt),
-            Some(TimeStep::Adaptive(tolerance)) => StepSize::Adaptive { tolerance },
-            Some(TimeStep::Auto) => StepSize::OfLimit(STEP_OF_LIMIT),
-            None => setup.step,
+        setup.method = match self.kind(setup.method.kind()) {
+            MethodKind::Grid => Method::Grid(self.grid(grid)?),
+            MethodKind::Integral => Method::Integral(self.integral(integral)?),
         };
+        setup.step = self.dt.unwrap_or(setup.step);
         droplet.apply(&mut setup);
         settle_contrast(&mut setup);
         Ok(setup)
@@ -113,8 +96,7 @@ impl MethodFlags {
         let for_nodes = self.nodes.is_some() || self.concentration_cells.is_some();
         let for_grid = self.spacing.is_some() || self.kernel.is_some() || self.contrast_method.is_some();
         match self.method {
-            Some(FlowMethod::BoundaryIntegral) => MethodKind::Integral,
-            Some(FlowMethod::ImmersedBoundary) => MethodKind::Grid,
+            Some(kind) => kind,
             None if self.preset == Preset::Thesis || (for_grid && !for_nodes) => MethodKind::Grid,
             None if for_nodes => MethodKind::Integral,
             None => base,
@@ -131,11 +113,7 @@ impl MethodFlags {
         Ok(GridMethod {
             spacing: self.spacing.unwrap_or(base.spacing),
             kernel: self.kernel.unwrap_or(base.kernel),
-            contrast: match self.contrast_method {
-                Some(Contrast::Sharp) => motile::Contrast::Sharp,
-                Some(Contrast::Arithmetic) => motile::Contrast::Arithmetic,
-                None => base.contrast,
-            },
+            contrast: self.contrast_method.unwrap_or(base.contrast),
             ..base
         })
     }
@@ -166,11 +144,10 @@ impl MethodFlags {
     /// flag.
     ///
     /// # Errors
-    /// On a grid, a spacing that does not divide a length ; a time step that is too long or too short for
-    /// the run.
+    /// On a grid, a spacing that does not divide a length; a time step that is too long or too short for the run.
     pub fn check(&self, setup: &Setup, sides: &[(f64, &str)]) -> Result<()> {
         if let Method::Grid(grid) = setup.method {
-            sides.iter().try_for_each(|&(side, flag)| cells(grid.spacing, side, flag).map(|_| ()))?;
+            sides.iter().try_for_each(|&(side, flag)| check_cells(grid.spacing, side, flag))?;
         }
         if let StepSize::Fixed(dt) = setup.step {
             let (time, steps) = (self.time, self.time / dt);
@@ -185,19 +162,19 @@ impl MethodFlags {
 pub fn settle_contrast(setup: &mut Setup) {
     let differs = setup.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != setup.viscosity));
     if let Method::Grid(grid) = &mut setup.method
-        && grid.contrast == motile::Contrast::Arithmetic
+        && grid.contrast == Contrast::Arithmetic
         && differs
     {
         grid.corrected = false;
     }
 }
 
-/// The number of cells of spacing `h` over `length` (R0), the value of flag `flag`.
+/// Refuses a spacing `h` over `length` (R0), the value of flag `flag`.
 ///
 /// # Errors
 /// A spacing that does not divide the length, that is too coarse for a droplet (less than four cells a radius), or
 /// that makes for more than 4096 cells.
-pub(crate) fn cells(h: f64, length: f64, flag: &str) -> Result<usize> {
+fn check_cells(h: f64, length: f64, flag: &str) -> Result<()> {
     ensure!(h <= 0.25 * RADIUS, "--spacing {h} is too coarse for a droplet of radius 1: give at most 0.25");
     let cells = length / h;
     ensure!(
@@ -210,5 +187,5 @@ pub(crate) fn cells(h: f64, length: f64, flag: &str) -> Result<usize> {
         (cells - whole).abs() <= 1e-9 * whole,
         "--{flag} {length} is {cells:.3} cells of --spacing {h}: give --{flag} {fitting} or a spacing that divides it"
     );
-    Ok(whole as usize)
+    Ok(())
 }

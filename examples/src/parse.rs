@@ -1,51 +1,40 @@
 //! Values of command line flags: from text to numbers, or a reason why not.
 
-use std::{fmt, str::FromStr};
-
-use motile::ib_core::{AnyKernel, Kernel};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use motile::ib_core::{AnyKernel, Kernel, StepSize};
 
 /// Largest error of an adaptive step unless something else is said.
 const TOLERANCE: f64 = 1e-5;
+/// Automatic time steps, as a fraction of the stability limit.
+const OF_LIMIT: f64 = 0.5;
 
-/// The time step that is asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum TimeStep {
-    /// Half of what is stable.
-    Auto,
-    /// As long as accuracy and stability allow, with this largest error of a step.
-    Adaptive(f64),
-    /// This one (time).
-    Fixed(f64),
+/// The parser of a flag that takes one of a few values, each with its name and a word about it.
+pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
+    values: &'static [(&'static str, &'static str, T)],
+) -> impl TypedValueParser<Value = T> {
+    let names = values.iter().map(|&(name, about, _)| PossibleValue::new(name).help(about));
+    PossibleValuesParser::new(names).try_map(|text| {
+        let named = values.iter().find(|(name, ..)| *name == text);
+        named.map(|&(.., value)| value).ok_or("is none of the names that there are")
+    })
 }
 
-impl FromStr for TimeStep {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        if text == "auto" {
-            return Ok(Self::Auto);
-        }
-        let (kind, number) = match text.strip_prefix("adaptive") {
-            Some("") => return Ok(Self::Adaptive(TOLERANCE)),
-            Some(rest) => (Self::Adaptive as fn(f64) -> Self, rest.strip_prefix(':').unwrap_or("none")),
-            None => (Self::Fixed as fn(f64) -> Self, text),
-        };
-        match number.parse::<f64>() {
-            Ok(number) if number.is_finite() && number > 0.0 => match kind(number) {
-                Self::Adaptive(tolerance) if tolerance >= 1.0 => Err("must have a tolerance below 1".into()),
-                step => Ok(step),
-            },
-            _ => Err("must be a number above 0, 'auto', 'adaptive' or 'adaptive:' and a tolerance".into()),
-        }
-    }
-}
-
-impl fmt::Display for TimeStep {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Auto => f.write_str("auto"),
-            Self::Adaptive(tolerance) => write!(f, "adaptive:{tolerance}"),
-            Self::Fixed(step) => write!(f, "{step}"),
+/// A time step: a number, `auto`, `adaptive` or `adaptive:TOLERANCE`.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub(crate) fn time_step(text: &str) -> Result<StepSize, String> {
+    let above_zero = |number: &str| number.parse::<f64>().ok().filter(|v| v.is_finite() && *v > 0.0);
+    let step = match (text, text.strip_prefix("adaptive:")) {
+        ("auto", _) => Some(StepSize::OfLimit(OF_LIMIT)),
+        ("adaptive", _) => Some(StepSize::Adaptive { tolerance: TOLERANCE }),
+        (_, Some(tolerance)) => above_zero(tolerance).map(|tolerance| StepSize::Adaptive { tolerance }),
+        _ => above_zero(text).map(StepSize::Fixed),
+    };
+    match step {
+        Some(StepSize::Adaptive { tolerance: 1.0.. }) => Err("must have a tolerance below 1".into()),
+        step => {
+            step.ok_or_else(|| "must be a number above 0, 'auto', 'adaptive' or 'adaptive:' and a tolerance".to_owned())
         }
     }
 }
@@ -65,7 +54,7 @@ fn number(text: &str, rule: &str, valid: impl Fn(f64) -> bool) -> Result<f64, St
 ///
 /// # Errors
 /// The rule that `text` breaks.
-pub fn finite(text: &str) -> Result<f64, String> {
+pub(crate) fn finite(text: &str) -> Result<f64, String> {
     number(text, "must be a number from -1e6 to 1e6", |_| true)
 }
 
@@ -81,7 +70,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
 ///
 /// # Errors
 /// The rule that `text` breaks.
-pub fn count(text: &str) -> Result<usize, String> {
+pub(crate) fn count(text: &str) -> Result<usize, String> {
     match text.trim().parse::<usize>() {
         Ok(count) if (16..=16384).contains(&count) => Ok(count),
         _ => Err("must be a whole number from 16 to 16384".into()),
@@ -103,7 +92,7 @@ pub(crate) fn steps(text: &str) -> Result<usize, String> {
 ///
 /// # Errors
 /// The rule that `text` breaks.
-pub fn not_negative(text: &str) -> Result<f64, String> {
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
     number(text, "must be a number from 0 to 1e6", |v| v >= 0.0)
 }
 
@@ -128,7 +117,7 @@ pub fn pair(text: &str) -> Result<[f64; 2], String> {
 ///
 /// # Errors
 /// The names that there are.
-pub fn kernel(text: &str) -> Result<AnyKernel, String> {
+pub(crate) fn kernel(text: &str) -> Result<AnyKernel, String> {
     text.parse().map_err(|_| format!("must be one of {}", AnyKernel::ALL.map(|kernel| kernel.name()).join(", ")))
 }
 
@@ -136,7 +125,7 @@ pub fn kernel(text: &str) -> Result<AnyKernel, String> {
 ///
 /// # Errors
 /// The rule that `text` breaks.
-pub fn seed(text: &str) -> Result<u64, String> {
+pub(crate) fn seed(text: &str) -> Result<u64, String> {
     text.trim().parse().map_err(|_| format!("must be a whole number from 0 to {}", u64::MAX))
 }
 

@@ -2,11 +2,8 @@
 
 use std::fmt;
 
-use anyhow::{Context, Result};
-use motile::{
-    active_interface::{ActiveDroplet, curve::polygon_moments},
-    ib_core::{Hydrodynamics, Observer, System},
-};
+use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
+use motile::ib_core::{Hydrodynamics, Observer, System};
 
 use crate::Summary;
 
@@ -29,9 +26,6 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Passed, Self::TurnedBack, Self::Stuck, Self::Undecided];
-
     /// As it stands in `summary.json`.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -41,12 +35,6 @@ impl Verdict {
             Self::Stuck => "stuck",
             Self::Undecided => "undecided",
         }
-    }
-}
-
-impl fmt::Display for Verdict {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
     }
 }
 
@@ -91,12 +79,6 @@ impl Passage {
         self.track.last().map_or(0.0, |(time, _)| *time)
     }
 
-    /// The largest x of the centroid (R0).
-    #[must_use]
-    pub fn furthest(&self) -> f64 {
-        self.furthest
-    }
-
     /// Takes the centroid at a time into account.
     pub fn follow(&mut self, time: f64, x: f64) {
         self.furthest = self.furthest.max(x);
@@ -125,21 +107,16 @@ impl Passage {
         summary.put("verdict_time", self.time(), "when that was clear");
         summary.put("furthest_x", self.furthest, "of the centroid (R0)");
     }
+}
 
-    fn look<H: Hydrodynamics>(&mut self, system: &System<H>) -> Result<()> {
-        let droplet = system.bodies::<ActiveDroplet>().next().context("a scene without a droplet")?.1;
+impl<H: Hydrodynamics> Observer<H> for Passage {
+    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        let (_, droplet) = system.bodies::<ActiveDroplet>().next().ok_or("a scene without a droplet")?;
         let x = polygon_moments(droplet.markers())?.centroid.x;
         // A second look at the same time, where a run starts.
         if self.track.last().is_none_or(|(time, _)| *time < system.time()) {
             self.follow(system.time(), x);
         }
-        Ok(())
-    }
-}
-
-impl<H: Hydrodynamics> Observer<H> for Passage {
-    fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        self.look(system)?;
         if self.verdict == Verdict::Undecided { Ok(()) } else { Err(Decided.into()) }
     }
 }

@@ -1,6 +1,6 @@
 //! The results of a run: a file for programs, a table for people.
 
-use std::{fmt::Write as _, fs, path::Path};
+use std::{collections::HashMap, fmt::Write as _, fs, path::Path};
 
 use anyhow::{Context, Result};
 use serde_json::{Map, Value};
@@ -19,7 +19,7 @@ use serde_json::{Map, Value};
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Summary {
     values: Map<String, Value>,
-    about: Map<String, Value>,
+    about: HashMap<String, String>,
 }
 
 impl Summary {
@@ -52,16 +52,13 @@ impl Summary {
     /// The table: names, values to six figures, and what they are.
     #[must_use]
     pub fn table(&self) -> String {
-        let rows: Vec<[String; 3]> = self
-            .values
-            .iter()
-            .map(|(name, value)| [name.clone(), shown(value), about_text(&self.about, name)])
-            .collect();
-        let width = |column: usize| rows.iter().map(|r| r[column].chars().count()).max().unwrap_or(0);
+        let rows = || self.values.iter().map(|(name, value)| (name, shown(value), self.about.get(name)));
+        let names = rows().map(|(name, ..)| name.chars().count()).max().unwrap_or(0);
         // A long value, such as a list, would push all remarks to the right.
-        let (names, values) = (width(0), width(1).min(14));
+        let values = rows().map(|(_, value, _)| value.chars().count()).max().unwrap_or(0).min(14);
         let mut table = String::new();
-        for [name, value, about] in &rows {
+        for (name, value, about) in rows() {
+            let about = about.map_or("", String::as_str);
             let line = format!("  {name:<names$}  {value:<values$}  {about}");
             // Writing to a string cannot fail.
             let _ = writeln!(table, "{}", line.trim_end());
@@ -91,7 +88,7 @@ impl Summary {
         }
         let read = || -> Result<Map<String, Value>> { Ok(serde_json::from_str(&fs::read_to_string(path)?)?) };
         let values = read().with_context(|| format!("reading {}", path.display()))?;
-        Ok(Some(Self { values, about: Map::new() }))
+        Ok(Some(Self { values, about: HashMap::new() }))
     }
 
     /// A number among the results; not a number if there is none of that name.
@@ -99,10 +96,6 @@ impl Summary {
     pub fn number(&self, name: &str) -> f64 {
         self.values.get(name).and_then(Value::as_f64).unwrap_or(f64::NAN)
     }
-}
-
-fn about_text(about: &Map<String, Value>, name: &str) -> String {
-    about.get(name).and_then(Value::as_str).unwrap_or_default().to_string()
 }
 
 /// A value as a person reads it.

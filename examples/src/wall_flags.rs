@@ -4,18 +4,13 @@ use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::SetupError;
 use motile::elastic_solids::Moduli;
-use motile::{ChannelShape, MeshKind, Region, Setup, SolidSetup, Surface};
+use motile::{ChannelShape, MeshKind, MethodKind, Setup, SolidSetup, Surface};
 
-use crate::flags::RADIUS;
-use crate::method_flags::FlowMethod;
-use crate::parse::{finite, positive};
-use crate::{Drive, DropletFlags, MethodFlags, Preset};
+use crate::parse::{one_of, positive};
+use crate::{AlongFlags, MethodFlags, Preset, SceneFlags};
 
 /// Spring constant of the thesis' softest walls.
 const SOFT: f64 = 1e4;
-/// Longest channel (R0).
-const LONGEST: f64 = 1000.0;
-
 /// Fewest points along a channel.
 const LEAST_ALONG: f64 = 6.0;
 /// Most points of the walls: a run with as many would take weeks.
@@ -31,24 +26,16 @@ pub enum Material {
 }
 
 /// How the points of the walls are arranged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Mesh {
-    /// Equilateral triangles where the shape allows it.
-    Equilateral,
-    /// An even mesh that is no lattice.
-    Unstructured,
-}
-
+const MESHES: [(&str, &str, MeshKind); 2] = [
+    ("equilateral", "Equilateral triangles where the shape allows it", MeshKind::Equilateral),
+    ("unstructured", "An even mesh that is no lattice", MeshKind::Unstructured),
+];
 /// What is done about the smearing of the walls' surfaces over the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum SurfaceRule {
-    /// The walls are meshed as much further back.
-    SetBack,
-    /// A mobility correction.
-    Corrected,
-    /// Nothing.
-    Plain,
-}
+const SURFACES: [(&str, &str, Surface); 3] = [
+    ("set-back", "The walls are meshed as much further back", Surface::SetBack),
+    ("corrected", "A mobility correction", Surface::Corrected),
+    ("plain", "Nothing", Surface::Plain),
+];
 
 /// A channel with elastic walls, periodic in x.
 #[derive(Debug, Clone, PartialEq, Args)]
@@ -66,8 +53,8 @@ pub struct ElasticFlags {
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub bulk_modulus: Option<f64>,
     /// How the points of the walls are arranged; without it the preset's
-    #[arg(long, value_enum)]
-    pub mesh: Option<Mesh>,
+    #[arg(long, value_parser = one_of(&MESHES))]
+    pub mesh: Option<MeshKind>,
     /// Spacing of the points of the walls (R0); without it that of the grid
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub mesh_spacing: Option<f64>,
@@ -75,80 +62,59 @@ pub struct ElasticFlags {
     #[arg(long, default_value_t = 1.5, value_parser = positive, allow_hyphen_values = true)]
     pub wall_thickness: f64,
     /// What is done about the smearing of the walls' surfaces over the grid; without it the preset's
-    #[arg(long, value_enum)]
-    pub surface: Option<SurfaceRule>,
+    #[arg(long, value_parser = one_of(&SURFACES))]
+    pub surface: Option<Surface>,
     /// Width of the channel (R0); in one narrower than the droplet this starts squeezed
     #[arg(long, default_value_t = 2.0, value_parser = positive, allow_hyphen_values = true)]
     pub width: f64,
-    /// Period along the channel (R0)
-    #[arg(long, default_value_t = 12.0, value_parser = positive, allow_hyphen_values = true)]
-    pub length: f64,
-    /// Initial distance of the droplet from the centre line (R0)
-    #[arg(long, default_value_t = 0.0, value_parser = finite, allow_hyphen_values = true)]
-    pub lateral_offset: f64,
-    /// What drives the flow
-    #[arg(long, value_enum, default_value_t = Drive::ZeroGradient)]
-    pub drive: Drive,
+    /// The period
+    #[command(flatten)]
+    pub along: AlongFlags,
 }
 
-impl ElasticFlags {
+impl SceneFlags<ElasticFlags> {
     /// The scene of a channel of that shape, with the droplet at `x` along it (R0).
     ///
     /// # Errors
     /// Flags that do not fit together: a method without a grid, a bulk modulus of springs, lengths that are no whole
     /// number of cells, a time step that does not fit the run.
-    pub fn setup(
-        &self,
-        shape: &ChannelShape,
-        droplet: &DropletFlags,
-        method: &MethodFlags,
-        x: f64,
-        preset: Option<SurfaceRule>,
-    ) -> Result<Setup> {
+    pub fn setup(&self, shape: &ChannelShape, x: f64, preset: Option<Surface>) -> Result<Setup> {
+        let Self { droplet, region: walls, method, .. } = self;
         ensure!(
-            method.method != Some(FlowMethod::BoundaryIntegral) && method.nodes.is_none(),
+            method.method != Some(MethodKind::Integral) && method.nodes.is_none(),
             "elastic walls need a grid: leave --method boundary-integral and --nodes out"
         );
-        let method = MethodFlags { method: Some(FlowMethod::ImmersedBoundary), ..method.clone() };
-        let (width, length, thickness, offset) = (self.width, self.length, self.wall_thickness, self.lateral_offset);
-        let height = width + 2.0 * thickness;
-        ensure!(height.max(length) <= LONGEST, "a channel of {length} x {height} is too large: give at most {LONGEST}");
-        ensure!(length > 2.0 * RADIUS, "--length {length} is too small for a droplet of diameter 2: give more than 2");
+        let method = MethodFlags { method: Some(MethodKind::Grid), ..method.clone() };
+        let height = walls.width + 2.0 * walls.wall_thickness;
         let mut setup = method.setup(droplet, None)?;
-        setup.region = Region::Channel { length, width: height, drive: self.drive.into() };
-        setup.droplets[0].centre = [x, offset];
-        method.check(&setup, &[(length, "length"), (height, "width plus twice --wall-thickness")])?;
-        setup.solids = SolidSetup::walls(shape, &self.material()?);
+        walls.along.apply(&mut setup, &method, x, (height, "width plus twice --wall-thickness"))?;
+        setup.solids = SolidSetup::walls(shape, &walls.material()?);
         for solid in &mut setup.solids {
             if method.preset == Preset::Thesis {
                 *solid = solid.clone().thesis();
             }
-            solid.mesh = match self.mesh {
-                Some(Mesh::Equilateral) => MeshKind::Equilateral,
-                Some(Mesh::Unstructured) => MeshKind::Unstructured,
-                None => solid.mesh,
-            };
-            solid.mesh_spacing = self.mesh_spacing;
-            solid.surface = match self.surface.or(preset.filter(|_| method.preset == Preset::Accurate)) {
-                Some(SurfaceRule::SetBack) => Surface::SetBack,
-                Some(SurfaceRule::Corrected) => Surface::Corrected,
-                Some(SurfaceRule::Plain) => Surface::Plain,
-                None => solid.surface,
-            };
+            solid.mesh = walls.mesh.unwrap_or(solid.mesh);
+            solid.mesh_spacing = walls.mesh_spacing;
+            let surface = walls.surface.or(preset.filter(|_| method.preset == Preset::Accurate));
+            solid.surface = surface.unwrap_or(solid.surface);
         }
         if let Err(SetupError::NoRoom { .. }) = setup.droplet(&setup.droplets[0]) {
+            let AlongFlags { length, lateral_offset, .. } = walls.along;
             bail!(
-                "a channel of --width {width} and --length {length} does not hold the droplet at --lateral-offset {offset}: \
-                 give a larger --width or --length or a smaller --lateral-offset"
+                "a channel of --width {} and --length {length} does not hold the droplet at --lateral-offset \
+                 {lateral_offset}: give a larger --width or --length or a smaller --lateral-offset",
+                walls.width
             );
         }
-        self.check_mesh(&setup, method.spacing(&setup))?;
+        walls.check_mesh(&setup, method.spacing(&setup))?;
         Ok(setup)
     }
+}
 
+impl ElasticFlags {
     /// Walls that hold their mesh.
     fn check_mesh(&self, setup: &Setup, grid: f64) -> Result<()> {
-        let (length, thickness) = (self.length, self.wall_thickness);
+        let (length, thickness) = (self.along.length, self.wall_thickness);
         let spacing = self.mesh_spacing.unwrap_or(grid);
         let flag = if self.mesh_spacing.is_some() { "--mesh-spacing" } else { "--spacing" };
         ensure!(
@@ -193,9 +159,9 @@ impl ElasticFlags {
     /// The walls as they stand above a picture.
     ///
     /// # Errors
-    /// As [`ElasticFlags::setup`].
+    /// As [`SceneFlags::setup`].
     pub fn caption(&self) -> Result<String> {
-        let (length, width, material) = (self.length, self.width, self.material()?);
+        let (length, width, material) = (self.along.length, self.width, self.material()?);
         let name = match material {
             motile::Material::Springs { .. } => "springs",
             _ => "neo-Hookean",

@@ -7,7 +7,7 @@ use elastic_solids::mesh::GmshMesh;
 use motile::{ChannelShape, IntegralMethod, Method, Setup};
 use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
 use stokes_grid::{Grid, PeriodicStokes};
-use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, OutputFlags};
+use motile_examples::{BoxFlags, ChannelFlags, DropletFlags, ElasticFlags, MethodFlags, OutputFlags, SceneFlags};
 
 type Small = Scene<ImmersedBoundary<PeriodicStokes, CubicQuadratic>>;
 
@@ -86,7 +86,7 @@ enum Region {
 pub fn flags(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     let words = std::iter::once("scene").chain(text.split_whitespace());
-    let Ok(Flags { droplet, method, output: _, region }) = Flags::try_parse_from(words) else { return };
+    let Ok(Flags { droplet, method, output, region }) = Flags::try_parse_from(words) else { return };
     let Ok(mut setup) = method.setup(&droplet, None) else { return };
     let checked = match &region {
         None => Ok(()),
@@ -94,7 +94,8 @@ pub fn flags(bytes: &[u8]) {
         Some(Region::Channel(channel)) => channel.apply(&mut setup, &method),
         Some(Region::Elastic(walls)) => {
             let shape = ChannelShape::Straight { width: walls.width };
-            walls.setup(&shape, &droplet, &method, 0.0, None).map(|_| ())
+            let (droplet, region, method) = (droplet.clone(), walls.clone(), method.clone());
+            SceneFlags { droplet, region, method, output }.setup(&shape, 0.0, None).map(|_| ())
         }
     };
     if checked.is_ok() && method.spacing(&setup) > 0.02 {
@@ -128,7 +129,7 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
             files.clone().into_iter().chain(contents).collect()
         }
         "gmsh" => {
-            let strip = |columns, rows| elastic_solids::mesh::equilateral_block(ib_core::Vec2::zeros(), columns, rows, 0.5);
+            let strip = |columns, rows| elastic_solids::mesh::equilateral_block(ib_core::Vec2::ZERO, columns, rows, 0.5);
             [strip(2, 2), strip(4, 3)].into_iter().flatten().flat_map(|mesh| GmshMesh { mesh, groups: Vec::new() }.to_text()).map(String::into_bytes).collect()
         }
         "scene" => [Setup::default(), Setup::thesis()]

@@ -49,9 +49,9 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     let mut solver = ChannelStokes::new(grid, medium.viscosity)?;
     let mut transfer = Transfer::new(grid, AnyKernel::BSpline4);
     let (mut density, mut velocity) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
-    let mut velocities = vec![Vec2::zeros(); markers.len()];
+    let mut velocities = vec![Vec2::ZERO; markers.len()];
 
-    let mut forces = vec![Vec2::zeros(); markers.len()];
+    let mut forces = vec![Vec2::ZERO; markers.len()];
     let median = |name: &str, work: &mut dyn FnMut() -> Result<()>| -> Result<f64> {
         let mut times = Vec::with_capacity(flags.repetitions);
         for _ in 0..flags.repetitions {

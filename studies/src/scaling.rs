@@ -104,7 +104,7 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
     let used = measure(|| {
         solid = Solid::springs(mesh, 1.0).ok();
         if let Some(solid) = &solid {
-            positions = vec![Vec2::zeros(); solid.marker_count()];
+            positions = vec![Vec2::ZERO; solid.marker_count()];
             forces = vec![Vec2::new(1.0, 0.5); solid.marker_count()];
             solid.write_markers(&mut positions);
         }
@@ -114,7 +114,7 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
     });
     let (Some(mut solid), Some(transfer)) = (solid, transfer) else { anyhow::bail!("a body") };
     let markers = positions.len();
-    let mut velocities = vec![Vec2::zeros(); markers];
+    let mut velocities = vec![Vec2::ZERO; markers];
     let (fixed, other) = (transfer.clone(), forces.clone());
     let mut moving = transfer.clone();
     let mut locate = || moving.locate(black_box(&positions));

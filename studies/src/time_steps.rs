@@ -130,8 +130,8 @@ fn timed<H: Hydrodynamics, I: Integrator>(
 fn errors(cost: &Cost, exact: &Cost) -> Result<[f64; 2]> {
     let [own, other] = [&cost.markers, &exact.markers].map(|markers| polygon_moments(markers).map(|m| m.centroid));
     let (own, other) = (own?, other?);
-    let squares = cost.markers.iter().zip(&exact.markers).map(|(a, b)| ((a - own) - (b - other)).norm_squared());
-    Ok([(own - other).norm(), (squares.sum::<f64>() / exact.markers.len() as f64).sqrt()])
+    let squares = cost.markers.iter().zip(&exact.markers).map(|(a, b)| ((a - own) - (b - other)).length_squared());
+    Ok([(own - other).length(), (squares.sum::<f64>() / exact.markers.len() as f64).sqrt()])
 }
 
 fn line(name: &str, step: &str, cost: &Cost, exact: &Cost) -> Result<String> {
@@ -181,7 +181,7 @@ fn is_stable<I: Integrator>(integrator: I, dt: f64, steps: usize) -> Result<bool
             return Ok(false);
         }
     }
-    let moved = scene.body(droplet)?.markers().iter().zip(&start).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    let moved = scene.body(droplet)?.markers().iter().zip(&start).map(|(a, b)| (a - b).length()).fold(0.0, f64::max);
     Ok(moved < 0.5)
 }
 
@@ -226,7 +226,7 @@ fn free(setup: &Setup, stabilised: bool) -> Result<Scene<AnyFlow>> {
 
 fn speed<I: Integrator>(scene: &mut Scene<AnyFlow, I>) -> Result<f64> {
     let markers = scene.system_mut().evaluate()?;
-    Ok(centroid_velocity(&markers.positions, &markers.velocities)?.norm())
+    Ok(centroid_velocity(&markers.positions, &markers.velocities)?.length())
 }
 
 /// Steps that must keep a steady swimmer's speed to a part in a hundred.

@@ -56,7 +56,7 @@ fn two_that_pass() {
         assert!((0.03..0.07).contains(&run.gap), "{run:?}");
         assert!(run.area_change < 1e-5 && run.particle_change < 1e-12, "{run:?}");
         // A half turn about the middle exchanges them.
-        assert!((run.centroids[0] + run.centroids[1]).norm() < 1e-5, "{run:?}");
+        assert!((run.centroids[0] + run.centroids[1]).length() < 1e-5, "{run:?}");
     }
 }
 

@@ -42,7 +42,7 @@ fn scene(droplets: &[Droplet; 2], spacing: f64, pulls: [[f64; 3]; 2]) -> Markers
 }
 
 fn work(forces: &Markers, velocities: &Markers) -> f64 {
-    forces.forces.iter().zip(&velocities.velocities).map(|(force, velocity)| force.dot(velocity)).sum()
+    forces.forces.iter().zip(&velocities.velocities).map(|(force, velocity)| force.dot(*velocity)).sum()
 }
 
 /// The mean velocity of each droplet's markers.
@@ -68,7 +68,7 @@ fn droplets_are_pulled_as_fast_as_they_should() {
                 let mut markers = scene(&droplets, 0.5 * h, pulls);
                 on_grid(region(), h).velocities(&mut markers).unwrap();
                 for (index, (found, exact)) in means(&markers).iter().zip(&exact).enumerate() {
-                    errors[index][level] = (found - exact).norm() / exact.norm();
+                    errors[index][level] = (found - exact).length() / exact.length();
                 }
             }
             for errors in errors {
@@ -153,9 +153,9 @@ fn velocities_are_continuous_where_the_ratio_passes_through_one() {
             markers.velocities
         };
         let equal = velocities(1.0);
-        let largest = equal.iter().map(Vec2::norm).fold(0.0, f64::max);
+        let largest = equal.iter().map(|v| v.length()).fold(0.0, f64::max);
         for change in [-1e-2, -1e-4, -1e-6, -1e-12, f64::EPSILON, 1e-14, 1e-9, 1e-4, 1e-2] {
-            let moved = velocities(1.0 + change).iter().zip(&equal).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+            let moved = velocities(1.0 + change).iter().zip(&equal).map(|(a, b)| (a - b).length()).fold(0.0, f64::max);
             // Proportional to the change, up to the tolerance of the iterations.
             assert!(moved < (0.3 * change.abs() + 1e-7) * largest, "{change:e}: {:e}", moved / largest);
             assert!(moved > 0.05 * (change.abs() - 1e-7) * largest, "{change:e}: {:e}", moved / largest);

@@ -6,8 +6,10 @@ use motile::ib_core::{
     Body, CubicQuadratic, Handle, Hydrodynamics, ImmersedBoundary, Integrator, Midpoint, RungeKuttaChebyshev, Scene,
     SceneError, StepSize, Vec2, integrator::SpectralEstimate,
 };
-use motile::stokes_grid::{ChannelStokes, Grid};
-use motile::{AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Setup, SolidSetup};
+use motile::stokes_grid::{ChannelStokes, Drive, Grid};
+use motile::{
+    AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, MarkerMotion, Material, Method, Region, Setup, SolidSetup,
+};
 use motile_tests::validation::order;
 use motile_tests::validation::scene::{on_grid, open_channel, without_grid};
 
@@ -130,7 +132,7 @@ fn the_predicted_step_between_stiff_walls_is_stable() {
         // Of fewer stages, whose number follows the step, the least are just enough.
         for part in [0.7, 0.99] {
             (0..30).for_each(|_| scene.step(part * limit).expect("a stable step"));
-            let moved = scene.body(droplet).unwrap().markers().iter().zip(&start).map(|(a, b)| (a - b).norm());
+            let moved = scene.body(droplet).unwrap().markers().iter().zip(&start).map(|(a, b)| (a - b).length());
             assert!(moved.fold(0.0, f64::max) < 0.2, "{stages} stages, {part} of the limit");
         }
     }
@@ -153,7 +155,7 @@ fn run_and_look<H: Hydrodynamics, I: Integrator>(scene: &mut Scene<H, I>) -> (f6
     scene.system_mut().evaluate().expect("a flow");
     let markers = scene.system().markers();
     let velocity = centroid_velocity(&markers.positions, &markers.velocities).expect("an interface");
-    (velocity.norm(), scene.steps())
+    (velocity.length(), scene.steps())
 }
 
 fn adaptive<I: Integrator>(integrator: I, tolerance: f64) -> (Scene<AnyFlow, I>, Handle<ActiveDroplet>) {
@@ -191,6 +193,35 @@ fn both_integrators_come_to_the_same() {
     let (a, b) = (state(&scene, droplet), state(&other, same));
     let positions = 2 * scene.body(droplet).unwrap().marker_count();
     assert!(distance(&a[..positions], &b[..positions]) < 3e-4, "{:e}", distance(&a[..positions], &b[..positions]));
+}
+
+/// A droplet without tension that the fluid carries along states bounds on its steps, but none that is finite. A part
+/// of them is no step; steps that are given, or bounded by their error, are taken.
+#[test]
+fn bodies_without_a_finite_bound_need_a_step_that_is_given() {
+    let channel = |step| Setup {
+        region: Region::Channel { length: 4.0, width: 4.0, drive: Drive::Gradient(-100.0) },
+        droplets: vec![DropletSetup { motion: MarkerMotion::WithFluid, ..DropletSetup::passive(0.0) }],
+        method: Method::Grid(GridMethod { spacing: 0.1, ..GridMethod::thesis() }),
+        step,
+        ..Setup::default()
+    };
+    let mut scene = channel(StepSize::default()).build().expect("a scene").scene;
+    assert_eq!(scene.step_limit().expect("a bound").0, f64::INFINITY);
+    let error = scene.run(1.0).go().expect_err("a part of infinity");
+    assert!(matches!(error, SceneError::NoStepLimit { .. }), "{error}");
+    assert_eq!((scene.steps(), scene.time()), (0, 0.0));
+    for step in [StepSize::Fixed(0.05), StepSize::Adaptive { tolerance: 1e-4 }] {
+        let Built { mut scene, droplets, .. } = channel(step).build().expect("a scene");
+        let foremost = |scene: &Scene<AnyFlow>| {
+            let droplet = scene.body(droplets[0]).expect("the droplet");
+            droplet.markers().iter().map(|marker| marker.x).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let start = foremost(&scene);
+        scene.run(1.0).go().expect("a run");
+        // Poiseuille's flow on the centre line: 100 w^2/(8 eta).
+        assert!((foremost(&scene) - start - 2.0).abs() < 0.02, "{step:?}: {}", foremost(&scene) - start);
+    }
 }
 
 #[test]

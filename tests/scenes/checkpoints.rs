@@ -260,13 +260,34 @@ fn a_checkpoint_of_other_physics_is_refused_by_name() {
         ("the exterior viscosity is 100 in it and 50 here", Setup { viscosity: 50.0, ..good.clone() }),
         ("the viscosity inside is 20 in it and 30 here", droplet(|droplet| droplet.viscosity = Some(30.0))),
         ("the viscosity inside is 20 in it and not given here", droplet(|droplet| droplet.viscosity = None)),
-        ("the number of markers is", Setup { method: finer, ..good.clone() }),
+        ("the number of markers at the start is", Setup { method: finer, ..good.clone() }),
     ];
     for (expected, other) in others {
         let error = scene(&other).resume(&saved).expect_err(expected);
         assert!(matches!(error, SceneError::OtherProperty { .. }), "{error}");
         assert!(error.to_string().contains(expected), "{error}");
     }
+    for method in [good.method, Method::Integral(IntegralMethod { nodes: 32, cells: 64 })] {
+        let driven = |drive| scene(&Setup { region: channel(4.0, drive), method, ..coarse() });
+        let saved = driven(Drive::Gradient(-1.0)).checkpoint("");
+        for (drive, expected) in [
+            (Drive::Gradient(-2.0), "the imposed pressure gradient is -1 in it and -2 here"),
+            (Drive::ZeroFlux, "the imposed flux is not given in it and 0 here"),
+        ] {
+            let error = driven(drive).resume(&saved).expect_err(expected);
+            assert!(matches!(error, SceneError::OtherProperty { .. }), "{error}");
+            assert!(error.to_string().contains(expected), "{error}");
+        }
+        driven(Drive::Gradient(0.0)).resume(&driven(Drive::ZeroGradient).checkpoint("")).expect("the same drive");
+    }
+    // Markers that follow the fluid come and go over a run, but those at the start tell.
+    let follow = |marker_spacing: f64| {
+        let mut setup = thesis(-3.0);
+        setup.method = Method::Grid(GridMethod { marker_spacing: Some(marker_spacing), ..GridMethod::thesis() });
+        scene(&setup)
+    };
+    let error = follow(0.05).resume(&follow(0.1).checkpoint("")).expect_err("other markers");
+    assert!(error.to_string().contains("the number of markers at the start is 64 in it and 128 here"), "{error}");
     let elastic = |shear: f64| {
         let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear });
         let region = Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient };

@@ -232,13 +232,13 @@ fn makers() -> Vec<Maker> {
         maker("SaintVenantKirchhoff", &[1.0, 2.0], "++", |v| SaintVenantKirchhoff::new(v[0], v[1]).is_ok()),
         maker("MooneyRivlin", &[1.0, 2.0, 0.5], "++0", |v| MooneyRivlin::new(v[0], v[1], v[2]).is_ok()),
         maker("Solid::springs", &[1.0], "+", |v| {
-            let mesh = equilateral_block(Vec2::zeros(), 3, 3, 0.5).expect("a mesh");
+            let mesh = equilateral_block(Vec2::ZERO, 3, 3, 0.5).expect("a mesh");
             Solid::springs(mesh, v[0]).is_ok()
         }),
         maker("equilateral_strip", &[0.0, 0.0, 0.5], "--+", |v| {
             equilateral_strip(Vec2::new(v[0], v[1]), 4, 3, v[2]).is_ok()
         }),
-        maker("fitted_strip", &[2.0, 1.0], "++", |v| fitted_strip(Vec2::zeros(), [v[0], v[1]], 0.5).is_ok()),
+        maker("fitted_strip", &[2.0, 1.0], "++", |v| fitted_strip(Vec2::ZERO, [v[0], v[1]], 0.5).is_ok()),
         maker("Mesher", &[0.1], "+", |v| Mesher::new(v[0]).is_ok()),
         maker("Outline::circle", &[0.0, 0.0, 1.0], "--+", |v| Outline::circle(Vec2::new(v[0], v[1]), v[2]).is_ok()),
         maker("StraightChannel", &[6.0, 2.0], "++", |v| {

@@ -9,7 +9,6 @@ use std::f64::consts::{PI, TAU};
 
 use ib_core::Vec2;
 use ib_core::input::{all_finite, all_points_finite, at_least, finite, not_negative, positive, within};
-use nalgebra::Rotation2;
 
 use crate::InterfaceError;
 use crate::function::Function;
@@ -42,8 +41,8 @@ const SAMPLES: usize = 8192;
 /// let curve = Curve::ellipse(1.3, 1.0 / 1.3)?.rotated(0.5);
 /// let markers = curve.markers(200)?;
 /// // equal spacing, and the polygon has exactly the ellipse's area
-/// let first = (markers[1] - markers[0]).norm();
-/// let other = (markers[101] - markers[100]).norm();
+/// let first = (markers[1] - markers[0]).length();
+/// let other = (markers[101] - markers[100]).length();
 /// assert!((first - other).abs() < 1e-12 * first);
 /// assert!((active_interface::curve::polygon_area(&markers)? - std::f64::consts::PI).abs() < 1e-13);
 /// # Ok::<(), active_interface::InterfaceError>(())
@@ -98,7 +97,7 @@ impl Shape {
                 let u = t * ends[ends.len() - 1];
                 let k = ends[..ends.len() - 1].partition_point(|&end| end <= u);
                 let start = if k == 0 { 0.0 } else { ends[k - 1] };
-                points[k].lerp(&points[(k + 1) % points.len()], (u - start) / (ends[k] - start))
+                points[k].lerp(points[(k + 1) % points.len()], (u - start) / (ends[k] - start))
             }
         }
     }
@@ -165,8 +164,8 @@ impl Curve {
     pub fn parametric(point: impl Fn(f64) -> Vec2 + Send + Sync + 'static) -> Result<Self, InterfaceError> {
         let (start, end) = (point(0.0), point(TAU));
         all_points_finite("the ends of the curve", &[start, end])?;
-        let gap = (end - start).norm();
-        let extent = (0..64).map(|i| (point(TAU * f64::from(i) / 64.0) - start).norm()).fold(0.0, f64::max);
+        let gap = (end - start).length();
+        let extent = (0..64).map(|i| (point(TAU * f64::from(i) / 64.0) - start).length()).fold(0.0, f64::max);
         if gap > 1e-9 * extent {
             return Err(InterfaceError::NotClosed { gap });
         }
@@ -192,7 +191,7 @@ impl Curve {
         let mut length = 0.0;
         let ends = edges(points)
             .map(|(a, b)| {
-                length += (b - a).norm();
+                length += (b - a).length();
                 length
             })
             .collect();
@@ -230,14 +229,14 @@ impl Curve {
         if !simple_by_form && let Some((first, second)) = first_crossing(&every(&samples, 4))? {
             return Err(InterfaceError::SelfCrossing { first, second });
         }
-        Ok(Self { shape, reversed: area < 0.0, rotation: 0.0, translation: Vec2::zeros(), area: area.abs(), perimeter })
+        Ok(Self { shape, reversed: area < 0.0, rotation: 0.0, translation: Vec2::ZERO, area: area.abs(), perimeter })
     }
 
     /// This curve, as it lies, turned about the origin by `angle` (radians, counter-clockwise).
     #[must_use]
     pub fn rotated(mut self, angle: f64) -> Self {
         self.rotation += angle;
-        self.translation = Rotation2::new(angle) * self.translation;
+        self.translation = Vec2::from_angle(angle).rotate(self.translation);
         self
     }
 
@@ -264,7 +263,8 @@ impl Curve {
     #[must_use]
     pub fn point(&self, t: f64) -> Vec2 {
         let t = t.clamp(0.0, 1.0);
-        Rotation2::new(self.rotation) * self.shape.point(if self.reversed { 1.0 - t } else { t }) + self.translation
+        let point = self.shape.point(if self.reversed { 1.0 - t } else { t });
+        Vec2::from_angle(self.rotation).rotate(point) + self.translation
     }
 
     /// `count` markers in counter-clockwise order, the first at the start of the curve's parameter.
@@ -325,7 +325,7 @@ pub fn markers_from_points(points: &[Vec2]) -> Result<Vec<Vec2>, InterfaceError>
     }
     let range = [f64::INFINITY, 0.0];
     let [shortest, longest] =
-        edges(points).map(|(a, b)| (b - a).norm()).fold(range, |[min, max], chord| [chord.min(min), chord.max(max)]);
+        edges(points).map(|(a, b)| (b - a).length()).fold(range, |[min, max], chord| [chord.min(min), chord.max(max)]);
     if longest > MAXIMUM_UNEVENNESS * shortest {
         return Err(InterfaceError::UnevenSpacing { ratio: longest / shortest, bound: MAXIMUM_UNEVENNESS });
     }

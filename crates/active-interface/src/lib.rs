@@ -44,12 +44,12 @@
 //! let m = markers.len();
 //! let pull = |k: usize| {
 //!     let segment = markers[(k + 1) % m] - markers[k];
-//!     segment.normalize() * tension.value(numbers[k] / segment.norm())
+//!     segment.normalize() * tension.value(numbers[k] / segment.length())
 //! };
 //! let forces: Vec<Vec2> = (0..m).map(|k| pull(k) - pull((k + m - 1) % m)).collect();
 //!
-//! let frame = Frame::new(Vec2::zeros(), 0.0)?;
-//! let rest = vec![Vec2::zeros(); m];
+//! let frame = Frame::new(Vec2::ZERO, 0.0)?;
+//! let rest = vec![Vec2::ZERO; m];
 //! let moments = force_moments(&markers, &forces, &rest, [100.0, 100.0], Convention::FarField, &frame)?;
 //! println!("stresslet {:.2}", moments.stresslet()[0][0]); // -4.84, a puller at the start
 //! assert!((moments.stresslet()[0][0] + 4.84).abs() < 0.01);

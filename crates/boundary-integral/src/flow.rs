@@ -6,7 +6,8 @@ use ib_core::{
     hydrodynamics::{FlowReport, FlowWork},
 };
 use ib_core::{Vec2, hydrodynamics::MarkerGroup};
-use stokes_layers::{Interface, InterfaceFlow, LayerError, Region, Settings, Solution, WarmStart};
+use stokes_grid::Drive;
+use stokes_layers::{Forcing, Interface, InterfaceFlow, LayerError, Region, Settings, Solution, WarmStart};
 
 /// Stokes flow of closed fluid interfaces in the plane, a periodic box or a channel, without a grid:
 /// [`stokes_layers::InterfaceFlow`], which has the equations, for the markers of bodies.
@@ -69,7 +70,7 @@ impl BoundaryIntegral {
         let interface = |group: &MarkerGroup| Interface {
             positions: &markers.positions[group.range.clone()],
             forces: &markers.forces[group.range.clone()],
-            viscosity: inside(group).unwrap_or(viscosity),
+            viscosity: group.kind.viscosity_inside().unwrap_or(viscosity),
         };
         Ok(self.flow.load(markers.groups().iter().map(interface))?)
     }
@@ -90,6 +91,14 @@ impl Hydrodynamics for BoundaryIntegral {
         }
     }
 
+    fn drive(&self) -> Option<Drive> {
+        let Region::Channel { forcing, .. } = *self.region() else { return None };
+        Some(match forcing {
+            Forcing::Gradient(gradient) => Drive::Gradient(gradient),
+            Forcing::Flux(flux) => Drive::Flux(flux),
+        })
+    }
+
     fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
         self.load(markers)?;
         self.work.evaluations += 1;
@@ -99,7 +108,7 @@ impl Hydrodynamics for BoundaryIntegral {
         let (nodes, viscosity) = (self.settings().nodes, self.flow.viscosity());
         let rates = markers.groups().iter().enumerate().filter_map(|(index, group)| {
             let rate = stiffness(nodes, self.flow.perimeter(index)?);
-            Some(rate * 2.0 * viscosity / (viscosity + inside(group).unwrap_or(viscosity)))
+            Some(rate * 2.0 * viscosity / (viscosity + group.kind.viscosity_inside().unwrap_or(viscosity)))
         });
         self.stiffness = rates.fold(0.0, f64::max);
         let Solution { iterations, residual, pressure_gradient } = self.flow.solve()?;
@@ -136,16 +145,6 @@ impl Hydrodynamics for BoundaryIntegral {
         let (Some(velocities), Some(directions)) = (rest.get(..count), rest.get(count..)) else { return };
         self.stiffness = *stiffness;
         self.flow.resume(WarmStart { velocities: velocities.to_vec(), directions: directions.to_vec() });
-    }
-}
-
-/// The viscosity inside an interface, if it is another one.
-fn inside(group: &MarkerGroup) -> Option<f64> {
-    match group.kind {
-        MarkerKind::Interface { viscosity_inside } | MarkerKind::UnevenInterface { viscosity_inside } => {
-            viscosity_inside
-        }
-        MarkerKind::Points => None,
     }
 }
 

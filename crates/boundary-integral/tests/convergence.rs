@@ -16,7 +16,7 @@ fn solve(region: Region, markers: &mut Markers, nodes: usize) {
 }
 
 fn largest(a: &[Vec2], b: &[Vec2]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max)
+    a.iter().zip(b).map(|(a, b)| (a - b).length()).fold(0.0, f64::max)
 }
 
 #[test]
@@ -71,7 +71,7 @@ fn forces_of_segments_are_of_second_order_in_the_markers() {
         }
         solve(Region::Plane, &mut exact, 64);
         solve(Region::Plane, &mut segments, 64);
-        let scale = exact.velocities.iter().map(Vec2::norm).fold(0.0, f64::max);
+        let scale = exact.velocities.iter().map(|v| v.length()).fold(0.0, f64::max);
         largest(&segments.velocities, &exact.velocities) / scale
     };
     let errors = [64, 128, 256, 512].map(error);

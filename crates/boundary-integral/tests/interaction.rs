@@ -18,8 +18,8 @@ fn velocities(region: Region, ellipses: &[Ellipse], nodes: usize, tolerance: f64
 
 /// Largest error over the largest velocity.
 fn error(found: &[Vec2], reference: &[Vec2]) -> f64 {
-    let scale = reference.iter().map(Vec2::norm).fold(0.0, f64::max);
-    found.iter().zip(reference).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max) / scale
+    let scale = reference.iter().map(|v| v.length()).fold(0.0, f64::max);
+    found.iter().zip(reference).map(|(a, b)| (a - b).length()).fold(0.0, f64::max) / scale
 }
 
 fn circles(gap: f64, viscosity: f64) -> [Ellipse; 2] {

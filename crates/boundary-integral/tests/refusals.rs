@@ -47,7 +47,7 @@ fn domains_and_settings() {
 fn plans() {
     assert!(PeriodicCalculus::new(3).is_err());
     assert!(PeriodicCalculus::new(1 << 40).is_err());
-    let mut values = vec![Vec2::zeros(); 10];
+    let mut values = vec![Vec2::ZERO; 10];
     let mut calculus = PeriodicCalculus::new(10).expect("a valid scene");
     let positions = values.clone();
     assert!(calculus.tension_forces(&positions, &[1.0; 9], TensionPlacement::Points, &mut values).is_err());

@@ -38,7 +38,7 @@ impl Relaxing {
 
     fn area(&self) -> f64 {
         // Exact for a curve of so many modes.
-        let mut tangents = vec![Vec2::zeros(); COUNT];
+        let mut tangents = vec![Vec2::ZERO; COUNT];
         let mut calculus = PeriodicCalculus::new(COUNT).expect("enough samples");
         calculus.derivative(&self.markers.positions, &mut tangents).expect("lengths that agree");
         let sum: f64 = self.markers.positions.iter().zip(&tangents).map(|(x, t)| x.x * t.y - x.y * t.x).sum();

@@ -48,7 +48,7 @@ impl Solved {
 fn difference(a: &[FlowSample], b: &[FlowSample]) -> [f64; 3] {
     let mut worst = [0.0f64; 3];
     for (a, b) in a.iter().zip(b) {
-        worst[0] = worst[0].max((a.velocity - b.velocity).norm());
+        worst[0] = worst[0].max((a.velocity - b.velocity).length());
         for i in 0..2 {
             for j in 0..2 {
                 worst[1] = worst[1].max((a.gradient[i][j] - b.gradient[i][j]).abs());
@@ -149,7 +149,7 @@ fn jumps_by_the_force(region: Region) {
     let ellipses = pair(20.0);
     let mut solved = Solved::new(region, &ellipses, 96);
     let mut calculus = PeriodicCalculus::new(COUNT).expect("a valid scene");
-    let mut tangents = vec![Vec2::zeros(); COUNT];
+    let mut tangents = vec![Vec2::ZERO; COUNT];
     calculus.derivative(&solved.markers.positions[..COUNT], &mut tangents).expect("a valid scene");
     let distance = 1e-7;
     // Markers that are nodes and markers that are not.
@@ -158,7 +158,7 @@ fn jumps_by_the_force(region: Region) {
         let normal = Vec2::new(tangent.y, -tangent.x).normalize();
         let on = solved.at(&[position + distance * normal, position - distance * normal, position]);
         for sample in &on {
-            let error = (sample.velocity - solved.markers.velocities[k]).norm();
+            let error = (sample.velocity - solved.markers.velocities[k]).length();
             assert!(error < 1e-6, "{error:e}");
         }
         let traction = |s: &FlowSample, viscosity: f64| {
@@ -168,9 +168,9 @@ fn jumps_by_the_force(region: Region) {
                 shear * normal.x + (2.0 * viscosity * s.gradient[1][1] - s.pressure) * normal.y,
             )
         };
-        let force = solved.markers.forces[k] * (COUNT as f64 / TAU / tangent.norm());
+        let force = solved.markers.forces[k] * (COUNT as f64 / TAU / tangent.length());
         let jump = traction(&on[0], 1.0) - traction(&on[1], 20.0) + force;
-        assert!(jump.norm() < 2e-5, "{jump}");
+        assert!(jump.length() < 2e-5, "{jump}");
     }
 }
 
@@ -187,7 +187,7 @@ fn a_resting_droplet_has_the_pressure_of_laplace() {
     let mut solved = Solved::new(Region::Plane, &[droplet], 48);
     let samples = solved.at(&[Vec2::new(0.0, 0.0), Vec2::new(1.19, 0.1), Vec2::new(1.21, 0.1), Vec2::new(5.0, 3.0)]);
     for (sample, pressure) in samples.iter().zip([3.0, 3.0, 0.0, 0.0]) {
-        assert!(sample.velocity.norm() < 1e-13);
+        assert!(sample.velocity.length() < 1e-13);
         assert!((sample.pressure - pressure).abs() < 1e-11, "{}", sample.pressure);
     }
 }
@@ -231,7 +231,7 @@ fn far_interfaces_move_with_the_flow(region: Region) {
     let samples = solved.at(&points);
     for (sample, velocity) in samples.iter().zip(solved.markers.velocities.iter().step_by(17)) {
         // A point on an interface is taken a billionth of a spacing inside.
-        let error = (sample.velocity - velocity).norm();
+        let error = (sample.velocity - velocity).length();
         println!("{region:?}: {error:e}");
         assert!(error < 1e-10, "{error:e}");
     }

@@ -44,7 +44,7 @@ proptest! {
         second.forces.iter_mut().for_each(|f| *f = turn(f));
         solver.velocities(&mut second).unwrap();
         for (a, b) in first.velocities.iter().zip(&second.velocities) {
-            prop_assert!((turn(a) - b).norm() < 1e-10);
+            prop_assert!((turn(a) - b).length() < 1e-10);
         }
     }
 
@@ -53,12 +53,12 @@ proptest! {
         let mut solver = BoundaryIntegral::new(Region::Box { lengths: [5.0, 6.0] }, 1.0, settings()).unwrap();
         let mut markers = markers(&[shape], COUNT);
         solver.velocities(&mut markers).unwrap();
-        let mut tangents = vec![Vec2::zeros(); COUNT];
+        let mut tangents = vec![Vec2::ZERO; COUNT];
         PeriodicCalculus::new(COUNT).unwrap().derivative(&markers.positions, &mut tangents).unwrap();
         let pairs = markers.velocities.iter().zip(&tangents);
         let flux: f64 = pairs.map(|(v, t)| v.x * t.y - v.y * t.x).sum::<f64>() * TAU / COUNT as f64;
         prop_assert!(flux.abs() < 1e-9, "{}", flux);
-        let power: f64 = markers.velocities.iter().zip(&markers.forces).map(|(v, f)| v.dot(f)).sum();
+        let power: f64 = markers.velocities.iter().zip(&markers.forces).map(|(v, f)| v.dot(*f)).sum();
         prop_assert!(power > 0.0);
     }
 
@@ -75,7 +75,7 @@ proptest! {
         }
         solver.velocities(&mut one).unwrap();
         solver.velocities(&mut two).unwrap();
-        let work = |a: &Markers, b: &Markers| -> f64 { a.forces.iter().zip(&b.velocities).map(|(f, v)| f.dot(v)).sum() };
+        let work = |a: &Markers, b: &Markers| -> f64 { a.forces.iter().zip(&b.velocities).map(|(f, v)| f.dot(*v)).sum() };
         let (ab, ba) = (work(&one, &two), work(&two, &one));
         prop_assert!((ab - ba).abs() < 1e-9 * (1.0 + ab.abs()), "{} {}", ab, ba);
     }
@@ -85,12 +85,12 @@ proptest! {
         let wave = |t: f64| Vec2::new((m as f64 * t + phase).cos(), (m as f64 * t).sin());
         let samples: Vec<Vec2> = (0..len).map(|k| wave(TAU * k as f64 / len as f64)).collect();
         let mut calculus = PeriodicCalculus::new(len).unwrap();
-        let mut out = vec![Vec2::zeros(); len];
+        let mut out = vec![Vec2::ZERO; len];
         calculus.derivative(&samples, &mut out).unwrap();
         for (k, slope) in out.iter().enumerate() {
             let t = TAU * k as f64 / len as f64;
             let expected = Vec2::new(-(m as f64 * t + phase).sin(), (m as f64 * t).cos()) * m as f64;
-            prop_assert!((slope - expected).norm() < 1e-11);
+            prop_assert!((slope - expected).length() < 1e-11);
         }
     }
 }
@@ -107,7 +107,7 @@ fn markers_may_be_any_number_from_that_of_the_nodes_on() {
             // The first marker is at the same place for all.
             let mut reference = scenes::markers(&[shape], 256);
             solver.velocities(&mut reference).unwrap();
-            assert!((markers.velocities[0] - reference.velocities[0]).norm() < 1e-12, "{nodes} {count}");
+            assert!((markers.velocities[0] - reference.velocities[0]).length() < 1e-12, "{nodes} {count}");
         }
     }
 }

@@ -19,7 +19,7 @@ pub use moduli::{InnerPoints, MeasuredModuli, measured_moduli};
 /// use elastic_solids::{NeoHookean, SolidError};
 ///
 /// let material = NeoHookean::new(1.0, 2.0)?;
-/// let error = stress_error(&material, Mat2::new(1.2, 0.3, 0.0, 0.9), 5e-6)?;
+/// let error = stress_error(&material, Mat2::from_rows_array(&[1.2, 0.3, 0.0, 0.9]), 5e-6)?;
 /// assert!(error < 1e-8);
 /// # Ok::<(), SolidError>(())
 /// ```
@@ -28,13 +28,13 @@ pub use moduli::{InnerPoints, MeasuredModuli, measured_moduli};
 /// A step that is not positive; a deformation, or one a step away, whose determinant is not positive.
 pub fn stress_error(energy: &dyn EnergyDensity, deformation: Mat2, step: f64) -> Result<f64, SolidError> {
     positive("the step", step)?;
-    let stress = energy.stress(&DeformationGradient::new(deformation)?);
+    let stress = energy.stress(&DeformationGradient::new(deformation)?).to_cols_array();
     let mut largest = 0.0_f64;
     for entry in 0..4 {
         let at = |shift: f64| {
-            let mut moved = deformation;
+            let mut moved = deformation.to_cols_array();
             moved[entry] += shift;
-            DeformationGradient::new(moved).map(|gradient| energy.energy(&gradient))
+            DeformationGradient::new(Mat2::from_cols_array(&moved)).map(|gradient| energy.energy(&gradient))
         };
         let difference = (at(step)? - at(-step)?) / (2.0 * step);
         largest = largest.max((stress[entry] - difference).abs());
@@ -58,11 +58,11 @@ pub struct ForceBalance {
 /// Positions that are not finite; those of [`ElasticForces::add_forces`].
 pub fn force_balance(law: &dyn ElasticForces, positions: &[Vec2]) -> Result<ForceBalance, SolidError> {
     all_points_finite("the positions", positions)?;
-    let mut forces = vec![Vec2::zeros(); positions.len()];
+    let mut forces = vec![Vec2::ZERO; positions.len()];
     law.add_forces(positions, &mut forces)?;
-    let size = forces.iter().map(Vec2::norm).sum::<f64>().max(f64::MIN_POSITIVE);
-    let torque: f64 = positions.iter().zip(&forces).map(|(position, force)| position.perp(force)).sum();
-    Ok(ForceBalance { sum: forces.iter().sum::<Vec2>().norm() / size, torque: torque.abs() / size })
+    let size = forces.iter().map(|v| v.length()).sum::<f64>().max(f64::MIN_POSITIVE);
+    let torque: f64 = positions.iter().zip(&forces).map(|(position, force)| position.perp_dot(*force)).sum();
+    Ok(ForceBalance { sum: forces.iter().sum::<Vec2>().length() / size, torque: torque.abs() / size })
 }
 
 /// The patch test: the largest force on a point inside a mesh under the uniform deformation `X = A s`, over the largest
@@ -75,13 +75,13 @@ pub fn patch_residual(mesh: &TriangleMesh, law: &dyn ElasticForces, deformation:
     same_length("the mesh of the forces", mesh.points().len(), law.point_count())?;
     let positions: Vec<Vec2> = mesh.points().iter().map(|s| deformation * s).collect();
     all_points_finite("the deformed points", &positions)?;
-    let mut forces = vec![Vec2::zeros(); positions.len()];
+    let mut forces = vec![Vec2::ZERO; positions.len()];
     law.add_forces(&positions, &mut forces)?;
     let mut inside = vec![true; positions.len()];
     mesh.boundary_loops().iter().flat_map(|boundary| &boundary.points).for_each(|&point| inside[point] = false);
     let largest = |wanted: bool| {
         let chosen = forces.iter().zip(&inside).filter(|(_, inside)| **inside == wanted);
-        chosen.map(|(force, _)| force.norm()).fold(0.0, f64::max)
+        chosen.map(|(force, _)| force.length()).fold(0.0, f64::max)
     };
     Ok(largest(true) / largest(false).max(f64::MIN_POSITIVE))
 }

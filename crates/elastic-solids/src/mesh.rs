@@ -96,8 +96,8 @@ impl TriangleMesh {
             }
             let corners = corners_of(triangle, *shift, period.unwrap_or(0.0), &points);
             let (first, second) = (corners[1] - corners[0], corners[2] - corners[0]);
-            let area = 0.5 * first.perp(&second);
-            let longest = first.norm_squared().max(second.norm_squared()).max((second - first).norm_squared());
+            let area = 0.5 * first.perp_dot(second);
+            let longest = first.length_squared().max(second.length_squared()).max((second - first).length_squared());
             // The negation also catches an area that overflowed.
             if !(area.abs() > 1e-12 * longest && area.is_finite()) {
                 let [x, y] = corners[0].into();

@@ -32,7 +32,7 @@ use seeds::{Fit, Lay};
 /// use elastic_solids::{Outline, SolidError};
 /// use ib_core::Vec2;
 ///
-/// let disc = Outline::circle(Vec2::zeros(), 1.0)?.mesh(0.1)?;
+/// let disc = Outline::circle(Vec2::ZERO, 1.0)?.mesh(0.1)?;
 /// println!("{}", disc.quality());
 /// assert!(disc.quality().smallest_angle > 35.0);
 /// # Ok::<(), SolidError>(())

@@ -197,9 +197,9 @@ impl Outline {
         let outline = Self { pieces, period };
         let (first, last) = (outline.pieces[0].start(), outline.pieces[outline.pieces.len() - 1].end());
         let gap = last - first - Vec2::new(period.unwrap_or(0.0), 0.0);
-        if gap.norm() > 1e-9 * outline.length() {
+        if gap.length() > 1e-9 * outline.length() {
             let [x, y] = last.into();
-            return Err(SolidError::OpenOutline { x, y, gap: gap.norm() });
+            return Err(SolidError::OpenOutline { x, y, gap: gap.length() });
         }
         Ok(outline)
     }
@@ -243,8 +243,8 @@ impl Outline {
                 remedy: "turn closed outlines only, a channel runs along x",
             });
         }
-        let rotation = nalgebra::Rotation2::new(angle);
-        self.mapped(move |point| centre + rotation * (point - centre), None)
+        let rotation = Vec2::from_angle(angle);
+        self.mapped(move |point| centre + rotation.rotate(point - centre), None)
     }
 
     /// The outline with y reversed about the level `height` (length): the other wall of a symmetric channel.

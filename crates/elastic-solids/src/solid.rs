@@ -139,7 +139,7 @@ impl Solid {
             positions: mesh.points().to_vec(),
             free: (0..count).collect(),
             tethers: Vec::new(),
-            forces: vec![Vec2::zeros(); count],
+            forces: vec![Vec2::ZERO; count],
             spacing: mesh.quality().mean_edge,
             may_invert: false,
             corrected: false,
@@ -212,7 +212,7 @@ impl Solid {
     /// use elastic_solids::{Solid, SolidError};
     /// use ib_core::Vec2;
     ///
-    /// let mesh = equilateral_strip(Vec2::zeros(), 20, 10, 0.1)?;
+    /// let mesh = equilateral_strip(Vec2::ZERO, 20, 10, 0.1)?;
     /// let wall = Solid::springs(mesh, 1000.0)?.pinned(|s| s.y < 0.01)?.surface_corrected();
     /// println!("{} points move", wall.free_points().len()); // 200
     /// assert_eq!(wall.free_points().len(), 200);
@@ -283,7 +283,7 @@ impl Solid {
 
     /// Computes the forces (force) of all points, those of the tethers included.
     pub(crate) fn compute_forces(&mut self) -> Result<(), SolidError> {
-        self.forces.fill(Vec2::zeros());
+        self.forces.fill(Vec2::ZERO);
         self.law.add_forces(&self.positions, &mut self.forces)?;
         for tether in &self.tethers {
             self.forces[tether.point] += (tether.anchor - self.positions[tether.point]) * tether.stiffness;

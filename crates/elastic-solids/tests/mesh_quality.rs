@@ -129,7 +129,7 @@ fn what_is_left_is_at_dislocations() {
     let mean = wall.quality().mean_edge;
     let (mut all, mut close) = (0.0, 0.0);
     for edge in wall.edges() {
-        let square = (wall.edge_vector(edge, wall.points()).norm() / mean - 1.0).powi(2);
+        let square = (wall.edge_vector(edge, wall.points()).length() / mean - 1.0).powi(2);
         all += square;
         if edge.points.iter().all(|&point| near[point]) {
             close += square;
@@ -147,7 +147,7 @@ fn what_is_left_is_at_dislocations() {
 #[test]
 fn a_disc_is_less_even() {
     for (spacing, bound) in [(0.1, 0.055), (0.05, 0.04)] {
-        let quality = Outline::circle(Vec2::zeros(), 1.0).unwrap().mesh(spacing).unwrap().quality();
+        let quality = Outline::circle(Vec2::ZERO, 1.0).unwrap().mesh(spacing).unwrap().quality();
         println!("disc, spacing {spacing}: {quality}");
         assert!(quality.edge_deviation <= bound && quality.smallest_angle > 35.0, "{quality}");
     }

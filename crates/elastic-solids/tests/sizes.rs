@@ -75,28 +75,28 @@ fn lattices_of_any_size() {
     for count in COUNTS {
         for (columns, rows) in [(count, 4), (4, count), (count, count)] {
             let name = format!("{columns} by {rows}");
-            refused(&name, || equilateral_block(Vec2::zeros(), columns, rows, 0.1));
-            refused(&name, || equilateral_strip(Vec2::zeros(), columns, rows, 0.1));
+            refused(&name, || equilateral_block(Vec2::ZERO, columns, rows, 0.1));
+            refused(&name, || equilateral_strip(Vec2::ZERO, columns, rows, 0.1));
         }
     }
     for length in LENGTHS {
         for (size, spacing) in [([length, 1.0], 0.1), ([1.0, length], 0.1), ([1.0, 1.0], length)] {
-            bounded(&format!("{size:?} at {spacing:e}"), || fitted_strip(Vec2::zeros(), size, spacing));
+            bounded(&format!("{size:?} at {spacing:e}"), || fitted_strip(Vec2::ZERO, size, spacing));
         }
-        bounded(&format!("{length:e}"), || equilateral_block(Vec2::zeros(), 8, 8, length));
+        bounded(&format!("{length:e}"), || equilateral_block(Vec2::ZERO, 8, 8, length));
     }
 }
 
 #[test]
 fn outlines_and_meshes_of_any_spacing() {
-    let disc = || Outline::circle(Vec2::zeros(), 1.0);
+    let disc = || Outline::circle(Vec2::ZERO, 1.0);
     for length in LENGTHS {
         let name = format!("{length:e}");
         bounded(&name, || disc()?.resampled(length));
-        bounded(&name, || Outline::circle(Vec2::zeros(), length)?.resampled(0.1));
+        bounded(&name, || Outline::circle(Vec2::ZERO, length)?.resampled(0.1));
         bounded(&name, || Outline::circle(Vec2::new(length, -length), 1.0)?.mesh(0.2));
-        bounded(&name, || Outline::ellipse(Vec2::zeros(), [length, 1.0])?.mesh(0.2));
-        bounded(&name, || Outline::rectangle(Vec2::zeros(), Vec2::new(length, 1.0))?.mesh(0.2));
+        bounded(&name, || Outline::ellipse(Vec2::ZERO, [length, 1.0])?.mesh(0.2));
+        bounded(&name, || Outline::rectangle(Vec2::ZERO, Vec2::new(length, 1.0))?.mesh(0.2));
         bounded(&name, || disc()?.mesh(length));
         for (period, height, spacing) in [(length, 1.0, 0.2), (2.0, length, 0.2), (2.0, 1.0, length)] {
             let wall = || Region::new([Outline::flat(0.0, period, 0.0)?, Outline::flat(0.0, period, height)?]);
@@ -107,7 +107,7 @@ fn outlines_and_meshes_of_any_spacing() {
         }
     }
     // Just within the bounds of an outline, far beyond those of its inside.
-    refused("a large disc", || Outline::circle(Vec2::zeros(), 1000.0)?.mesh(0.1));
+    refused("a large disc", || Outline::circle(Vec2::ZERO, 1000.0)?.mesh(0.1));
     // The turned seeds of a long wall are a square about it.
     refused("a long wall", || {
         let wall = Region::new([Outline::flat(0.0, 4e4, 0.0)?, Outline::flat(0.0, 4e4, 1.0)?])?;

@@ -101,7 +101,7 @@ fn walls_are_in_their_place_with_every_kernel() {
 fn a_corrected_solid_needs_a_grid() {
     let grid = channel(0.1).system().hydrodynamics().medium();
     let mut solid = springs(layer(0.5, 0.1)).surface_corrected();
-    let mut forces = vec![Vec2::zeros(); solid.marker_count()];
+    let mut forces = vec![Vec2::ZERO; solid.marker_count()];
     solid.write_forces(&grid, &mut forces).expect("a grid");
     let error = solid.write_forces(&Medium { spacing: None, mobility_deficit: None, ..grid }, &mut forces);
     assert!(error.unwrap_err().to_string().contains("use a grid"));
@@ -172,7 +172,7 @@ fn a_scene_tells_what_is_seen_of_a_solid() {
     let handle = scene.add(held(springs(layer(0.5, 0.1))).deformed(shear).expect("positions"));
     let seen = scene.observe(handle).expect("a solid");
     assert!((seen.largest_displacement - 0.05).abs() < 1e-12 && seen.largest_normal_displacement < 1e-12);
-    assert!((seen.drift - Vec2::new(0.025, 0.0)).norm() < 1e-12);
+    assert!((seen.drift - Vec2::new(0.025, 0.0)).length() < 1e-12);
     assert!((seen.smallest_jacobian - 1.0).abs() < 1e-12);
     // The density of the energy of a simple shear g is mu g^2/2, of springs to third order.
     let energy = 0.5 * SHEAR * 0.01 * LENGTH * 0.5;

@@ -17,8 +17,8 @@ use crate::{
 /// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
 ///
 /// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. Time step, integrator,
-/// observers and resolution of the grid may be others then; what the scene is must be the same: the domain, the
-/// viscosities, the bodies and what they are made of ([`crate::Body::properties`]).
+/// observers and resolution of the grid may be others then; what the scene is must be the same: the domain, what
+/// drives the fluid along it, the viscosities, the bodies and what they are made of ([`crate::Body::properties`]).
 ///
 /// ```
 /// use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};

@@ -227,9 +227,9 @@ impl Contrast {
     /// Fills `rigid` with the part of the forces at the nodes that carries net forces and torques, R F. Returns whether
     /// there are any.
     pub(crate) fn rigid_part(&self, forces: &[Vec2], rigid: &mut [Vec2]) -> bool {
-        rigid.fill(Vec2::zeros());
+        rigid.fill(Vec2::ZERO);
         let mut found = false;
-        let (total, nodes) = (forces.iter().map(Vec2::norm).sum::<f64>(), self.nodes);
+        let (total, nodes) = (forces.iter().map(|force| force.length()).sum::<f64>(), self.nodes);
         for (index, left) in self.left.chunks_exact((2 * nodes).max(1)).enumerate() {
             let amount = self.rigid.component(index, forces);
             let curve = &self.curves[index / RIGID];

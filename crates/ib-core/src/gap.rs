@@ -136,7 +136,7 @@ impl Gaps {
 /// body's nearest image is looked for), for its own those of its images.
 fn shifts(domain: &Domain, own: bool) -> [Option<Vec2>; 4] {
     if !own {
-        return [Some(Vec2::zeros()), None, None, None];
+        return [Some(Vec2::ZERO), None, None, None];
     }
     let [x, y] = domain.periods;
     let both = x.zip(y);

@@ -2,11 +2,12 @@
 
 mod markers;
 
-pub use markers::{MarkerGroup, MarkerKind, Markers, Vec2};
+pub use markers::{MarkerGroup, MarkerKind, Markers};
 
 use std::sync::Arc;
 
-pub use stokes_layers::FlowSample;
+use stokes_grid::Drive;
+pub use stokes_layers::{FlowSample, Vec2};
 
 use crate::{FlowError, MobilityDeficit, checkpoint::SavedState};
 
@@ -78,6 +79,11 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     /// The fluid, as bodies see it.
     fn medium(&self) -> Medium;
 
+    /// What drives the flow along a channel; by default nothing is said of it.
+    fn drive(&self) -> Option<Drive> {
+        None
+    }
+
     /// Fills `markers.velocities` from `markers.positions` and `markers.forces`.
     ///
     /// # Errors
@@ -108,6 +114,10 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
     fn medium(&self) -> Medium {
         self.as_ref().medium()
+    }
+
+    fn drive(&self) -> Option<Drive> {
+        self.as_ref().drive()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {

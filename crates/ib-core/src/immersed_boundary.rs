@@ -8,7 +8,7 @@ pub use smeared_contrast::SmearedContrast;
 
 use std::sync::Arc;
 
-use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, StokesSolver};
+use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
 
 use crate::contrast::other_viscosity;
 use crate::mobility::{Clearance, MobilityCorrection};
@@ -261,6 +261,10 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             interface_stiffness: self.stiffness,
             mobility_deficit: Some(Arc::clone(&self.deficit)),
         }
+    }
+
+    fn drive(&self) -> Option<Drive> {
+        self.grid().has_walls().then(|| self.solver.drive())
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {

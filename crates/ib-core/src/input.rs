@@ -147,8 +147,10 @@ pub fn all_finite(name: &'static str, values: &[f64]) -> Result<(), InputError> 
 /// # Errors
 /// [`InputError::EntryNotFinite`].
 pub fn all_points_finite(name: &'static str, points: &[Vec2]) -> Result<(), InputError> {
-    points.iter().enumerate().try_for_each(|(index, point)| match point.iter().find(|value| !value.is_finite()) {
-        None => Ok(()),
-        Some(&value) => Err(InputError::EntryNotFinite { name, index, value }),
+    points.iter().enumerate().try_for_each(|(index, point)| {
+        match point.to_array().iter().find(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(&value) => Err(InputError::EntryNotFinite { name, index, value }),
+        }
     })
 }

@@ -37,17 +37,17 @@ fn check(grid: Grid, kernel: AnyKernel, positions: &[Vec2], forces: &[Vec2], see
     let mut density = StaggeredField::zeros(grid);
     transfer.spread(forces, &mut density);
     let velocity = noise(grid, seed);
-    let mut velocities = vec![Vec2::zeros(); positions.len()];
+    let mut velocities = vec![Vec2::ZERO; positions.len()];
     transfer.interpolate(&velocity, &mut velocities);
     let h2 = grid.spacing() * grid.spacing();
     let on_grid = h2 * inner(&density, &velocity);
-    let at_markers: f64 = forces.iter().zip(&velocities).map(|(f, u)| f.dot(u)).sum();
-    let scale: f64 = forces.iter().map(Vec2::norm).sum();
+    let at_markers: f64 = forces.iter().zip(&velocities).map(|(f, u)| f.dot(*u)).sum();
+    let scale: f64 = forces.iter().map(|v| v.length()).sum();
     prop_assert!((on_grid - at_markers).abs() < 1e-13 * (1.0 + scale), "{}: {on_grid} {at_markers}", kernel.name());
     if !grid.has_walls() {
         let total: Vec2 = forces.iter().sum();
         let sum = |values: &[f64]| h2 * values.iter().sum::<f64>();
-        let error = (total - Vec2::new(sum(density.x()), sum(density.y()))).norm();
+        let error = (total - Vec2::new(sum(density.x()), sum(density.y()))).length();
         prop_assert!(error < 1e-12 * (1.0 + scale), "the total force arrives");
     }
     Ok(())
@@ -95,7 +95,7 @@ fn walls_and_constants() {
             (0..20).flat_map(|i| [channel.origin()[1], top].map(|y| Vec2::new(0.137 * f64::from(i), y))).collect();
         let mut transfer = Transfer::new(channel, kernel);
         transfer.locate(&positions);
-        let mut velocities = vec![Vec2::zeros(); positions.len()];
+        let mut velocities = vec![Vec2::ZERO; positions.len()];
         transfer.interpolate(&velocity, &mut velocities);
         for u in &velocities {
             assert!(u.x.abs() < 1e-14, "{}: no slip, {u}", kernel.name());
@@ -108,7 +108,7 @@ fn walls_and_constants() {
         transfer.locate(&positions);
         transfer.interpolate(&constant, &mut velocities);
         for u in &velocities {
-            assert!((u - Vec2::new(1.5, 1.5)).norm() < 1e-13);
+            assert!((u - Vec2::new(1.5, 1.5)).length() < 1e-13);
         }
     }
 }
@@ -147,10 +147,10 @@ proptest! {
         for kernel in AnyKernel::ALL {
             let mut transfer = Transfer::new(grid, kernel);
             transfer.locate(&[position]);
-            let mut found = [Vec2::zeros()];
+            let mut found = [Vec2::ZERO];
             transfer.interpolate(&velocity, &mut found);
             let [a, b] = [(position.x - x0) / h, (position.y - y0) / h];
-            let mut expected = Vec2::zeros();
+            let mut expected = Vec2::ZERO;
             for column in a.floor() as i64 - 4..a.floor() as i64 + 5 {
                 for row in b.floor() as i64 - 4..b.floor() as i64 + 5 {
                     let (i, j) = (column as f64, row as f64);
@@ -159,7 +159,7 @@ proptest! {
                     expected.y += weight(b - j, a - i - 0.5) * continued(&velocity, 1, column, row);
                 }
             }
-            prop_assert!((found[0] - expected).norm() < 1e-13, "{}: {} {expected}", kernel.name(), found[0]);
+            prop_assert!((found[0] - expected).length() < 1e-13, "{}: {} {expected}", kernel.name(), found[0]);
         }
     }
 }
@@ -219,11 +219,11 @@ fn polynomials_and_weights_one_by_one_transfer_alike() {
         for (k, (fast, slow)) in pairs.enumerate() {
             assert!((fast - slow).abs() < 1e-13 * size, "{} {k}: {fast} {slow}", kernel.name());
         }
-        let mut velocities = [vec![Vec2::zeros(); positions.len()], vec![Vec2::zeros(); positions.len()]];
+        let mut velocities = [vec![Vec2::ZERO; positions.len()], vec![Vec2::ZERO; positions.len()]];
         fast.interpolate(&velocity, &mut velocities[0]);
         slow.interpolate(&velocity, &mut velocities[1]);
         for (k, (fast, slow)) in velocities[0].iter().zip(&velocities[1]).enumerate() {
-            assert!((fast - slow).norm() < 1e-13, "{} at {:?}: {fast} {slow}", kernel.name(), positions[k]);
+            assert!((fast - slow).length() < 1e-13, "{} at {:?}: {fast} {slow}", kernel.name(), positions[k]);
         }
     }
 }
@@ -239,15 +239,15 @@ fn what_is_not_in_the_box_does_no_harm() {
             let positions: Vec<Vec2> =
                 far.into_iter().flat_map(|r| [Vec2::new(r, 0.1), good, Vec2::new(0.1, r), Vec2::new(r, r)]).collect();
             let mut transfer = Transfer::new(grid, kernel);
-            let mut alone = vec![Vec2::zeros()];
+            let mut alone = vec![Vec2::ZERO];
             transfer.locate(&[good]);
             transfer.interpolate(&velocity, &mut alone);
             transfer.locate(&positions);
             transfer.spread(&vec![Vec2::new(1.0, 2.0); positions.len()], &mut StaggeredField::zeros(grid));
-            let mut velocities = vec![Vec2::zeros(); positions.len()];
+            let mut velocities = vec![Vec2::ZERO; positions.len()];
             transfer.interpolate(&velocity, &mut velocities);
             for chunk in velocities.chunks(4) {
-                assert!((chunk[1] - alone[0]).norm() < 1e-15, "{}", kernel.name());
+                assert!((chunk[1] - alone[0]).length() < 1e-15, "{}", kernel.name());
             }
         }
     }

@@ -72,7 +72,7 @@ impl Body for Points {
         positions.copy_from_slice(&self.positions);
     }
     fn write_forces(&mut self, _: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        forces.fill(Vec2::zeros());
+        forces.fill(Vec2::ZERO);
         Ok(())
     }
     fn state_len(&self) -> usize {
@@ -80,7 +80,7 @@ impl Body for Points {
     }
     fn write_state(&self, state: &mut [f64]) {
         for (pair, position) in state.chunks_exact_mut(2).zip(&self.positions) {
-            pair.copy_from_slice(position.as_slice());
+            pair.copy_from_slice(&position.to_array());
         }
     }
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
@@ -92,7 +92,7 @@ impl Body for Points {
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(velocities) {
             let velocity = if self.turned { -velocity } else { *velocity };
-            pair.copy_from_slice(velocity.as_slice());
+            pair.copy_from_slice(&velocity.to_array());
         }
     }
     fn end_step(&mut self, _: &Medium, _: f64) -> Result<(), BodyError> {
@@ -141,7 +141,7 @@ fn present_and_least_gap() {
 
 #[test]
 fn no_gap_without_walls() {
-    let mut scene = Scene::new(Wind { velocity: Vec2::zeros(), walls: None });
+    let mut scene = Scene::new(Wind { velocity: Vec2::ZERO, walls: None });
     scene.add(Points::new(&[0.0], 0.0));
     scene.step(1.0).unwrap();
     assert_eq!(scene.system_mut().wall_gap(), None);

@@ -122,7 +122,7 @@ impl Look {
             let path: Vec<Vec2> = track.iter().filter(|(time, _)| *time <= seen.time).map(|(_, at)| *at).collect();
             last_period(&path, size.x).to_vec()
         };
-        let spacing = self.streamline_spacing.unwrap_or(STREAMLINES * size.min());
+        let spacing = self.streamline_spacing.unwrap_or(STREAMLINES * size.min_element());
         paint::paint(&Picture {
             seen,
             legends,

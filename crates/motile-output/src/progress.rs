@@ -103,7 +103,7 @@ impl<H: Hydrodynamics> Observer<H> for RunProgress {
                 }
             }
             let state = InterfaceState::of(system, handle)?;
-            speed = speed.or(Some(centroid_velocity(state.markers, state.velocities)?.norm()));
+            speed = speed.or(Some(centroid_velocity(state.markers, state.velocities)?.length()));
         }
         let (time, end, steps, seconds) = (system.time(), self.end, system.steps(), self.progress.seconds());
         self.progress.update(time / end, || {

@@ -205,7 +205,7 @@ impl DoubleLayerMatrix {
                 0.0
             };
             for ((j, normal), position) in nodes.zip(&curve.normals).zip(&curve.positions) {
-                let amount = growth - background * position.dot(&total);
+                let amount = growth - background * position.dot(total);
                 ux[j] += amount * normal.x;
                 uy[j] += amount * normal.y;
             }
@@ -227,7 +227,7 @@ impl DoubleLayerMatrix {
     /// `-(1/V) sum D X (v.n) w` in a box.
     fn mean(&self, curves: &[NodeCurve]) -> Vec2 {
         let (n, v) = (self.nodes, &self.scaled);
-        let mut sum = Vec2::zeros();
+        let mut sum = Vec2::ZERO;
         if self.area.is_infinite() {
             return sum;
         }

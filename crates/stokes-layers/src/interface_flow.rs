@@ -51,7 +51,7 @@ pub struct FlowSample {
 
 impl Default for FlowSample {
     fn default() -> Self {
-        Self { velocity: Vec2::zeros(), pressure: 0.0, gradient: [[0.0; 2]; 2] }
+        Self { velocity: Vec2::ZERO, pressure: 0.0, gradient: [[0.0; 2]; 2] }
     }
 }
 

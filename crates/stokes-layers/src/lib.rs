@@ -14,21 +14,21 @@
 //! let count = 128;
 //! let angle = |k: usize| std::f64::consts::TAU * k as f64 / count as f64;
 //! let positions: Vec<Vec2> = (0..count).map(|k| Vec2::new(1.3 * angle(k).cos(), angle(k).sin() / 1.3)).collect();
-//! let mut forces = vec![Vec2::zeros(); count];
+//! let mut forces = vec![Vec2::ZERO; count];
 //! PeriodicCalculus::new(count)?.tension_forces(&positions, &[1.0; 128], TensionPlacement::Points, &mut forces)?;
 //!
 //! let mut flow = InterfaceFlow::new(Region::Plane, 1.0, Settings::default())?;
 //! flow.load([Interface { positions: &positions, forces: &forces, viscosity: 10.0 }].into_iter())?;
 //! let solution = flow.solve()?;
-//! let mut velocities = vec![Vec2::zeros(); count];
+//! let mut velocities = vec![Vec2::ZERO; count];
 //! flow.velocities(0, &mut velocities)?;
 //! println!("tip velocity {:.9} after {} iterations", velocities[0].x, solution.iterations);
 //! assert!((velocities[0].x + 0.029_016_190).abs() < 1e-8);
 //!
 //! let mut samples = [FlowSample::default(); 2];
-//! flow.sample(&[Vec2::zeros(), Vec2::new(1.3 + 1e-6, 0.0)], &mut samples)?;
-//! assert!(samples[0].velocity.norm() < 1e-12 && samples[0].pressure > samples[1].pressure);
-//! assert!((samples[1].velocity - velocities[0]).norm() < 1e-6);
+//! flow.sample(&[Vec2::ZERO, Vec2::new(1.3 + 1e-6, 0.0)], &mut samples)?;
+//! assert!(samples[0].velocity.length() < 1e-12 && samples[0].pressure > samples[1].pressure);
+//! assert!((samples[1].velocity - velocities[0]).length() < 1e-6);
 //! # Ok(())
 //! # }
 //! ```
@@ -72,9 +72,8 @@ mod settings;
 
 pub use curve::{PeriodicCalculus, TensionPlacement};
 pub use error::LayerError;
+/// A position, force or velocity.
+pub use glam::DVec2 as Vec2;
 pub use interface_flow::{FlowSample, Interface, InterfaceFlow, Solution, WarmStart};
 pub use region::{Forcing, Region};
 pub use settings::Settings;
-
-/// A position, force or velocity.
-pub type Vec2 = nalgebra::Vector2<f64>;

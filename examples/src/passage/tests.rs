@@ -16,8 +16,8 @@ fn end(x: impl Fn(f64) -> f64) -> (Verdict, f64) {
 fn verdicts() {
     assert_eq!(end(|t| -6.0 + 0.1 * t).0, Verdict::Passed);
     let (verdict, time) = end(|t| -6.0 + 0.1 * t.min(60.0 - t));
-    assert!(verdict == Verdict::TurnedBack && (time - 40.0).abs() < 0.2, "{verdict} {time}");
+    assert!(verdict == Verdict::TurnedBack && (time - 40.0).abs() < 0.2, "{verdict:?} {time}");
     let (verdict, time) = end(|t| -3.0 - 3.0 * (-0.2 * t).exp());
-    assert!(verdict == Verdict::Stuck && (time - 65.0).abs() < 0.5, "{verdict} {time}");
+    assert!(verdict == Verdict::Stuck && (time - 65.0).abs() < 0.5, "{verdict:?} {time}");
     assert_eq!(end(|t| -6.0 + 0.01 * t).0, Verdict::Undecided);
 }

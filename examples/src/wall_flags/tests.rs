@@ -5,17 +5,12 @@ use super::*;
 #[derive(Debug, Parser)]
 struct Flags {
     #[command(flatten)]
-    droplet: DropletFlags,
-    #[command(flatten)]
-    walls: ElasticFlags,
-    #[command(flatten)]
-    method: MethodFlags,
+    scene: SceneFlags<ElasticFlags>,
 }
 
 fn channel(line: &str) -> Result<Setup> {
     let flags = Flags::try_parse_from(std::iter::once("test").chain(line.split_whitespace()))?;
-    let shape = ChannelShape::Straight { width: flags.walls.width };
-    flags.walls.setup(&shape, &flags.droplet, &flags.method, 0.0, None)
+    flags.scene.setup(&ChannelShape::Straight { width: flags.scene.region.width }, 0.0, None)
 }
 
 #[test]

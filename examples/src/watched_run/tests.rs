@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use super::*;
-use crate::{MethodFlags, OutputFlags, Summary};
+use crate::{BoxFlags, OutputFlags};
 use clap::Parser;
 use motile::ib_core::StepSize;
 use motile::stokes_grid::Drive;
@@ -10,20 +10,17 @@ use motile::{Built, GridMethod, Method, Region, Setup};
 #[derive(Debug, Parser)]
 struct Flags {
     #[command(flatten)]
-    method: MethodFlags,
-}
-
-/// The flags of a run to that time.
-fn method(time: &str) -> MethodFlags {
-    Flags::parse_from(["test", "--time", time]).method
+    scene: SceneFlags<BoxFlags>,
 }
 
 fn directory(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("motile-{name}-{}", std::process::id()))
 }
 
-fn output(directory: &Path, no_pictures: bool) -> OutputFlags {
-    OutputFlags { no_pictures, quiet: true, out: Some(directory.to_path_buf()), ..OutputFlags::default() }
+/// The flags of a run to that time.
+fn flags(time: &str, directory: &Path, no_pictures: bool) -> SceneFlags<BoxFlags> {
+    let output = OutputFlags { no_pictures, quiet: true, out: Some(directory.to_path_buf()), ..OutputFlags::default() };
+    SceneFlags { output, ..Flags::parse_from(["test", "--time", time]).scene }
 }
 
 #[test]
@@ -32,16 +29,17 @@ fn a_run_in_a_channel_leaves_all_its_files() {
     let region = Region::Channel { length: 6.0, width: 3.0, drive: Drive::ZeroGradient };
     let setup = Setup { region, ..Setup::default() };
     let Built { mut scene, droplets, .. } = setup.build().unwrap();
-    let (mut flags, title) = (output(&directory, false), caption(&setup));
+    let mut flags = flags("1", &directory, false);
     std::fs::create_dir_all(&directory).unwrap();
-    flags.write_scene = Some(directory.join("scene.toml"));
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &method("1"), &flags, "", title).unwrap();
-    run.go(&mut scene).unwrap().unwrap();
-    let summary = run.summary().unwrap();
-    run.write_pictures(&mut scene).unwrap();
+    flags.output.write_scene = Some(directory.join("scene.toml"));
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &flags, "", "").unwrap();
+    run.go(&mut scene, None).unwrap();
+    let summary = run.summary(&scene).unwrap();
+    assert_eq!(run.recorder.table().rows().len(), run.recorder.records().records().len());
+    run.finish(&mut scene, &summary).unwrap();
 
-    let files =
-        ["final.png", "swim.gif", "time_series.svg", "concentration_profile.png", "trajectory.csv", "vtk/fields.pvd"];
+    let files = ["final.png", "swim.gif", "time_series.svg", "concentration_profile.png", "trajectory.csv"];
+    let files = files.into_iter().chain(["vtk/fields.pvd", "summary.json"]);
     for file in files {
         assert!(directory.join(file).metadata().is_ok_and(|data| data.len() > 200), "{file}");
     }
@@ -49,7 +47,6 @@ fn a_run_in_a_channel_leaves_all_its_files() {
     assert_eq!(Setup::from_toml(&written).unwrap(), setup);
     let header = std::fs::read_to_string(directory.join("trajectory.csv")).unwrap();
     assert!(header.starts_with("time,x,y,") && header.lines().next().unwrap().contains(",gap,"));
-    assert_eq!(run.recorder().table().rows().len(), run.recorder().records().records().len());
     assert_eq!(summary.number("time"), 1.0);
     assert!(summary.number("speed") > 0.05 && summary.number("area_relative_change").abs() < 1e-4);
     std::fs::remove_dir_all(&directory).unwrap();
@@ -66,17 +63,18 @@ fn a_run_that_breaks_off_keeps_what_it_has() {
         ..Setup::default()
     };
     let Built { mut scene, droplets, .. } = setup.build().unwrap();
-    let flags = output(&directory, true);
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &method("100"), &flags, "", String::new()).unwrap();
-    let error = run.go(&mut scene).unwrap().unwrap_err();
-    let summary: Summary = run.summary().unwrap();
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &flags("100", &directory, true), "", "").unwrap();
+    run.go(&mut scene, None).unwrap();
+    let summary = run.summary(&scene).unwrap();
     let time = summary.number("time");
     assert!(time > 0.0 && time < 100.0);
-    assert_eq!(run.recorder().table().rows().last().map(|row| row[0]), Some(time));
-    assert_eq!(summary.values()["failure"], error.to_string());
-    assert_eq!(summary.values()["finished"], false);
+    assert_eq!(run.recorder.table().rows().last().map(|row| row[0]), Some(time));
     let files = std::fs::read_dir(&directory).unwrap().count();
     assert_eq!(files, 1, "without pictures there is the trajectory alone");
+    let error = run.finish(&mut scene, &summary).unwrap_err();
+    assert_eq!(summary.values()["failure"], error.to_string());
+    assert_eq!(summary.values()["finished"], false);
+    assert!(directory.join("summary.json").exists());
     std::fs::remove_dir_all(&directory).unwrap();
 }
 
@@ -85,8 +83,7 @@ fn an_unstable_step_is_refused_before_anything_is_written() {
     let directory = directory("refused-run");
     let setup = Setup { step: StepSize::Fixed(5.0), ..Setup::default() };
     let Built { mut scene, droplets, .. } = setup.build().unwrap();
-    let flags = output(&directory, true);
-    let refused = WatchedRun::new(&mut scene, &droplets, &setup, &method("10"), &flags, "", String::new());
+    let refused = WatchedRun::new(&mut scene, &droplets, &setup, &flags("10", &directory, true), "", "");
     assert!(refused.unwrap_err().to_string().contains("time step 5"));
     assert!(!directory.exists());
 }

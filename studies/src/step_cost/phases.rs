@@ -160,7 +160,7 @@ impl Pieces {
 
     /// Seconds of one spreading, one real transform there and back, and one interpolation.
     fn measure(&mut self, positions: &[Vec2], forces: &[Vec2]) -> [f64; 3] {
-        self.velocities.resize(positions.len(), Vec2::zeros());
+        self.velocities.resize(positions.len(), Vec2::ZERO);
         let Self { transfer, density, velocities, transform, symbol, field } = self;
         let nx = density.grid().nx();
         let spread = twice(|| {

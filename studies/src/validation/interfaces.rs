@@ -177,7 +177,7 @@ pub(crate) fn several(quick: bool) -> Tables {
         }
         let finest = rows.last().map(|row| row.2.centroids.clone()).unwrap_or_default();
         for (nodes, cells, found, seconds) in rows {
-            let shifts = found.centroids.iter().zip(&finest).map(|(a, b)| (a - b).norm());
+            let shifts = found.centroids.iter().zip(&finest).map(|(a, b)| (a - b).length());
             table.push([
                 name.to_owned(),
                 ratio.to_string(),

@@ -40,7 +40,7 @@ fn area(droplet: &ActiveDroplet, on_grid: bool) -> f64 {
     let weights: Vec<f64> = (1..count).map(weight).collect();
     let share = |k: usize| {
         let along: Vec2 = weights.iter().zip(1..).map(|(w, j)| *w * markers[(k + count - j) % count]).sum();
-        markers[k].perp(&along)
+        markers[k].perp_dot(along)
     };
     0.5 * unit * (0..count).map(share).sum::<f64>()
 }

@@ -98,7 +98,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         Recipe::new(15, "one sliver triangle", both, |way, extent, look| {
             // A point is moved almost onto the opposite edge of one of its triangles.
             let plain = disturbed(|_, p| p)?;
-            let near = |k: &usize| (plain.points()[*k] - Vec2::new(0.0, -1.5)).norm();
+            let near = |k: &usize| (plain.points()[*k] - Vec2::new(0.0, -1.5)).length();
             let chosen = (0..plain.points().len()).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(0);
             let triangle = plain.triangles().iter().find(|corners| corners.contains(&chosen));
             let others: Vec<Vec2> = triangle
@@ -108,7 +108,7 @@ pub(crate) fn trials() -> Vec<Trial> {
                 .map(|&corner| plain.points()[corner])
                 .collect();
             let middle = others.iter().sum::<Vec2>() / others.len().max(1) as f64;
-            let mesh = disturbed(|k, p| if k == chosen { p.lerp(&middle, 0.97) } else { p })?;
+            let mesh = disturbed(|k, p| if k == chosen { p.lerp(middle, 0.97) } else { p })?;
             sheared(mesh, way, extent.pick(1.0, 20.0), look)
         }),
     ])

@@ -49,7 +49,7 @@ impl Body for Weight {
 
     fn write_state(&self, state: &mut [f64]) {
         for (pair, point) in state.chunks_exact_mut(2).zip(&self.points) {
-            pair.copy_from_slice(point.as_slice());
+            pair.copy_from_slice(&point.to_array());
         }
     }
 
@@ -62,7 +62,7 @@ impl Body for Weight {
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(velocities) {
-            pair.copy_from_slice(velocity.as_slice());
+            pair.copy_from_slice(&velocity.to_array());
         }
     }
 

@@ -33,10 +33,10 @@ pub fn point_forces<K: Kernel>(kernel: &K, h: f64, drive: Drive) -> Result<f64, 
     let mut worst: f64 = 0.0;
     for i in 0..x.len() {
         let (from, to) = (Vec2::new(x0[i], y0[i]), Vec2::new(x[i], y[i]));
-        if (to - from).norm() < 0.5 {
+        if (to - from).length() < 0.5 {
             continue;
         }
-        for (direction, force) in [Vec2::x(), Vec2::y()].into_iter().enumerate() {
+        for (direction, force) in [Vec2::X, Vec2::Y].into_iter().enumerate() {
             // A second marker without force takes the velocity by the kernel's own interpolation.
             let mut markers = Markers::new();
             markers.push_group(2, MarkerKind::Points);
@@ -45,7 +45,7 @@ pub fn point_forces<K: Kernel>(kernel: &K, h: f64, drive: Drive) -> Result<f64, 
             flow.velocities(&mut markers)?;
             let velocity = 4.0 * std::f64::consts::PI * markers.velocities[1];
             let [ex, ey] = &expected[direction];
-            worst = worst.max((velocity - Vec2::new(ex[i], ey[i])).norm());
+            worst = worst.max((velocity - Vec2::new(ex[i], ey[i])).length());
         }
     }
     Ok(worst)
@@ -109,11 +109,11 @@ pub fn fixed_shape<K: Kernel>(
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for (i, (point, sample)) in points.iter().zip(&samples).enumerate() {
         let distance =
-            shape.markers.positions.iter().map(|marker| (marker - point).norm()).fold(f64::INFINITY, f64::min);
+            shape.markers.positions.iter().map(|marker| (marker - point).length()).fold(f64::INFINITY, f64::min);
         let exact = Vec2::new(vx[i], vy[i]);
-        largest = largest.max(exact.norm());
+        largest = largest.max(exact.length());
         if distance > 3.0 * h {
-            worst = worst.max((sample.velocity - exact).norm());
+            worst = worst.max((sample.velocity - exact).length());
         }
     }
     Ok(ShapeErrors { markers, field: worst / largest, drive: drive_error, wall_shear })

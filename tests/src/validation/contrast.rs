@@ -108,7 +108,7 @@ impl Droplet {
         let [a, b] = self.axes;
         let (sin, cos) = t.sin_cos();
         let tangent = Vec2::new(-a * sin, b * cos);
-        let speed = tangent.norm();
+        let speed = tangent.length();
         let tau = tangent / speed;
         let mode = f64::from(self.mode);
         let slope = -0.5 * mode * (mode * t - self.phase).sin();
@@ -184,12 +184,12 @@ impl Exact {
             .iter()
             .zip(&velocities)
             .map(|(droplet, velocities)| {
-                let mut sum = Vec2::zeros();
+                let mut sum = Vec2::ZERO;
                 for (k, v) in velocities.iter().enumerate() {
                     let t = TAU * k as f64 / nodes as f64;
                     let [a, b] = droplet.axes;
                     let normal = Vec2::new(b * t.cos(), a * t.sin());
-                    sum += v.dot(&normal) * (droplet.point(t) - Vec2::from(droplet.centre)) * (TAU / nodes as f64);
+                    sum += v.dot(normal) * (droplet.point(t) - Vec2::from(droplet.centre)) * (TAU / nodes as f64);
                 }
                 sum / (0.5 * TAU * droplet.axes[0] * droplet.axes[1])
             })
@@ -206,8 +206,8 @@ impl Exact {
     /// Whether a droplet moves, so that the error of its velocity can be relative to that.
     #[must_use]
     pub fn moves(&self, droplet: usize) -> bool {
-        let largest = self.velocities[droplet].iter().map(Vec2::norm).fold(0.0, f64::max);
-        self.centroids[droplet].norm() > 0.02 * largest
+        let largest = self.velocities[droplet].iter().map(|v| v.length()).fold(0.0, f64::max);
+        self.centroids[droplet].length() > 0.02 * largest
     }
 
     /// The errors of the immersed boundary method with grid spacing `h` and markers h/2 apart, droplet by droplet.
@@ -237,15 +237,15 @@ impl Exact {
             let (droplet, range) = (&self.droplets[index], group.range.clone());
             let (positions, velocities) = (&markers.positions[range.clone()], &markers.velocities[range]);
             let exact = &self.velocities[index];
-            let largest = exact.iter().map(Vec2::norm).fold(0.0, f64::max);
+            let largest = exact.iter().map(|v| v.length()).fold(0.0, f64::max);
             let (mut sum, mut maximum) = (0.0, 0.0_f64);
             for (position, velocity) in positions.iter().zip(velocities) {
-                let error = (velocity - interpolate(exact, droplet.parameter(*position))).norm() / largest;
+                let error = (velocity - interpolate(exact, droplet.parameter(*position))).length() / largest;
                 sum += error * error;
                 maximum = maximum.max(error);
             }
             let difference = centroid_velocity(positions, velocities) - self.centroids[index];
-            let speed = difference.norm() / if self.moves(index) { self.centroids[index].norm() } else { largest };
+            let speed = difference.length() / if self.moves(index) { self.centroids[index].length() } else { largest };
             all.push(Errors { speed, rms: (sum / positions.len() as f64).sqrt(), maximum });
         }
         Ok(all)
@@ -270,14 +270,14 @@ fn smeared(region: Region, h: f64, tolerance: f64) -> Result<AnyFlow, StudyError
 /// Velocity of the centroid of a closed polygon from the flux through its sides.
 fn centroid_velocity(positions: &[Vec2], velocities: &[Vec2]) -> Vec2 {
     let count = positions.len();
-    let (mut sum, mut area) = (Vec2::zeros(), 0.0);
+    let (mut sum, mut area) = (Vec2::ZERO, 0.0);
     let middle = positions.iter().sum::<Vec2>() / count as f64;
     for k in 0..count {
         let d = 0.5 * (positions[(k + 1) % count] - positions[(k + count - 1) % count]);
         let normal = Vec2::new(d.y, -d.x);
         let relative = positions[k] - middle;
-        sum += velocities[k].dot(&normal) * relative;
-        area += 0.5 * relative.dot(&normal);
+        sum += velocities[k].dot(normal) * relative;
+        area += 0.5 * relative.dot(normal);
     }
     sum / area
 }
@@ -285,7 +285,7 @@ fn centroid_velocity(positions: &[Vec2], velocities: &[Vec2]) -> Vec2 {
 /// Trigonometric interpolation of values at equal steps of a parameter.
 fn interpolate(values: &[Vec2], t: f64) -> Vec2 {
     let count = values.len();
-    let mut sum = Vec2::zeros();
+    let mut sum = Vec2::ZERO;
     for (k, value) in values.iter().enumerate() {
         let half = 0.5 * (t - TAU * k as f64 / count as f64);
         // The kernel of Dirichlet for an even number of values.

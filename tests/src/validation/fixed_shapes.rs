@@ -152,7 +152,7 @@ fn errors_of(reference: &Reference, velocity: impl Fn(usize) -> Vec2) -> Result<
     let largest = vx.iter().zip(&vy).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
     let (mut maximum, mut sum) = (0.0_f64, 0.0);
     for (j, (vx, vy)) in vx.iter().zip(&vy).enumerate() {
-        let error = (velocity(j) - Vec2::new(*vx, *vy)).norm() / largest;
+        let error = (velocity(j) - Vec2::new(*vx, *vy)).length() / largest;
         maximum = maximum.max(error);
         sum += error * error / 8.0;
     }
@@ -165,7 +165,7 @@ fn at_parameter(parameters: &[f64], velocities: &[Vec2], t: f64) -> Vec2 {
     let offset = |k: usize| (parameters[k % count] - t + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
     let nearest = (0..count).min_by(|&a, &b| offset(a).abs().total_cmp(&offset(b).abs())).unwrap_or(0);
     let first = if offset(nearest) > 0.0 { nearest + count - 2 } else { nearest + count - 1 };
-    let mut sum = Vec2::zeros();
+    let mut sum = Vec2::ZERO;
     for i in 0..4 {
         let mut weight = 1.0;
         for j in 0..4 {

@@ -198,7 +198,7 @@ fn amplitude(droplet: &ActiveDroplet, mode: Mode) -> Result<f64, StudyError> {
             Mode::Concentration(k) => number * (f64::from(k) * angle(0.5 * (marker + next))).cos(),
             Mode::Shape(k) => {
                 let width = 0.5 * (angle(next) - angle(before)).rem_euclid(TAU);
-                (marker - centre).norm() * width * (f64::from(k) * angle(*marker)).cos()
+                (marker - centre).length() * width * (f64::from(k) * angle(*marker)).cos()
             }
         };
     }

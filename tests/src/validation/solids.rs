@@ -40,14 +40,15 @@ pub fn energies() -> Result<Named<dyn EnergyDensity>, SolidError> {
 /// # Errors
 /// Those of [`stress_error`].
 pub fn largest_stress_error(energy: &dyn EnergyDensity) -> Result<f64, SolidError> {
-    let rotation = |angle: f64| Mat2::new(angle.cos(), -angle.sin(), angle.sin(), angle.cos());
+    let norm = |matrix: Mat2| matrix.x_axis.length().hypot(matrix.y_axis.length());
     let mut largest = 0.0_f64;
     for first in [0.5, 0.8, 1.0, 1.3, 2.0] {
         for second in [0.5, 0.9, 1.1, 1.6, 2.0] {
             for (before, after) in [(0.0, 0.0), (0.7, -0.4), (2.1, 1.3), (-1.2, 2.9)] {
-                let deformation = rotation(after) * Mat2::new(first, 0.0, 0.0, second) * rotation(before);
+                let deformation =
+                    Mat2::from_angle(after) * Mat2::from_diagonal(Vec2::new(first, second)) * Mat2::from_angle(before);
                 let gradient = DeformationGradient::new(deformation)?;
-                let scale = energy.stress(&gradient).norm().max(SHEAR);
+                let scale = norm(energy.stress(&gradient)).max(SHEAR);
                 largest = largest.max(stress_error(energy, deformation, 5e-6)? / scale);
             }
         }
@@ -74,7 +75,7 @@ pub fn laws(mesh: &TriangleMesh) -> Result<Named<dyn ElasticForces>, SolidError>
 /// A mesh that could not be made.
 pub fn meshes() -> Result<[TriangleMesh; 2], SolidError> {
     let circle = |radius: f64| Outline::circle(Vec2::new(0.2, -0.1), radius);
-    Ok([Region::new([circle(1.0)?, circle(0.4)?])?.mesh(0.1)?, equilateral_block(Vec2::zeros(), 12, 11, 0.1)?])
+    Ok([Region::new([circle(1.0)?, circle(0.4)?])?.mesh(0.1)?, equilateral_block(Vec2::ZERO, 12, 11, 0.1)?])
 }
 
 /// The balance of the forces under a large deformation that is not smooth on the scale of the mesh.
@@ -93,7 +94,7 @@ pub fn balance(mesh: &TriangleMesh, law: &dyn ElasticForces) -> Result<ForceBala
 /// # Errors
 /// Those of [`patch_residual`].
 pub fn patch(mesh: &TriangleMesh, law: &dyn ElasticForces) -> Result<f64, SolidError> {
-    patch_residual(mesh, law, Mat2::new(1.1, 0.2, -0.1, 0.9))
+    patch_residual(mesh, law, Mat2::from_rows_array(&[1.1, 0.2, -0.1, 0.9]))
 }
 
 /// Where moduli are measured.
@@ -113,12 +114,12 @@ pub enum Sample {
 /// A mesh that could not be made, a relaxation that does not converge.
 pub fn moduli(sample: Sample, material: Material) -> Result<MeasuredModuli, SolidError> {
     let mesh = match sample {
-        Sample::Lattice => equilateral_strip(Vec2::zeros(), 40, 30, 0.05)?,
+        Sample::Lattice => equilateral_strip(Vec2::ZERO, 40, 30, 0.05)?,
         Sample::Wall => {
             let region = Region::new([Outline::flat(0.0, 4.0, 0.0)?, Outline::flat(0.0, 4.0, 1.5)?])?;
             Mesher::new(0.05)?.turned(TURN)?.mesh(&region)?
         }
-        Sample::Disc => Outline::circle(Vec2::zeros(), 1.0)?.mesh(0.05)?,
+        Sample::Disc => Outline::circle(Vec2::ZERO, 1.0)?.mesh(0.05)?,
     };
     let found = |law: &dyn ElasticForces| -> Result<MeasuredModuli, SolidError> {
         measured_moduli(&mesh, law, 1e-3, InnerPoints::Relaxed)

@@ -93,7 +93,7 @@ impl InitialConcentration {
     /// or negative somewhere.
     pub fn particle_numbers(&self, markers: &[Vec2]) -> Result<Vec<f64>, InterfaceError> {
         let centre = crate::curve::polygon_moments(markers)?.centroid;
-        let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).norm()).collect();
+        let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).length()).collect();
         let perimeter: f64 = lengths.iter().sum();
         let mut concentrations = match &self.0 {
             Kind::Polarised { heading, .. } => polarised(markers, centre, *heading),
@@ -135,7 +135,7 @@ fn polarised(markers: &[Vec2], centre: Vec2, heading: f64) -> Vec<f64> {
     edges(markers)
         .map(|(a, b)| {
             let (a, b) = (a - centre, b - centre);
-            let width = a.perp(&b).atan2(a.dot(&b));
+            let width = a.perp_dot(b).atan2(a.dot(b));
             let middle = a.y.atan2(a.x) + 0.5 * width - heading;
             // mean of cos over the interval = cos(middle) sin(width/2)/(width/2)
             let half = 0.5 * width;

@@ -36,11 +36,11 @@ impl CrossingFinder {
         }
         let m = points.len();
         let end = |k: usize| points[if k + 1 == m { 0 } else { k + 1 }];
-        let longest = (0..m).map(|k| (end(k) - points[k]).norm_squared()).fold(0.0, f64::max).sqrt();
+        let longest = (0..m).map(|k| (end(k) - points[k]).length_squared()).fold(0.0, f64::max).sqrt();
         if longest == 0.0 {
             return Ok(Some((0, 1)));
         }
-        let corner = points.iter().fold(points[0], |a, b| a.inf(b));
+        let corner = points.iter().fold(points[0], |a, b| a.min(*b));
         // Slightly wider than the longest segment, so that rounding cannot put two that meet two cells apart.
         let scale = 1.0 / (1.001 * longest);
         let mask = (2 * m).next_power_of_two() - 1;
@@ -120,8 +120,8 @@ fn is_star_shaped(points: &[Vec2]) -> bool {
     let mut before = points[points.len() - 1] - centre;
     for point in points {
         let here = point - centre;
-        least = least.min(before.perp(&here));
-        widest = widest.max(here.norm_squared());
+        least = least.min(before.perp_dot(here));
+        widest = widest.max(here.length_squared());
         turns += usize::from(before.y < 0.0 && here.y >= 0.0);
         before = here;
     }
@@ -131,18 +131,18 @@ fn is_star_shaped(points: &[Vec2]) -> bool {
 
 /// Whether an edge is followed by one that runs back along it, or has no length.
 fn folds_back(first: Vec2, second: Vec2) -> bool {
-    (first.perp(&second) == 0.0 && first.dot(&second) < 0.0) || first == Vec2::zeros() || second == Vec2::zeros()
+    (first.perp_dot(second) == 0.0 && first.dot(second) < 0.0) || first == Vec2::ZERO || second == Vec2::ZERO
 }
 
 /// Whether the segments pq and rs have a point in common.
 fn segments_meet(p: Vec2, q: Vec2, r: Vec2, s: Vec2) -> bool {
     let (along, other) = (q - p, s - r);
-    let (a, b) = (along.perp(&(r - p)), along.perp(&(s - p)));
-    let (c, d) = (other.perp(&(p - r)), other.perp(&(q - r)));
+    let (a, b) = (along.perp_dot(r - p), along.perp_dot(s - p));
+    let (c, d) = (other.perp_dot(p - r), other.perp_dot(q - r));
     if a == 0.0 && b == 0.0 {
         // On one line: compare along it.
-        let (from, to) = (along.dot(&(r - p)), along.dot(&(s - p)));
-        return from.max(to) >= 0.0 && from.min(to) <= along.norm_squared();
+        let (from, to) = (along.dot(r - p), along.dot(s - p));
+        return from.max(to) >= 0.0 && from.min(to) <= along.length_squared();
     }
     a * b <= 0.0 && c * d <= 0.0
 }

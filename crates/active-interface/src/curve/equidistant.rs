@@ -17,7 +17,7 @@ pub(crate) fn equidistant(point: impl Fn(f64) -> Vec2, count: usize) -> Result<V
     all_points_finite("the points of the curve", &samples)?;
     let mut arc = vec![0.0; fine + 1];
     for (i, (a, b)) in edges(&samples).enumerate() {
-        arc[i + 1] = arc[i] + (b - a).norm();
+        arc[i + 1] = arc[i] + (b - a).length();
     }
     let mut parameters: Vec<f64> = (0..count)
         .map(|k| {
@@ -29,11 +29,11 @@ pub(crate) fn equidistant(point: impl Fn(f64) -> Vec2, count: usize) -> Result<V
         .collect();
 
     let mut points: Vec<Vec2> = parameters.iter().map(|&t| point(t)).collect();
-    let extent = points.iter().map(Vec2::amax).fold(0.0, f64::max);
+    let extent = points.iter().map(|point| point.abs().max_element()).fold(0.0, f64::max);
     let mut best = f64::INFINITY;
     for _ in 0..200 {
         all_points_finite("the points of the curve", &points)?;
-        let chords: Vec<f64> = edges(&points).map(|(a, b)| (b - a).norm()).collect();
+        let chords: Vec<f64> = edges(&points).map(|(a, b)| (b - a).length()).collect();
         let mean = chords.iter().sum::<f64>() / count as f64;
         let residual = chords.iter().map(|chord| (chord / mean - 1.0).abs()).fold(0.0, f64::max);
         let tolerance = 1e-12f64.max(8.0 * f64::EPSILON * extent / mean);

@@ -27,21 +27,21 @@ pub struct AreaMoments {
 
 pub(crate) fn raw_area(points: &[Vec2]) -> f64 {
     let Some(&origin) = points.first() else { return 0.0 };
-    0.5 * edges(points).map(|(a, b)| (a - origin).perp(&(b - origin))).sum::<f64>()
+    0.5 * edges(points).map(|(a, b)| (a - origin).perp_dot(b - origin)).sum::<f64>()
 }
 
 pub(crate) fn raw_perimeter(points: &[Vec2]) -> f64 {
-    edges(points).map(|(a, b)| (b - a).norm()).sum()
+    edges(points).map(|(a, b)| (b - a).length()).sum()
 }
 
 /// Exact sums over the triangles that the first point makes with the edges.
 pub(crate) fn raw_moments(points: &[Vec2]) -> AreaMoments {
     let origin = points.first().copied().unwrap_or_default();
-    let (mut area, mut first) = (0.0, Vec2::zeros());
+    let (mut area, mut first) = (0.0, Vec2::ZERO);
     let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
     for (a, b) in edges(points) {
         let (a, b) = (a - origin, b - origin);
-        let twice = a.perp(&b);
+        let twice = a.perp_dot(b);
         area += twice / 2.0;
         first += (a + b) * (twice / 6.0);
         xx += twice * (a.x * a.x + a.x * b.x + b.x * b.x) / 12.0;

@@ -20,7 +20,7 @@ impl PeriodicSpline {
     /// Through at least three points, no two successive ones the same.
     pub(crate) fn new(points: &[Vec2]) -> Result<Self, InterfaceError> {
         let m = points.len();
-        let chords: Vec<f64> = edges(points).map(|(a, b)| (b - a).norm()).collect();
+        let chords: Vec<f64> = edges(points).map(|(a, b)| (b - a).length()).collect();
         if let Some(index) = chords.iter().position(|&chord| chord == 0.0) {
             return Err(InterfaceError::CoincidentPoints { index });
         }
@@ -29,7 +29,7 @@ impl PeriodicSpline {
         let upper: Vec<f64> = chords.iter().map(|chord| chord / 6.0).collect();
         let diagonal: Vec<f64> = (0..m).map(|k| (chords[before(k)] + chords[k]) / 3.0).collect();
         let mut plan = CyclicTridiagonal::new(m);
-        let mut bends = vec![Vec2::zeros(); m];
+        let mut bends = vec![Vec2::ZERO; m];
         for axis in 0..2 {
             let slope = |k: usize| (points[(k + 1) % m][axis] - points[k][axis]) / chords[k];
             let mut x: Vec<f64> = (0..m).map(|k| slope(k) - slope(before(k))).collect();
@@ -75,7 +75,7 @@ impl PeriodicSpline {
             let h = self.knots[k + 1] - self.knots[k];
             for (x, weight) in nodes {
                 let (position, derivative) = self.piece(k, x);
-                sum += 0.5 * weight * h * (position - origin).perp(&derivative);
+                sum += 0.5 * weight * h * (position - origin).perp_dot(derivative);
             }
         }
         sum

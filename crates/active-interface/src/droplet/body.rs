@@ -73,7 +73,7 @@ impl Body for ActiveDroplet {
     fn write_state(&self, state: &mut [f64]) {
         let (positions, numbers) = state.split_at_mut(2 * self.shape.markers.len());
         for (pair, marker) in positions.chunks_exact_mut(2).zip(&self.shape.markers) {
-            pair.copy_from_slice(marker.as_slice());
+            pair.copy_from_slice(&marker.to_array());
         }
         numbers.copy_from_slice(&self.numbers);
     }
@@ -98,7 +98,7 @@ impl Body for ActiveDroplet {
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         let count = self.shape.markers.len();
-        self.motions.resize(count, Vec2::zeros());
+        self.motions.resize(count, Vec2::ZERO);
         self.slip.resize(count, 0.0);
         match self.motion {
             Motion::Equidistributed { relaxation, .. } => {
@@ -119,7 +119,7 @@ impl Body for ActiveDroplet {
         }
         let (positions, numbers) = rate.split_at_mut(2 * count);
         for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {
-            pair.copy_from_slice(motion.as_slice());
+            pair.copy_from_slice(&motion.to_array());
         }
         numbers.fill(0.0);
         if let Some(transport) = self.transport.as_mut() {
@@ -229,7 +229,7 @@ impl Body for ActiveDroplet {
         numbers.fill(if mean > 0.0 { mean } else { 1.0 });
     }
 
-    /// Viscosity, tension law and diffusion; the number of markers unless the fluid carries them along.
+    /// Viscosity, tension law and diffusion, and the number of markers at the start.
     fn properties(&self) -> Vec<(String, f64)> {
         let mut properties = Vec::new();
         let mut push = |name: &str, value: f64| properties.push((name.to_owned(), value));
@@ -243,9 +243,7 @@ impl Body for ActiveDroplet {
             let name = format!("the tension at a concentration of {concentration}");
             push(&name, self.tension.value(concentration));
         }
-        if !matches!(self.motion, Motion::WithFluid) {
-            push("the number of markers", self.marker_count() as f64);
-        }
+        push("the number of markers at the start", self.initial_markers as f64);
         properties
     }
 

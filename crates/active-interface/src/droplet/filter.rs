@@ -33,7 +33,7 @@ impl ShortWaveFilter {
     ) {
         let smoothing = CirculantTridiagonal::smoothing(0.5 * spacing, geometry.mean_length());
         for list in [&mut self.once, &mut self.twice] {
-            list.resize(markers.len(), Vec2::zeros());
+            list.resize(markers.len(), Vec2::ZERO);
         }
         let strongest = (0..markers.len()).map(&strength).fold(0.0, f64::max);
         if !(strongest > 0.0 && strongest.is_finite()) {
@@ -67,7 +67,7 @@ impl ShortWaveFilter {
         let (mut swept, mut total) = (0.0, 0.0);
         for (k, (short, tau)) in self.once.iter_mut().zip(&geometry.tangents).enumerate() {
             let normal = outward(*tau);
-            let shift = -strength(k) * short.dot(&normal);
+            let shift = -strength(k) * short.dot(normal);
             *short = shift * normal;
             swept += shift * geometry.weights[k];
             total += geometry.weights[k];

@@ -24,7 +24,7 @@ impl Geometry {
     /// Makes all lists fit `count` markers.
     pub(crate) fn resize(&mut self, count: usize) {
         for list in [&mut self.directions, &mut self.tangents] {
-            list.resize(count, Vec2::zeros());
+            list.resize(count, Vec2::ZERO);
         }
         self.lengths.resize(count, 0.0);
         self.weights.resize(count, 0.0);
@@ -39,12 +39,12 @@ impl Geometry {
             let (before, here) = (markers[if k == 0 { count - 1 } else { k - 1 }], markers[k]);
             let after = markers[if k + 1 == count { 0 } else { k + 1 }];
             let segment = after - here;
-            let length = segment.norm();
+            let length = segment.length();
             self.perimeter += length;
             self.lengths[k] = length;
             self.directions[k] = segment / length;
             let chord = 0.5 * (after - before);
-            let weight = chord.norm();
+            let weight = chord.length();
             self.weights[k] = weight;
             self.tangents[k] = chord / weight;
         }
@@ -82,18 +82,18 @@ pub(crate) fn equidistribute(
     let mut total = 0.0;
     let mut mean_tangential = 0.0;
     for ((u, tau), w) in velocities.iter().zip(&geometry.tangents).zip(&geometry.weights) {
-        flux += u.dot(&outward(*tau)) * w;
+        flux += u.dot(outward(*tau)) * w;
         total += w;
-        mean_tangential += u.dot(tau);
+        mean_tangential += u.dot(*tau);
     }
     let mean_normal = flux / total;
     mean_tangential /= count as f64;
     for ((u, tau), out) in velocities.iter().zip(&geometry.tangents).zip(motion.iter_mut()) {
         let normal = outward(*tau);
-        *out = (u.dot(&normal) - mean_normal) * normal;
+        *out = (u.dot(normal) - mean_normal) * normal;
     }
     let stretching = |motion: &[Vec2], k: usize| {
-        (motion[if k + 1 == count { 0 } else { k + 1 }] - motion[k]).dot(&geometry.directions[k])
+        (motion[if k + 1 == count { 0 } else { k + 1 }] - motion[k]).dot(geometry.directions[k])
     };
     let mean_stretching = (0..count).map(|k| stretching(motion, k)).sum::<f64>() / count as f64;
     let mean_length = geometry.mean_length();
@@ -110,6 +110,6 @@ pub(crate) fn equidistribute(
         let tau = geometry.tangents[k];
         let w = slip[k] + shift;
         *out += w * tau;
-        slip[k] = velocities[k].dot(&tau) - w;
+        slip[k] = velocities[k].dot(tau) - w;
     }
 }

@@ -18,11 +18,11 @@ pub(crate) fn redistribute(
     while k < markers.len() {
         let count = markers.len();
         let next = (k + 1) % count;
-        let length = (markers[next] - markers[k]).norm();
+        let length = (markers[next] - markers[k]).length();
         if length > 1.5 * target {
             let (before, after) = (markers[(k + count - 1) % count], markers[(k + 2) % count]);
             let middle = midpoint([before, markers[k], markers[next], after]);
-            let (first, second) = ((middle - markers[k]).norm(), (markers[next] - middle).norm());
+            let (first, second) = ((middle - markers[k]).length(), (markers[next] - middle).length());
             markers.insert(k + 1, middle);
             if carries {
                 let all = numbers[k];
@@ -53,10 +53,10 @@ pub(crate) fn redistribute(
 fn midpoint(points: [Vec2; 4]) -> Vec2 {
     let mut at = [0.0; 4];
     for i in 1..4 {
-        at[i] = at[i - 1] + (points[i] - points[i - 1]).norm();
+        at[i] = at[i - 1] + (points[i] - points[i - 1]).length();
     }
     let s = 0.5 * (at[1] + at[2]);
-    let mut sum = Vec2::zeros();
+    let mut sum = Vec2::ZERO;
     for i in 0..4 {
         let weight: f64 = (0..4).filter(|&j| j != i).map(|j| (s - at[j]) / (at[i] - at[j])).product();
         sum += weight * points[i];

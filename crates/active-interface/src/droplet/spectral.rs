@@ -101,27 +101,27 @@ impl SpectralCurve {
         let count = self.len() as f64;
         let (mut flux, mut total, mut mean_tangential) = (0.0, 0.0, 0.0);
         for ((u, tau), w) in velocities.iter().zip(&geometry.tangents).zip(&geometry.weights) {
-            flux += u.dot(&outward(*tau)) * w;
+            flux += u.dot(outward(*tau)) * w;
             total += w;
-            mean_tangential += u.dot(tau) / count;
+            mean_tangential += u.dot(*tau) / count;
         }
         let mean_normal = flux / total;
         for ((u, tau), out) in velocities.iter().zip(&geometry.tangents).zip(motion.iter_mut()) {
             let normal = outward(*tau);
-            *out = (u.dot(&normal) - mean_normal) * normal;
+            *out = (u.dot(normal) - mean_normal) * normal;
         }
         analyse(&mut self.vectors, motion.iter().map(|&normal| complex(normal)));
         self.vectors.differentiate();
         // dW/dalpha up to its mean, which the integration leaves out.
         let slopes = self.vectors.values().iter().zip(&geometry.tangents).zip(&geometry.stretch);
-        let slopes = slopes.map(|((derivative, tau), stretch)| -vector(*derivative).dot(tau) - relaxation * stretch);
+        let slopes = slopes.map(|((derivative, tau), stretch)| -vector(*derivative).dot(*tau) - relaxation * stretch);
         analyse(&mut self.numbers, slopes.map(Complex64::from));
         self.numbers.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { 1.0 / Complex64::new(0.0, wave) });
         for (k, (out, value)) in motion.iter_mut().zip(self.numbers.values()).enumerate() {
             let tau = geometry.tangents[k];
             let w = value.re + mean_tangential;
             *out += w * tau;
-            slip[k] = velocities[k].dot(&tau) - w;
+            slip[k] = velocities[k].dot(tau) - w;
         }
     }
 }

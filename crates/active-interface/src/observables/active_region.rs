@@ -109,7 +109,7 @@ pub fn active_curvature(markers: &[Vec2], region: &ActiveRegion) -> Result<f64, 
     let m = markers.len();
     let mut arcs = vec![0.0; m + 1];
     for (k, (a, b)) in edges(markers).enumerate() {
-        arcs[k + 1] = arcs[k] + (b - a).norm();
+        arcs[k + 1] = arcs[k] + (b - a).length();
     }
     let perimeter = arcs[m];
     if !(region.length > 0.0 && region.length <= perimeter && region.start.is_finite()) {

@@ -1,8 +1,8 @@
 //! The circle closest to an arc of points.
 
+use glam::{DMat3, DVec3};
 use ib_core::Vec2;
 use ib_core::input::{all_points_finite, at_least};
-use nalgebra::{Matrix3, Vector3};
 
 use crate::InterfaceError;
 
@@ -20,7 +20,7 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
     all_points_finite("the points of the arc", points)?;
     let n = points.len();
     let no_fit = InterfaceError::NoFit { what: "a circle", points: n };
-    let extent = points.iter().map(|p| (p - points[0]).norm()).fold(0.0, f64::max);
+    let extent = points.iter().map(|p| (p - points[0]).length()).fold(0.0, f64::max);
     if extent == 0.0 {
         return Err(no_fit);
     }
@@ -32,12 +32,13 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
         .windows(3)
         .map(|p| {
             let (a, b) = (p[1] - p[0], p[2] - p[1]);
-            a.perp(&b).atan2(a.dot(&b))
+            a.perp_dot(b).atan2(a.dot(b))
         })
         .sum();
-    let arc: f64 = local.windows(2).map(|p| (p[1] - p[0]).norm()).sum::<f64>() - 0.5 * (first.norm() + last.norm());
+    let arc: f64 =
+        local.windows(2).map(|p| (p[1] - p[0]).length()).sum::<f64>() - 0.5 * (first.length() + last.length());
     let tangent = local[(n / 2 + 1).min(n - 1)] - local[n / 2 - 1];
-    if arc <= 0.0 || tangent == Vec2::zeros() {
+    if arc <= 0.0 || tangent == Vec2::ZERO {
         return Err(no_fit);
     }
 
@@ -50,9 +51,9 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
     for _ in 0..100 {
         let root = (1.0 + 4.0 * a * d).max(1e-12).sqrt();
         let (sin, cos) = angle.sin_cos();
-        let (mut normal, mut gradient, mut sum) = (Matrix3::zeros(), Vector3::zeros(), 0.0);
+        let (mut normal, mut gradient, mut sum) = (DMat3::ZERO, DVec3::ZERO, 0.0);
         for (p, &weight) in local.iter().zip(weights) {
-            let square = p.norm_squared();
+            let square = p.length_squared();
             let along = p.x * cos + p.y * sin;
             let value = a * square + root * along + d;
             let stretch = (1.0 + 4.0 * a * value).max(1e-12).sqrt();
@@ -60,12 +61,12 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
             // Derivatives of the distance by the value and, at a fixed value, by A.
             let by_value = 1.0 / stretch;
             let by_a = -distance * distance / stretch;
-            let row = Vector3::new(
+            let row = DVec3::new(
                 by_value * (square + 2.0 * d / root * along) + by_a,
                 by_value * root * (p.y * cos - p.x * sin),
                 by_value * (1.0 + 2.0 * a / root * along),
             );
-            normal += row * row.transpose() * weight;
+            normal += DMat3::from_cols(row * row.x, row * row.y, row * row.z) * weight;
             gradient += row * (weight * distance);
             sum += weight * distance * distance;
         }
@@ -80,14 +81,12 @@ pub(crate) fn fitted_curvature(points: &[Vec2], weights: &[f64]) -> Result<f64, 
         }
         cost = sum;
         previous = (a, angle, d);
-        let damped = normal + Matrix3::from_diagonal(&normal.diagonal()) * damping;
-        let Some(step) = damped.lu().solve(&gradient) else { return Err(no_fit) };
-        if !step.iter().all(|x| x.is_finite()) {
-            return Err(no_fit);
-        }
+        let damped = normal + DMat3::from_diagonal(normal.diagonal()) * damping;
+        let step = damped.try_inverse().map(|inverse| inverse * gradient).filter(|step| step.is_finite());
+        let Some(step) = step else { return Err(no_fit) };
         (a, angle, d) = (a - step.x, angle - step.y, d - step.z);
         damping *= 0.1;
-        if step.amax() < 1e-13 {
+        if step.abs().max_element() < 1e-13 {
             return Ok(2.0 * a / extent);
         }
     }

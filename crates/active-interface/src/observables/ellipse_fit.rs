@@ -1,8 +1,8 @@
 //! The ellipse closest to the markers.
 
+use glam::{DMat4, DVec4};
 use ib_core::Vec2;
 use ib_core::input::at_least;
-use nalgebra::{Matrix4, Vector4};
 
 use super::frame::{Frame, aspect_ratio_of, half_chords};
 use crate::{InterfaceError, curve::polygon_moments};
@@ -46,13 +46,13 @@ pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, Interf
     let points: Vec<(Vec2, f64)> = markers
         .iter()
         .zip(half_chords(markers))
-        .map(|(marker, chord)| ((frame.coordinates(*marker) - centroid) / radius, chord.norm() / radius))
+        .map(|(marker, chord)| ((frame.coordinates(*marker) - centroid) / radius, chord.length() / radius))
         .collect();
     // Inverse half axes and centre, in units of the radius.
-    let (mut p, mut q, mut centre) = (ratio.sqrt().recip(), ratio.sqrt(), Vec2::zeros());
+    let (mut p, mut q, mut centre) = (ratio.sqrt().recip(), ratio.sqrt(), Vec2::ZERO);
     let mut last = f64::INFINITY;
     for _ in 0..100 {
-        let (mut normal, mut gradient) = (Matrix4::zeros(), Vector4::zeros());
+        let (mut normal, mut gradient) = (DMat4::ZERO, DVec4::ZERO);
         let (mut sum, mut weights) = (0.0, 0.0);
         for &(point, weight) in &points {
             let r = point - centre;
@@ -61,24 +61,22 @@ pub fn fit_ellipse(markers: &[Vec2], frame: &Frame) -> Result<EllipseFit, Interf
             if rho == 0.0 {
                 return Err(no_fit);
             }
-            let row = Vector4::new(x * r.x, y * r.y, -x * p, -y * q) / rho;
-            normal += row * row.transpose() * weight;
+            let row = DVec4::new(x * r.x, y * r.y, -x * p, -y * q) / rho;
+            normal += DMat4::from_cols(row * row.x, row * row.y, row * row.z, row * row.w) * weight;
             gradient += row * (weight * (rho - 1.0));
-            let distance = r.norm() * (1.0 - 1.0 / rho);
+            let distance = r.length() * (1.0 - 1.0 / rho);
             sum += weight * distance * distance;
             weights += weight;
         }
-        let Some(step) = normal.lu().solve(&gradient) else { return Err(no_fit) };
-        if !step.iter().all(|x| x.is_finite()) {
-            return Err(no_fit);
-        }
+        let step = normal.try_inverse().map(|inverse| inverse * gradient).filter(|step| step.is_finite());
+        let Some(step) = step else { return Err(no_fit) };
         // A step may change a half axis by 30 per cent at most.
         let (change, bound) = (step.x.abs().max(step.y.abs()), 0.3 * p.min(q));
         let scale = if change > bound { bound / change } else { 1.0 };
         p -= scale * step.x;
         q -= scale * step.y;
         centre -= Vec2::new(step.z, step.w) * scale;
-        last = step.amax();
+        last = step.abs().max_element();
         if last < 1e-13 * (p + q) {
             return Ok(EllipseFit {
                 along: radius / p,

@@ -60,7 +60,7 @@ impl FourierModes {
 /// Fewer than three markers, markers that are not finite or enclose no area.
 pub fn shape_modes(markers: &[Vec2], frame: &Frame, count: usize) -> Result<FourierModes, InterfaceError> {
     polygon_moments(markers)?;
-    let radii = markers.iter().map(|marker| frame.coordinates(*marker).norm());
+    let radii = markers.iter().map(|marker| frame.coordinates(*marker).length());
     let samples = polar_weights(markers, frame).zip(radii).map(|((theta, weight), r)| (theta, weight, r));
     Ok(FourierModes::sum(count, samples))
 }
@@ -86,9 +86,9 @@ pub fn concentration_modes(
         return Err(InterfaceError::CoincidentPoints { index });
     }
     let samples = edges(markers).zip(numbers).map(|((a, b), number)| {
-        let chord = (b - a).norm();
+        let chord = (b - a).length();
         let (a, b) = (frame.coordinates(a), frame.coordinates(b));
-        let width = a.perp(&b).atan2(a.dot(&b));
+        let width = a.perp_dot(b).atan2(a.dot(b));
         (a.y.atan2(a.x) + 0.5 * width, width, number / chord)
     });
     let mut modes = FourierModes::sum(count, samples);

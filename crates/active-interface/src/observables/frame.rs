@@ -32,7 +32,7 @@ impl Frame {
     pub fn of_motion(centre: Vec2, velocity: Vec2) -> Result<Self, InterfaceError> {
         all_points_finite("the origin of the frame", &[centre])?;
         all_points_finite("the velocity of the frame", &[velocity])?;
-        let direction = velocity.try_normalize(0.0).unwrap_or_else(Vec2::x);
+        let direction = velocity.try_normalize().unwrap_or(Vec2::X);
         Ok(Self { centre, direction })
     }
 
@@ -51,7 +51,7 @@ impl Frame {
     /// Components of the vector `v` along the axes.
     #[must_use]
     pub fn components(&self, v: Vec2) -> Vec2 {
-        Vec2::new(self.direction.dot(&v), self.direction.perp(&v))
+        Vec2::new(self.direction.dot(v), self.direction.perp_dot(v))
     }
 
     /// Coordinates of the point `p` in the frame (length).
@@ -94,7 +94,7 @@ pub fn centroid_velocity(markers: &[Vec2], velocities: &[Vec2]) -> Result<Vec2, 
 pub(crate) fn raw_centroid_velocity(markers: &[Vec2], velocities: &[Vec2], moments: &AreaMoments) -> Vec2 {
     let flux: Vec2 = weighted_normals(markers)
         .zip(markers.iter().zip(velocities))
-        .map(|(normal, (marker, velocity))| (marker - moments.centroid) * velocity.dot(&normal))
+        .map(|(normal, (marker, velocity))| (marker - moments.centroid) * velocity.dot(normal))
         .sum();
     flux / moments.area
 }

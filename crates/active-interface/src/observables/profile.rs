@@ -41,7 +41,7 @@ pub fn concentration_profile(
     let mut front: Option<(f64, f64)> = None;
     let mut foremost = (f64::NEG_INFINITY, 0.0);
     for ((a, b), number) in edges(markers).zip(numbers) {
-        let (start, chord) = (end, (b - a).norm());
+        let (start, chord) = (end, (b - a).length());
         end += chord;
         segments.push((0.5 * (start + end), number / chord));
         let (a, b) = (frame.coordinates(a), frame.coordinates(b));

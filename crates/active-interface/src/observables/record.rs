@@ -105,7 +105,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
     if !numbers.is_empty() {
         same_length("numbers", markers.len(), numbers.len())?;
         all_finite("the particle numbers", numbers)?;
-        let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).norm()).collect();
+        let lengths: Vec<f64> = edges(markers).map(|(a, b)| (b - a).length()).collect();
         record.concentration_modes = concentration_modes(markers, numbers, &frame, MODES)?;
         record.particle_number = numbers.iter().sum();
         let range = [f64::NEG_INFINITY, f64::INFINITY];
@@ -122,7 +122,7 @@ impl Observables {
     /// Speed of the centroid (length per time).
     #[must_use]
     pub fn speed(&self) -> f64 {
-        self.velocity.norm()
+        self.velocity.length()
     }
 
     /// Direction of motion (radians from x, from -pi to pi; 0 at rest).

@@ -38,7 +38,7 @@ impl SquirmerFit {
 /// Polar angle, measured from the first axis of the frame, and the weight of each marker in integrals over it.
 pub(crate) fn polar_weights<'a>(markers: &'a [Vec2], frame: &'a Frame) -> impl Iterator<Item = (f64, f64)> + 'a {
     let m = markers.len();
-    let turn = |from: Vec2, to: Vec2| from.perp(&to).atan2(from.dot(&to));
+    let turn = |from: Vec2, to: Vec2| from.perp_dot(to).atan2(from.dot(to));
     (0..m).map(move |k| {
         let before = frame.coordinates(markers[(k + m - 1) % m]);
         let here = frame.coordinates(markers[k]);
@@ -67,7 +67,7 @@ pub fn squirmer_coefficients(
     all_points_finite("the velocities", velocities)?;
     let drift = match reference {
         VelocityFrame::CoMoving => raw_centroid_velocity(markers, velocities, &moments),
-        VelocityFrame::Laboratory => Vec2::zeros(),
+        VelocityFrame::Laboratory => Vec2::ZERO,
     };
     let mut fit = SquirmerFit::default();
     for ((theta, weight), velocity) in polar_weights(markers, frame).zip(velocities) {

@@ -73,7 +73,7 @@ impl SquirmerFlow {
     #[must_use]
     pub fn velocity(&self, point: Vec2, frame: VelocityFrame) -> Vec2 {
         let theta = point.y.atan2(point.x);
-        let [radial, azimuthal] = self.polar_velocity(point.norm(), theta);
+        let [radial, azimuthal] = self.polar_velocity(point.length(), theta);
         let (sin, cos) = theta.sin_cos();
         let velocity = Vec2::new(radial * cos - azimuthal * sin, radial * sin + azimuthal * cos);
         match frame {

@@ -3,7 +3,6 @@
 use std::ops::RangeInclusive;
 
 use ib_core::input::{all_finite, not_negative, same_length};
-use nalgebra::{DMatrix, DVector};
 
 use super::regression::Solution;
 use crate::InterfaceError;
@@ -93,17 +92,15 @@ fn refine(times: &[f64], heights: &[f64], index: usize, range: RangeInclusive<us
         end += 1;
     }
     let found = || {
-        let samples = start..=end;
-        let count = end - start + 1;
-        let degree = match count {
+        let degree = match end - start + 1 {
             ..3 => return None,
             3..5 => 2,
             _ => 4,
         };
         let width = 0.5 * (times[end] - times[start]);
-        let columns =
-            DMatrix::from_fn(count, degree + 1, |i, j| ((times[start + i] - times[index]) / width).powi(j as i32));
-        let data = DVector::from_iterator(count, samples.map(|i| heights[i] - heights[index]));
+        let power = |j: i32| times[start..=end].iter().map(|t| ((t - times[index]) / width).powi(j)).collect();
+        let columns = (0..=degree as i32).map(power).collect();
+        let data: Vec<f64> = heights[start..=end].iter().map(|y| y - heights[index]).collect();
         let c = Solution::new(columns, &data)?.coefficients;
         let horner = |t: f64, weight: fn(f64) -> f64, lowest: usize| {
             (lowest..=degree).rev().fold(0.0, |sum, j| sum * t + weight(j as f64) * c[j])

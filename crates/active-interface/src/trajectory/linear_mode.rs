@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use ib_core::input::{all_finite, at_least, same_length};
-use nalgebra::{DMatrix, DVector};
 
 use super::Estimate;
 use super::quadrature::cumulative_integral;
@@ -118,16 +117,16 @@ fn mode(fit: &SeparableFit, duration: f64) -> LinearMode {
     let (growth_rate, frequency, second_rate) = match fit.rates[..] {
         [s, d] if d < 0.0 => {
             let w = (-d).sqrt();
-            (estimate(s, cov[(0, 0)]), Some(estimate(w, cov[(1, 1)] / (4.0 * w * w))), None)
+            (estimate(s, cov[0][0]), Some(estimate(w, cov[1][1] / (4.0 * w * w))), None)
         }
         [s, d] => {
             let q = d.sqrt();
             // Where both rates coincide, their errors are those of the square root.
-            let slope = 0.5 / q.max(cov[(1, 1)].powf(0.25)).max(f64::MIN_POSITIVE);
-            let variance = cov[(0, 0)] + 2.0 * slope * cov[(0, 1)] + slope * slope * cov[(1, 1)];
+            let slope = 0.5 / q.max(cov[1][1].powf(0.25)).max(f64::MIN_POSITIVE);
+            let variance = cov[0][0] + 2.0 * slope * cov[0][1] + slope * slope * cov[1][1];
             (estimate(s + q, variance), None, Some((s - q) / duration))
         }
-        _ => (estimate(fit.rates[0], cov[(0, 0)]), None, None),
+        _ => (estimate(fit.rates[0], cov[0][0]), None, None),
     };
     LinearMode { growth_rate, frequency, second_rate, residual: fit.residual, duration }
 }
@@ -137,8 +136,8 @@ fn mode(fit: &SeparableFit, duration: f64) -> LinearMode {
 fn weak_form(model: Model, times: &[f64], heights: &[f64], velocities: Option<&[f64]>) -> Option<Vec<f64>> {
     let once = cumulative_integral(times, heights, velocities);
     let solve = |columns: &[&[f64]], data: &[f64]| {
-        let matrix = DMatrix::from_fn(times.len(), columns.len(), |i, j| columns[j][i]);
-        Solution::new(matrix, &DVector::from_column_slice(data)).map(|solution| solution.coefficients)
+        let columns = columns.iter().map(|column| column.to_vec()).collect();
+        Solution::new(columns, data).map(|solution| solution.coefficients)
     };
     let constant = vec![1.0; times.len()];
     if model == Model::Exponential {

@@ -1,7 +1,5 @@
 //! Linear least squares with standard errors.
 
-use nalgebra::{DMatrix, DVector};
-
 /// A fitted number and its standard error, both of the same dimension.
 ///
 /// The standard error takes the residuals for a first-order autoregressive process, so that the smooth residuals of a
@@ -31,40 +29,49 @@ impl Estimate {
 /// The least squares solution of `columns * coefficients = data`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Solution {
-    pub(super) coefficients: DVector<f64>,
+    pub(super) coefficients: Vec<f64>,
     /// (A^T A)^-1.
-    pub(super) inverse: DMatrix<f64>,
-    pub(super) residuals: DVector<f64>,
+    pub(super) inverse: Vec<Vec<f64>>,
+    pub(super) residuals: Vec<f64>,
 }
 
-/// Columns whose directions span less than this part of the largest one are taken for dependent.
+/// A column of which the ones before it leave less than this part is taken for dependent on them.
 const RANK: f64 = 1e-11;
 
 impl Solution {
-    /// `None` for fewer rows than columns, columns that depend on each other, or values that are not finite.
-    pub(super) fn new(mut columns: DMatrix<f64>, data: &DVector<f64>) -> Option<Self> {
-        let scales: Vec<f64> = columns.column_iter().map(|column| column.norm()).collect();
-        if columns.nrows() < columns.ncols() || scales.iter().any(|&scale| !(scale.is_finite() && scale > 0.0)) {
-            return None;
+    /// By modified Gram-Schmidt orthogonalisation, with the data as the last column, backward stable (Bjoerck, BIT 7,
+    /// 1967). `None` for fewer rows than columns, columns that depend on each other, or values that are not finite.
+    pub(super) fn new(mut columns: Vec<Vec<f64>>, data: &[f64]) -> Option<Self> {
+        let (rows, count) = (data.len(), columns.len());
+        let dot = |a: &[f64], b: &[f64]| a[..rows].iter().zip(&b[..rows]).map(|(a, b)| a * b).sum::<f64>();
+        let sizes: Vec<f64> = columns.iter().map(|column| dot(column, column).sqrt()).collect();
+        // Below each column stands what it is made of, in terms of the columns at the start.
+        for (j, column) in columns.iter_mut().enumerate() {
+            column.extend((0..count).map(|i| if i == j { 1.0 } else { 0.0 }));
         }
-        for (mut column, scale) in columns.column_iter_mut().zip(&scales) {
-            column /= *scale;
+        let mut rest: Vec<f64> = data.iter().copied().chain(std::iter::repeat_n(0.0, count)).collect();
+        for (j, whole) in sizes.into_iter().enumerate() {
+            let [column, later @ ..] = &mut columns[j..] else { break };
+            let size = dot(column, column).sqrt();
+            if rows < count || !size.is_finite() || size <= RANK * whole {
+                return None;
+            }
+            column.iter_mut().for_each(|value| *value /= size);
+            for other in later.iter_mut().chain([&mut rest]) {
+                let part = dot(column, other);
+                other.iter_mut().zip(column.iter()).for_each(|(other, value)| *other -= part * value);
+            }
         }
-        let decomposition = columns.clone().svd(true, true);
-        let singular = &decomposition.singular_values;
-        if singular.min() <= RANK * singular.max() {
-            return None;
-        }
-        let scaled = decomposition.solve(data, 0.0).ok()?;
-        let residuals = data - &columns * &scaled;
-        let turned = decomposition.v_t?;
-        let weights = DMatrix::from_diagonal(&singular.map(|value| 1.0 / (value * value)));
-        let inverse = turned.transpose() * weights * &turned;
-        let count = scales.len();
-        let coefficients = DVector::from_fn(count, |i, _| scaled[i] / scales[i]);
-        let inverse = DMatrix::from_fn(count, count, |i, j| inverse[(i, j)] / (scales[i] * scales[j]));
-        let finite = coefficients.iter().chain(inverse.iter()).all(|value| value.is_finite());
-        finite.then_some(Self { coefficients, inverse, residuals })
+        let coefficients: Vec<f64> = rest.drain(rows..).map(|value| -value).collect();
+        let entry = |i: usize, j: usize| columns.iter().map(|column| column[rows + i] * column[rows + j]).sum();
+        let inverse: Vec<Vec<f64>> = (0..count).map(|i| (0..count).map(|j| entry(i, j)).collect()).collect();
+        let finite = coefficients.iter().chain(inverse.iter().flatten()).all(|value| value.is_finite());
+        finite.then_some(Self { coefficients, inverse, residuals: rest })
+    }
+
+    /// The sum of the squares of the residuals.
+    pub(super) fn power(&self) -> f64 {
+        self.residuals.iter().map(|r| r * r).sum()
     }
 
     /// Variance of the data about the fit, per independent datum.
@@ -73,12 +80,12 @@ impl Solution {
         if freedom == 0 {
             return f64::INFINITY;
         }
-        self.residuals.norm_squared() / freedom as f64 * inflation(self.residuals.as_slice())
+        self.power() / freedom as f64 * inflation(&self.residuals)
     }
 
     /// The coefficient `i`.
     pub(super) fn estimate(&self, i: usize) -> Estimate {
-        Estimate { value: self.coefficients[i], error: (self.variance() * self.inverse[(i, i)]).sqrt() }
+        Estimate { value: self.coefficients[i], error: (self.variance() * self.inverse[i][i]).sqrt() }
     }
 }
 
@@ -99,9 +106,8 @@ pub(super) fn inflation(residuals: &[f64]) -> f64 {
 
 /// Value at `x = 0` and slope of the straight line through the points.
 pub(super) fn line(x: &[f64], y: &[f64]) -> Option<(Estimate, Estimate, f64)> {
-    let columns = DMatrix::from_fn(x.len(), 2, |i, j| if j == 0 { 1.0 } else { x[i] });
-    let solution = Solution::new(columns, &DVector::from_column_slice(y))?;
-    let rms = (solution.residuals.norm_squared() / x.len() as f64).sqrt();
+    let solution = Solution::new(vec![vec![1.0; x.len()], x.to_vec()], y)?;
+    let rms = (solution.power() / x.len() as f64).sqrt();
     Some((solution.estimate(0), solution.estimate(1), rms))
 }
 

@@ -1,7 +1,5 @@
 //! Least squares for models that are linear in their amplitudes and not in one or two rates.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::regression::{Solution, inflation};
 
 /// The two ways in which a linear system relaxes, in times t of the length of the record.
@@ -72,7 +70,7 @@ fn hyperbolic(d: f64, t: f64) -> [f64; 3] {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Data {
     times: Vec<f64>,
-    data: DVector<f64>,
+    data: Vec<f64>,
     /// Weight of the derivatives; `None` where there are none.
     weight: Option<f64>,
 }
@@ -82,7 +80,7 @@ pub(super) struct Data {
 pub(super) struct SeparableFit {
     pub(super) rates: Vec<f64>,
     /// Covariance of the rates.
-    pub(super) covariance: DMatrix<f64>,
+    pub(super) covariance: Vec<Vec<f64>>,
     /// Root mean square of the residuals over that of the data.
     pub(super) residual: f64,
 }
@@ -101,7 +99,7 @@ impl Data {
         if let (Some(derivatives), Some(rate)) = (derivatives, rate) {
             data.extend(derivatives.iter().map(|d| d / rate));
         }
-        Some(Self { times, data: DVector::from_vec(data), weight: rate.map(|rate| size / rate) })
+        Some(Self { times, data, weight: rate.map(|rate| size / rate) })
     }
 
     /// Weights of the values and of their derivatives.
@@ -113,36 +111,34 @@ impl Data {
         self.times.iter().map(|&t| model.basis(rates, t)).collect()
     }
 
-    fn rows(&self, columns: usize, bases: &[Basis], entry: impl Fn(&Basis, usize, usize) -> f64) -> DMatrix<f64> {
-        let mut matrix = DMatrix::zeros(self.data.len(), columns);
-        for (derivative, weight) in self.weights().enumerate() {
-            for (i, basis) in bases.iter().enumerate() {
-                for column in 0..columns {
-                    matrix[(derivative * bases.len() + i, column)] = weight * entry(basis, derivative, column);
-                }
-            }
-        }
-        matrix
+    fn columns(&self, count: usize, bases: &[Basis], entry: impl Fn(&Basis, usize, usize) -> f64) -> Vec<Vec<f64>> {
+        let entry = &entry;
+        let series = |column: usize| {
+            self.weights().enumerate().flat_map(move |(derivative, weight)| {
+                bases.iter().map(move |basis| weight * entry(basis, derivative, column))
+            })
+        };
+        (0..count).map(|column| series(column).collect()).collect()
     }
 
     /// The best amplitudes for given rates.
     fn amplitudes(&self, model: Model, rates: &[f64]) -> Option<Solution> {
         let bases = self.bases(model, rates);
-        Solution::new(self.rows(model.order(), &bases, |basis, k, j| basis.values[j][k]), &self.data)
+        Solution::new(self.columns(model.order(), &bases, |basis, k, j| basis.values[j][k]), &self.data)
     }
 
     /// The columns by which rates and amplitudes change the model, and the change of them that Gauss and Newton
     /// propose.
     fn linearised(&self, model: Model, rates: &[f64], best: &Solution) -> Option<Solution> {
         let (order, bases) = (model.order(), self.bases(model, rates));
-        let matrix = self.rows(2 * order, &bases, |basis, k, column| {
+        let columns = self.columns(2 * order, &bases, |basis, k, column| {
             if column < order {
                 (0..order).map(|j| best.coefficients[j] * basis.by_rate[j][k][column]).sum()
             } else {
                 basis.values[column - order][k]
             }
         });
-        Solution::new(matrix, &best.residuals)
+        Solution::new(columns, &best.residuals)
     }
 
     /// Fits a model, starting from `rates`; `None` where the data do not determine it.
@@ -152,15 +148,15 @@ impl Data {
         let mut best = self.amplitudes(model, &rates)?;
         for _ in 0..ITERATIONS {
             let direction = self.linearised(model, &rates, &best)?.coefficients;
-            let before = best.residuals.norm_squared();
+            let before = best.power();
             let improved = (0..HALVINGS).find_map(|halving| {
                 let factor = 0.5_f64.powi(halving as i32);
                 let trial: Vec<f64> = rates.iter().zip(direction.iter()).map(|(p, d)| p + factor * d).collect();
                 let solution = self.amplitudes(model, &trial)?;
-                (solution.residuals.norm_squared() < before).then_some((trial, solution))
+                (solution.power() < before).then_some((trial, solution))
             });
             let Some((trial, solution)) = improved else { break };
-            let gain = 1.0 - solution.residuals.norm_squared() / before;
+            let gain = 1.0 - solution.power() / before;
             (rates, best) = (trial, solution);
             if gain < 1e-10 {
                 break;
@@ -170,12 +166,13 @@ impl Data {
         let (rows, order) = (self.data.len(), model.order());
         let count = self.times.len();
         // Values and derivatives are two series.
-        let parts = best.residuals.as_slice().chunks_exact(count);
+        let parts = best.residuals.chunks_exact(count);
         let correlated = parts.map(inflation).fold(1.0, f64::max);
         let freedom = rows.checked_sub(2 * order).filter(|&freedom| freedom > 0);
-        let power = best.residuals.norm_squared();
+        let power = best.power();
         let variance = freedom.map_or(f64::INFINITY, |freedom| power / freedom as f64 * correlated);
-        let covariance = last.inverse.view((0, 0), (order, order)) * variance;
+        let scaled = |row: &Vec<f64>| row[..order].iter().map(|value| value * variance).collect();
+        let covariance = last.inverse[..order].iter().map(scaled).collect();
         Some(SeparableFit { rates, covariance, residual: (power / rows as f64).sqrt() })
     }
 }

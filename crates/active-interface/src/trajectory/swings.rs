@@ -1,7 +1,5 @@
 //! Amplitude, growth and period from turning points.
 
-use nalgebra::{DMatrix, DVector};
-
 use super::extrema::turns;
 use super::regression::{Solution, line};
 use super::{Estimate, Extremum};
@@ -81,12 +79,9 @@ impl Swings {
     fn period(&self, start: usize) -> Option<Estimate> {
         let turns = &self.turns[start..];
         let first = turns.first()?.time;
-        let columns = DMatrix::from_fn(turns.len(), 3, |k, j| match j {
-            0 => 1.0,
-            1 => 0.5 * k as f64,
-            _ => 1.0 - 2.0 * (k % 2) as f64,
-        });
-        let data = DVector::from_iterator(turns.len(), turns.iter().map(|turn| turn.time - first));
+        let column = |entry: fn(usize) -> f64| (0..turns.len()).map(entry).collect();
+        let columns = vec![column(|_| 1.0), column(|k| 0.5 * k as f64), column(|k| 1.0 - 2.0 * (k % 2) as f64)];
+        let data: Vec<f64> = turns.iter().map(|turn| turn.time - first).collect();
         Some(Solution::new(columns, &data)?.estimate(1))
     }
 }

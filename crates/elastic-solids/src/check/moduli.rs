@@ -38,7 +38,7 @@ pub enum InnerPoints {
 /// use elastic_solids::{Outline, SolidError};
 /// use ib_core::Vec2;
 ///
-/// let disc = Outline::circle(Vec2::zeros(), 1.0)?.mesh(0.1)?;
+/// let disc = Outline::circle(Vec2::ZERO, 1.0)?.mesh(0.1)?;
 /// let springs = Springs::new(&disc, 100.0)?;
 /// let found = measured_moduli(&disc, &springs, 1e-3, InnerPoints::Relaxed)?;
 /// println!("{:.1} and {:.1}", found.shear, found.bulk); // within 2 % of 100 and 200
@@ -69,10 +69,10 @@ pub fn measured_moduli(
         // Mean of the two energies, over half the strain squared.
         Ok(sum / (mesh.area() * strain * strain))
     };
-    let shear = stiffness(Mat2::new(0.0, 1.0, 0.0, 0.0))?;
+    let shear = stiffness(Mat2::from_rows_array(&[0.0, 1.0, 0.0, 0.0]))?;
     let bulk = match mesh.period() {
-        None => 0.25 * stiffness(Mat2::identity())?,
-        Some(_) => stiffness(Mat2::new(0.0, 0.0, 0.0, 1.0))? - shear,
+        None => 0.25 * stiffness(Mat2::IDENTITY)?,
+        Some(_) => stiffness(Mat2::from_rows_array(&[0.0, 0.0, 0.0, 1.0]))? - shear,
     };
     Ok(MeasuredModuli { shear, bulk })
 }
@@ -89,16 +89,16 @@ fn relax_inner(mesh: &TriangleMesh, law: &dyn ElasticForces, positions: &mut [Ve
         inner[point] = false;
     }
     let residual = |positions: &[Vec2], forces: &mut Vec<Vec2>| -> Result<(), SolidError> {
-        forces.fill(Vec2::zeros());
+        forces.fill(Vec2::ZERO);
         law.add_forces(positions, forces)?;
         for (force, _) in forces.iter_mut().zip(&inner).filter(|(_, inner)| !**inner) {
-            *force = Vec2::zeros();
+            *force = Vec2::ZERO;
         }
         Ok(())
     };
-    let dot = |a: &[Vec2], b: &[Vec2]| a.iter().zip(b).map(|(a, b)| a.dot(b)).sum::<f64>();
+    let dot = |a: &[Vec2], b: &[Vec2]| a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum::<f64>();
     let count = positions.len();
-    let mut forces = vec![Vec2::zeros(); count];
+    let mut forces = vec![Vec2::ZERO; count];
     // The size of forces to compare with: those that the boundary holds.
     law.add_forces(positions, &mut forces)?;
     let scale = dot(&forces, &forces);
@@ -110,7 +110,7 @@ fn relax_inner(mesh: &TriangleMesh, law: &dyn ElasticForces, positions: &mut [Ve
             return Ok(());
         }
         // Curvature along the direction from a short way ahead.
-        let reach = 1e-4 * mesh_step(mesh) / direction.iter().map(Vec2::norm).fold(0.0, f64::max);
+        let reach = 1e-4 * mesh_step(mesh) / direction.iter().map(|v| v.length()).fold(0.0, f64::max);
         let slope = dot(&forces, &direction);
         for ((trial, place), step) in trial.iter_mut().zip(positions.iter()).zip(&direction) {
             *trial = place + step * reach;

@@ -103,12 +103,10 @@ impl Element {
             .map(|number| {
                 let at = mesh.corners(number, mesh.points());
                 let home = mesh.triangles()[number];
-                let (first, second) = (at[1] - at[0], at[2] - at[0]);
-                let inverse = Mat2::new(second.y, -second.x, -first.y, first.x) / first.perp(&second);
                 Self {
                     corners: home.map(|point| point as u32),
                     shifts: [1, 2].map(|k| at[k].x - mesh.points()[home[k]].x),
-                    inverse,
+                    inverse: Mat2::from_cols(at[1] - at[0], at[2] - at[0]).inverse(),
                     area: mesh.areas()[number],
                 }
             })
@@ -121,14 +119,14 @@ impl Element {
         let [a, b, c] = self.corners.map(|point| positions[point as usize]);
         let first = Vec2::new(b.x + self.shifts[0] - a.x, b.y - a.y);
         let second = Vec2::new(c.x + self.shifts[1] - a.x, c.y - a.y);
-        Mat2::new(first.x, second.x, first.y, second.y) * self.inverse
+        Mat2::from_cols(first, second) * self.inverse
     }
 
     /// Adds the forces (4.12) of the stress P on the three corners; they sum to zero exactly as far as numbers can.
     #[inline]
     fn add_forces(&self, stress: &Mat2, forces: &mut [Vec2]) {
         let pull = stress * self.inverse.transpose() * self.area;
-        let (first, second) = (Vec2::new(pull.m11, pull.m21), Vec2::new(pull.m12, pull.m22));
+        let (first, second) = (pull.x_axis, pull.y_axis);
         let [a, b, c] = self.corners.map(|point| point as usize);
         forces[a] += first + second;
         forces[b] -= first;

@@ -39,7 +39,7 @@ impl Spring {
     fn span(&self, positions: &[Vec2]) -> (Vec2, f64) {
         let [from, to] = self.ends.map(|point| positions[point as usize]);
         let span = Vec2::new(to.x + self.shift - from.x, to.y - from.y);
-        (span, span.norm())
+        (span, span.length())
     }
 }
 
@@ -72,7 +72,7 @@ impl Springs {
                 let span = mesh.edge_vector(edge, mesh.points());
                 let weight = |triangle: usize| sides[triangle].1 * mesh.areas()[triangle];
                 let (left, right) = edge.triangles;
-                let rest = span.norm();
+                let rest = span.length();
                 Spring {
                     ends: edge.points.map(|point| point as u32),
                     shift: f64::from(edge.periods) * mesh.period().unwrap_or(0.0),
@@ -121,11 +121,12 @@ impl ElasticForces for Springs {
     /// `4 mu/3 sum of (|A s|/d - 1)^2` over the sides s.
     fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2> {
         let (sides, shear) = &self.sides[triangle];
-        let mut stress = Mat2::zeros();
+        let mut stress = Mat2::ZERO;
         for side in sides {
-            let (rest, now) = (side.norm(), gradient * side);
-            let length = now.norm().max(f64::MIN_POSITIVE);
-            stress += now * side.transpose() * (8.0 / 3.0 * shear * (length - rest) / (length * rest * rest));
+            let (rest, now) = (side.length(), gradient * side);
+            let length = now.length().max(f64::MIN_POSITIVE);
+            stress += Mat2::from_cols(now * side.x, now * side.y)
+                * (8.0 / 3.0 * shear * (length - rest) / (length * rest * rest));
         }
         Some(stress)
     }

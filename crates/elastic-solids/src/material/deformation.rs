@@ -1,9 +1,9 @@
 //! The deformation gradient.
 
-use crate::SolidError;
-
 /// A 2x2 matrix.
-pub type Mat2 = nalgebra::Matrix2<f64>;
+pub use glam::DMat2 as Mat2;
+
+use crate::SolidError;
 
 /// A deformation gradient `A_ij = dX_i / ds_j` (4.5), X the deformed and s the reference position, with a positive
 /// determinant: material that is not inverted. Dimensionless.
@@ -19,26 +19,22 @@ impl DeformationGradient {
     /// # Errors
     /// [`SolidError::NotOrientationPreserving`] where the determinant is not positive and finite.
     pub fn new(matrix: Mat2) -> Result<Self, SolidError> {
-        Self::checked(matrix).ok_or(SolidError::NotOrientationPreserving {
-            a11: matrix.m11,
-            a12: matrix.m12,
-            a21: matrix.m21,
-            a22: matrix.m22,
-            jacobian: matrix.determinant(),
-        })
+        let [a11, a21, a12, a22] = matrix.to_cols_array();
+        let jacobian = matrix.determinant();
+        Self::checked(matrix).ok_or(SolidError::NotOrientationPreserving { a11, a12, a21, a22, jacobian })
     }
 
     /// The same without an explanation.
     #[inline]
     pub(crate) fn checked(matrix: Mat2) -> Option<Self> {
-        let jacobian = matrix.m11 * matrix.m22 - matrix.m12 * matrix.m21;
+        let jacobian = matrix.determinant();
         (jacobian > 0.0 && jacobian.is_finite()).then_some(Self { matrix, jacobian })
     }
 
     /// No deformation.
     #[must_use]
     pub fn identity() -> Self {
-        Self { matrix: Mat2::identity(), jacobian: 1.0 }
+        Self { matrix: Mat2::IDENTITY, jacobian: 1.0 }
     }
 
     /// The matrix A.
@@ -59,8 +55,8 @@ impl DeformationGradient {
     #[inline]
     #[must_use]
     pub fn cofactor(&self) -> Mat2 {
-        let a = &self.matrix;
-        Mat2::new(a.m22, -a.m21, -a.m12, a.m11)
+        let [a11, a21, a12, a22] = self.matrix.to_cols_array();
+        Mat2::from_rows_array(&[a22, -a21, -a12, a11])
     }
 
     /// `tr(A A^T) - 2 J = (A11 - A22)^2 + (A12 + A21)^2`: the square of the difference of the principal stretches, zero
@@ -68,8 +64,8 @@ impl DeformationGradient {
     #[inline]
     #[must_use]
     pub fn distortion(&self) -> f64 {
-        let a = &self.matrix;
-        (a.m11 - a.m22).powi(2) + (a.m12 + a.m21).powi(2)
+        let [a11, a21, a12, a22] = self.matrix.to_cols_array();
+        (a11 - a22).powi(2) + (a12 + a21).powi(2)
     }
 }
 

@@ -41,10 +41,10 @@ impl EnergyDensity for NeoHookean {
 
     #[inline]
     fn stress(&self, gradient: &DeformationGradient) -> Mat2 {
-        let (a, jacobian) = (gradient.matrix(), gradient.jacobian());
+        let ([a11, a21, a12, a22], jacobian) = (gradient.matrix().to_cols_array(), gradient.jacobian());
         // A - tr(A A^T)/(2J) J A^-T, with tr(A A^T) = 2J + distortion, so that nothing cancels near a rotation.
-        let (stretch, shear) = (a.m11 - a.m22, a.m12 + a.m21);
-        let deviator = Mat2::new(stretch, shear, shear, -stretch);
+        let (stretch, shear) = (a11 - a22, a12 + a21);
+        let deviator = Mat2::from_rows_array(&[stretch, shear, shear, -stretch]);
         let scale = self.moduli.shear() / jacobian;
         let along = self.moduli.bulk() * (jacobian - 1.0) - 0.5 * scale * gradient.distortion() / jacobian;
         deviator * scale + gradient.cofactor() * along

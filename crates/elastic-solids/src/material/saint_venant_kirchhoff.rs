@@ -33,20 +33,21 @@ impl From<Moduli> for SaintVenantKirchhoff {
 }
 
 fn green_strain(gradient: &DeformationGradient) -> Mat2 {
-    (gradient.matrix().tr_mul(gradient.matrix()) - Mat2::identity()) * 0.5
+    (gradient.matrix().transpose() * gradient.matrix() - Mat2::IDENTITY) * 0.5
 }
 
 impl EnergyDensity for SaintVenantKirchhoff {
     #[inline]
     fn energy(&self, gradient: &DeformationGradient) -> f64 {
         let strain = green_strain(gradient);
-        0.5 * self.moduli.lame() * strain.trace().powi(2) + self.moduli.shear() * strain.norm_squared()
+        let square = strain.x_axis.length_squared() + strain.y_axis.length_squared();
+        0.5 * self.moduli.lame() * strain.diagonal().element_sum().powi(2) + self.moduli.shear() * square
     }
 
     #[inline]
     fn stress(&self, gradient: &DeformationGradient) -> Mat2 {
         let strain = green_strain(gradient);
-        let pressure = Mat2::from_diagonal_element(self.moduli.lame() * strain.trace());
+        let pressure = Mat2::IDENTITY * (self.moduli.lame() * strain.diagonal().element_sum());
         gradient.matrix() * (pressure + strain * (2.0 * self.moduli.shear()))
     }
 

@@ -33,7 +33,7 @@ pub struct PhysicalGroup {
 /// use elastic_solids::SolidError;
 /// use ib_core::Vec2;
 ///
-/// let mesh = equilateral_block(Vec2::zeros(), 4, 3, 0.5)?;
+/// let mesh = equilateral_block(Vec2::ZERO, 4, 3, 0.5)?;
 /// let stiff = PhysicalGroup { tag: 1, name: Some("stiff".into()), triangles: (0..7).collect() };
 /// let text = GmshMesh { mesh, groups: vec![stiff] }.to_text()?;
 ///
@@ -173,7 +173,7 @@ fn write_entities(
     parts: &[(Vec<usize>, Vec<usize>)],
     groups: &[PhysicalGroup],
 ) -> std::fmt::Result {
-    let (low, high) = points.iter().fold((points[0], points[0]), |(a, b), p| (a.inf(p), b.sup(p)));
+    let (low, high) = points.iter().fold((points[0], points[0]), |(a, b), p| (a.min(*p), b.max(*p)));
     writeln!(text, "$Entities\n0 0 {} 0", parts.len())?;
     for (number, (members, _)) in parts.iter().enumerate() {
         write!(text, "{} {} {} 0 {} {} 0 {}", number + 1, low.x, low.y, high.x, high.y, members.len())?;

@@ -46,7 +46,8 @@ impl TriangleMesh {
     /// How even the mesh is.
     #[must_use]
     pub fn quality(&self) -> MeshQuality {
-        let lengths: Vec<f64> = self.edges().iter().map(|edge| self.edge_vector(edge, self.points()).norm()).collect();
+        let lengths: Vec<f64> =
+            self.edges().iter().map(|edge| self.edge_vector(edge, self.points()).length()).collect();
         let count = lengths.len() as f64;
         let mean = lengths.iter().sum::<f64>() / count;
         let variance = lengths.iter().map(|length| (length - mean).powi(2)).sum::<f64>() / count;
@@ -56,7 +57,7 @@ impl TriangleMesh {
             let corners = self.corners(triangle, self.points());
             for k in 0..3 {
                 let (a, b) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
-                let angle = a.perp(&b).atan2(a.dot(&b));
+                let angle = a.perp_dot(b).atan2(a.dot(b));
                 smallest = smallest.min(angle);
                 largest = largest.max(angle);
             }

@@ -32,7 +32,7 @@ fn a_frame_has_two_loops_with_the_solid_to_their_left() {
         .iter()
         .map(|boundary| {
             let polygon = mesh.boundary_polygon(boundary, mesh.points());
-            (0..polygon.len()).map(|k| 0.5 * polygon[k].perp(&polygon[(k + 1) % polygon.len()])).sum()
+            (0..polygon.len()).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum()
         })
         .collect();
     assert!(signed.len() == 2 && signed.contains(&16.0) && signed.contains(&-4.0), "{signed:?}");
@@ -70,13 +70,13 @@ fn triangles_across_the_seam_are_as_large_as_the_others() {
     let mesh = TriangleMesh::periodic(points, triangles.collect(), 4.0).unwrap();
     assert!(mesh.areas().iter().all(|area| (area - 0.5).abs() < 1e-14));
     for edge in mesh.edges() {
-        assert!(mesh.edge_vector(edge, mesh.points()).norm() < 1.5);
+        assert!(mesh.edge_vector(edge, mesh.points()).length() < 1.5);
     }
     // Moved as a whole by more than a period, nothing changes.
     let moved: Vec<Vec2> = mesh.points().iter().map(|p| p + v(5.7, 1.0)).collect();
     for triangle in 0..8 {
         let corners = mesh.corners(triangle, &moved);
-        assert!(((corners[1] - corners[0]).perp(&(corners[2] - corners[0])) - 1.0).abs() < 1e-13);
+        assert!(((corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) - 1.0).abs() < 1e-13);
     }
     for boundary in mesh.boundary_loops() {
         let polygon = mesh.boundary_polygon(boundary, &moved);

@@ -128,7 +128,7 @@ impl<'a> Boundary<'a> {
                     far && self.segments.inside((point + (other.from + other.to) * 0.5) * 0.5)
                 });
                 if let Some(foot) = across {
-                    let thickness = (foot - point).norm();
+                    let thickness = (foot - point).length();
                     return Err(SolidError::WallTooThin { x: point.x, y: point.y, thickness, spacing });
                 }
             }
@@ -166,7 +166,7 @@ impl<'a> Boundary<'a> {
 
 fn bounds(outlines: &[Vec<Vec2>]) -> (Vec2, Vec2) {
     let first = outlines[0][0];
-    outlines.iter().flatten().fold((first, first), |(low, high), point| (low.inf(point), high.sup(point)))
+    outlines.iter().flatten().fold((first, first), |(low, high), point| (low.min(*point), high.max(*point)))
 }
 
 /// Rows of seeds over a height.
@@ -178,8 +178,8 @@ pub(crate) fn rows(height: f64, spacing: f64) -> f64 {
 fn width(points: &[Vec2]) -> f64 {
     (0..90)
         .map(|degrees| {
-            let direction = nalgebra::Rotation2::new(f64::from(2 * degrees).to_radians()) * Vec2::x();
-            let along = points.iter().map(|point| point.dot(&direction));
+            let direction = Vec2::from_angle(f64::from(2 * degrees).to_radians());
+            let along = points.iter().map(|point| point.dot(direction));
             let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| (a.min(s), b.max(s)));
             high - low
         })

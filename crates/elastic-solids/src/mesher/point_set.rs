@@ -45,8 +45,8 @@ impl PointSet<'_> {
             for k in 0..count {
                 let (before, here, after) = (start + (k + count - 1) % count, start + k, start + (k + 1) % count);
                 let chord = self.vector([before, here]) + self.vector([here, after]);
-                let tangent = chord.try_normalize(0.0).unwrap_or_default();
-                let by = steps[here].dot(&tangent);
+                let tangent = chord.normalize_or_zero();
+                let by = steps[here].dot(tangent);
                 steps[here] = tangent * by;
                 let place = &mut self.places[outline][k];
                 *place = track.moved(*place, by);

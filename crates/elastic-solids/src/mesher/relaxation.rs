@@ -42,7 +42,7 @@ pub(crate) fn relax(
         let push = done < pushing;
         let end = if push { pushing } else { sweeps };
         let batch = SWEEPS_PER_TRIANGULATION.min(done.max(5)).min(end - done);
-        let mean = edges.iter().map(|&edge| set.vector(edge).norm()).sum::<f64>() / edges.len() as f64;
+        let mean = edges.iter().map(|&edge| set.vector(edge).length()).sum::<f64>() / edges.len() as f64;
         let rest = if push { PUSH_LENGTH * spacing } else { mean };
         for _ in 0..batch {
             motion.sweep(set, &edges, rest, spacing);
@@ -74,21 +74,21 @@ struct Motion {
 
 impl Motion {
     fn of(set: &PointSet<'_>) -> Self {
-        let still = vec![Vec2::zeros(); set.points.len()];
+        let still = vec![Vec2::ZERO; set.points.len()];
         Self { forces: still.clone(), steps: still }
     }
 
     fn sweep(&mut self, set: &mut PointSet<'_>, edges: &[[usize; 2]], rest: f64, spacing: f64) {
-        self.forces.fill(Vec2::zeros());
+        self.forces.fill(Vec2::ZERO);
         for &[a, b] in edges {
             let along = set.vector([a, b]);
-            let force = along * (1.0 - rest / along.norm().max(1e-3 * spacing));
+            let force = along * (1.0 - rest / along.length().max(1e-3 * spacing));
             self.forces[a] += force;
             self.forces[b] -= force;
         }
         for (step, force) in self.steps.iter_mut().zip(&self.forces) {
             // No point may pass its neighbours within a sweep.
-            *step = (*step * MOMENTUM + force * STEP).cap_magnitude(0.2 * spacing);
+            *step = (*step * MOMENTUM + force * STEP).clamp_length_max(0.2 * spacing);
         }
         let (boundary, inner) = self.steps.split_at_mut(set.on_boundary);
         set.slide(boundary);

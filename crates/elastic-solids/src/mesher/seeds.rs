@@ -40,13 +40,13 @@ impl Boundary<'_> {
         within("the number of points in the bounding box", columns * rows, 1.0, MOST_POINTS)?;
         let mut step = Vec2::new(width / columns, size.y / rows);
         let corner = Vec2::new(start, self.low.y);
-        let (rotation, centre) = (nalgebra::Rotation2::new(lay.angle), corner + 0.5 * Vec2::new(width, size.y));
+        let (rotation, centre) = (Vec2::from_angle(lay.angle), corner + 0.5 * Vec2::new(width, size.y));
         let mut first = corner;
         if lay.fit == Fit::Equilateral {
             step = Vec2::new(spacing, ROW_HEIGHT * spacing);
             // A square of lattice that covers the box however it is turned.
             let reach = 0.5 * width.hypot(size.y);
-            first = centre - Vec2::repeat(reach);
+            first = centre - Vec2::splat(reach);
             (columns, rows) = ((2.0 * reach / step.x).ceil(), (2.0 * reach / step.y).ceil());
             let most = 100.0 * MOST_POINTS;
             within("the number of points in the square about the bounding box", columns * rows, 1.0, most)?;
@@ -57,7 +57,7 @@ impl Boundary<'_> {
             for column in 0..=columns as usize {
                 let shift = 0.5 * (row % 2) as f64;
                 let seed = first + Vec2::new((column as f64 + shift) * step.x, row as f64 * step.y);
-                let seed = if lay.fit == Fit::ToBox { seed } else { centre + rotation * (seed - centre) };
+                let seed = if lay.fit == Fit::ToBox { seed } else { centre + rotation.rotate(seed - centre) };
                 // The last column of a periodic region is the first of the next.
                 let end = 1e-9 * step.x;
                 let repeated = self.period.is_some() && !(start - end..start + width - end).contains(&seed.x);
@@ -70,7 +70,7 @@ impl Boundary<'_> {
             // The turned lattice does not meet itself at the seam.
             let left: Vec<Vec2> =
                 seeds.iter().filter(|s| s.x < start + margin).map(|s| s + Vec2::new(width, 0.0)).collect();
-            seeds.retain(|s| s.x < start + width - margin || left.iter().all(|other| (other - s).norm() > margin));
+            seeds.retain(|s| s.x < start + width - margin || left.iter().all(|other| (other - s).length() > margin));
         }
         Ok(seeds)
     }

@@ -51,12 +51,12 @@ impl Segments {
                 }
             }
         }
-        let longest = segments.iter().map(|s| (s.to - s.from).norm()).fold(0.0, f64::max);
+        let longest = segments.iter().map(|s| (s.to - s.from).length()).fold(0.0, f64::max);
         let cell = longest.max(f64::MIN_POSITIVE);
         let mut cells: HashMap<(i64, i64), Vec<usize>> = HashMap::new();
         let mut columns: HashMap<i64, Vec<usize>> = HashMap::new();
         for (k, segment) in segments.iter().enumerate() {
-            let (low, high) = (segment.from.inf(&segment.to), segment.from.sup(&segment.to));
+            let (low, high) = (segment.from.min(segment.to), segment.from.max(segment.to));
             let (low, high) = (cell_of(low, cell), cell_of(high, cell));
             for x in low.0..=high.0 {
                 columns.entry(x).or_default().push(k);
@@ -89,15 +89,15 @@ impl Segments {
 
     /// The nearest point of the boundary within `reach` of `point`, among the segments that `wanted` admits.
     pub(crate) fn nearest(&self, point: Vec2, reach: f64, wanted: impl Fn(&Segment) -> bool) -> Option<Vec2> {
-        let low = cell_of(point - Vec2::repeat(reach), self.cell);
-        let high = cell_of(point + Vec2::repeat(reach), self.cell);
+        let low = cell_of(point - Vec2::splat(reach), self.cell);
+        let high = cell_of(point + Vec2::splat(reach), self.cell);
         let mut best = (reach, None);
         for x in low.0..=high.0 {
             for y in low.1..=high.1 {
                 for &k in self.cells.get(&(x, y)).map_or(&[][..], Vec::as_slice) {
                     let segment = &self.segments[k];
                     let foot = foot(point, segment);
-                    let distance = (foot - point).norm();
+                    let distance = (foot - point).length();
                     if distance < best.0 && wanted(segment) {
                         best = (distance, Some(foot));
                     }
@@ -138,13 +138,13 @@ impl Segments {
                 1 => {
                     let (before, after) = if a.to == b.from { (a, b) } else { (b, a) };
                     let (one, other) = (before.to - before.from, after.to - after.from);
-                    let joined = (before.to - after.from).norm() < 1e-9 * self.cell;
-                    return joined && one.perp(&other).abs() < 1e-12 * self.cell * self.cell && one.dot(&other) < 0.0;
+                    let joined = (before.to - after.from).length() < 1e-9 * self.cell;
+                    return joined && one.perp_dot(other).abs() < 1e-12 * self.cell * self.cell && one.dot(other) < 0.0;
                 }
                 _ => {}
             }
         }
-        let side = |p: Vec2, s: &Segment| (s.to - s.from).perp(&(p - s.from));
+        let side = |p: Vec2, s: &Segment| (s.to - s.from).perp_dot(p - s.from);
         let (a1, a2) = (side(a.from, b), side(a.to, b));
         let (b1, b2) = (side(b.from, a), side(b.to, a));
         if a1 == 0.0 && a2 == 0.0 && b1 == 0.0 && b2 == 0.0 {
@@ -164,6 +164,6 @@ fn cell_of(point: Vec2, cell: f64) -> (i64, i64) {
 /// The point of a segment nearest to `point`.
 fn foot(point: Vec2, segment: &Segment) -> Vec2 {
     let along = segment.to - segment.from;
-    let fraction = (point - segment.from).dot(&along) / along.norm_squared();
+    let fraction = (point - segment.from).dot(along) / along.length_squared();
     segment.from + along * fraction.clamp(0.0, 1.0)
 }

@@ -94,7 +94,7 @@ fn outlines_that_make_no_mesh_are_refused() {
         |outlines: Vec<Outline>, spacing: f64| Region::new(outlines).and_then(|r| r.mesh(spacing)).unwrap_err();
     let bow_tie = Outline::polygon(&[v(0.0, 0.0), v(1.0, 1.0), v(1.0, 0.0), v(0.0, 1.0)]).unwrap();
     match refused(vec![bow_tie], 0.1) {
-        SolidError::Crossing { x, y } => assert!((v(x, y) - v(0.5, 0.5)).norm() < 0.05),
+        SolidError::Crossing { x, y } => assert!((v(x, y) - v(0.5, 0.5)).length() < 0.05),
         other => panic!("{other}"),
     }
     let spike = Outline::polygon(&[v(0.0, 0.0), v(1.0, 0.0), v(1.0, 1.0), v(1.0, 0.5), v(0.0, 0.5)]).unwrap();
@@ -175,9 +175,9 @@ proptest! {
         let polygon = mesh.boundary_polygon(&mesh.boundary_loops()[0], mesh.points());
         for point in &polygon {
             let arm = point - v(x, y);
-            prop_assert!((arm.norm() - radius(arm.y.atan2(arm.x))).abs() < 1e-12 * (1.0 + x.abs() + y.abs()) * size);
+            prop_assert!((arm.length() - radius(arm.y.atan2(arm.x))).abs() < 1e-12 * (1.0 + x.abs() + y.abs()) * size);
         }
-        let area: f64 = (0..polygon.len()).map(|k| 0.5 * polygon[k].perp(&polygon[(k + 1) % polygon.len()])).sum();
+        let area: f64 = (0..polygon.len()).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum();
         prop_assert!((mesh.area() - area).abs() < 1e-10 * (1.0 + x.abs() + y.abs()) * size * size);
         let quality = mesh.quality();
         prop_assert!(quality.smallest_angle > 30.0 && quality.edge_deviation < 0.08, "{quality}");

@@ -36,7 +36,7 @@ pub(crate) fn triangulate(set: &mut PointSet<'_>, spacing: f64) -> Result<Vec<[u
             continue;
         }
         let place = of.map(|(point, image)| set.points[point] + image_shift(set.period, image));
-        let area = 0.5 * (place[1] - place[0]).perp(&(place[2] - place[0])).abs();
+        let area = 0.5 * (place[1] - place[0]).perp_dot(place[2] - place[0]).abs();
         let flat = area < SLIVER * spacing * spacing && of.iter().all(|&(point, _)| point < set.on_boundary);
         if !flat && set.segments.inside((place[0] + place[1] + place[2]) / 3.0) {
             triangles.push(of.map(|(point, _)| point));

@@ -52,7 +52,7 @@ pub(super) fn rounded(pieces: &[Piece], radius: f64) -> Result<Vec<Piece>, Solid
 
 fn fillet(before: &Piece, after: &Piece, radius: f64) -> Result<Option<Fillet>, SolidError> {
     let (one, other) = (before.end_direction(), after.start_direction());
-    let turn = one.perp(&other).atan2(one.dot(&other));
+    let turn = one.perp_dot(other).atan2(one.dot(other));
     if turn.abs() < STRAIGHT_ON {
         return Ok(None);
     }
@@ -60,6 +60,6 @@ fn fillet(before: &Piece, after: &Piece, radius: f64) -> Result<Option<Fillet>, 
     let start = after.start() - one * cut;
     let centre = start + Vec2::new(-one.y, one.x) * (radius * turn.signum());
     let spoke = start - centre;
-    let arc = Piece::curve(Arc::new(move |t| centre + nalgebra::Rotation2::new(turn * t) * spoke), [0.0, 1.0])?;
+    let arc = Piece::curve(Arc::new(move |t| centre + Vec2::from_angle(turn * t).rotate(spoke)), [0.0, 1.0])?;
     Ok(Some(Fillet { arc, cut }))
 }

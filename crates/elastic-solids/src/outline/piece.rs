@@ -60,7 +60,7 @@ impl Piece {
         let lengths: Arc<[f64]> = points
             .windows(2)
             .map(|ends| {
-                total += (ends[1] - ends[0]).norm();
+                total += (ends[1] - ends[0]).length();
                 total
             })
             .collect();
@@ -120,7 +120,7 @@ impl Piece {
 /// Whether the tangent turns where one piece ends and the next starts.
 pub(super) fn is_corner(before: &Piece, after: &Piece) -> bool {
     let (one, other) = (before.end_direction(), after.start_direction());
-    one.perp(&other).atan2(one.dot(&other)).abs() > CORNER
+    one.perp_dot(other).atan2(one.dot(other)).abs() > CORNER
 }
 
 fn parameter(range: [f64; 2], fraction: f64) -> f64 {

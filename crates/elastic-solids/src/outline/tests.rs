@@ -13,7 +13,7 @@ fn v(x: f64, y: f64) -> Vec2 {
 fn spacings(points: &[Vec2], last: Vec2) -> (f64, f64) {
     let mut closed = points.to_vec();
     closed.push(last);
-    closed.windows(2).map(|p| (p[1] - p[0]).norm()).fold((f64::INFINITY, 0.0), |(a, b), d| (a.min(d), b.max(d)))
+    closed.windows(2).map(|p| (p[1] - p[0]).length()).fold((f64::INFINITY, 0.0), |(a, b), d| (a.min(d), b.max(d)))
 }
 
 #[test]
@@ -22,7 +22,7 @@ fn points_lie_on_the_exact_curve_at_equal_spacing() {
     assert!((circle.length() - 3.0 * PI).abs() < 1e-5);
     let points = circle.resampled(0.1).unwrap();
     assert_eq!(points.len(), 94);
-    assert!(points.iter().all(|p| ((p - v(1.0, -2.0)).norm() - 1.5).abs() < 1e-14));
+    assert!(points.iter().all(|p| ((p - v(1.0, -2.0)).length() - 1.5).abs() < 1e-14));
     let (least, most) = spacings(&points, points[0]);
     assert!(most / least < 1.0 + 1e-6);
     // An ellipse, whose parameter is not its arc length.

@@ -62,7 +62,7 @@ impl Body for Solid {
 
     fn write_state(&self, state: &mut [f64]) {
         for (pair, &point) in state.chunks_exact_mut(2).zip(&self.free) {
-            pair.copy_from_slice(self.positions[point].as_slice());
+            pair.copy_from_slice(&self.positions[point].to_array());
         }
     }
 
@@ -78,7 +78,7 @@ impl Body for Solid {
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(velocities) {
-            pair.copy_from_slice(velocity.as_slice());
+            pair.copy_from_slice(&velocity.to_array());
         }
         if let Some(surface) = &self.surface {
             surface.add(rate);
@@ -113,7 +113,7 @@ impl Body for Solid {
             ("the number of points", self.positions.len() as f64),
             ("the number of triangles", mesh.triangles().len() as f64),
             ("the area at rest", mesh.area()),
-            ("the polar moment of area at rest", triangles.map(|(k, a)| a * mesh.centroid(k).norm_squared()).sum()),
+            ("the polar moment of area at rest", triangles.map(|(k, a)| a * mesh.centroid(k).length_squared()).sum()),
             ("the number of free points", self.free.len() as f64),
             ("the number of tethers", self.tethers.len() as f64),
             ("the energy of a shear of 0.1 and a stretch of 1.05", self.law.energy(&strained).unwrap_or(f64::NAN)),
@@ -177,8 +177,8 @@ impl Solid {
     fn tether_stiffness(&self, medium: &Medium) -> f64 {
         let anchors = || self.tethers.iter().map(|tether| tether.anchor);
         let first = self.tethers[0].anchor;
-        let (low, high) = anchors().fold((first, first), |(a, b), p| (a.inf(&p), b.sup(&p)));
-        let size = (high - low) + Vec2::repeat(self.spacing);
+        let (low, high) = anchors().fold((first, first), |(a, b), p| (a.min(p), b.max(p)));
+        let size = (high - low) + Vec2::splat(self.spacing);
         let (length, thickness) = (size.x.max(size.y), size.x.min(size.y));
         let domain = &medium.domain;
         let (reach, mobility) = match domain.walls {

@@ -36,7 +36,7 @@ impl Observables {
             places.zip(&weights).map(|(place, &weight)| place * weight).sum::<Vec2>() / mesh.area()
         };
         Self {
-            largest_displacement: solid.displacements().map(|displacement| displacement.norm()).fold(0.0, f64::max),
+            largest_displacement: solid.displacements().map(Vec2::length).fold(0.0, f64::max),
             largest_normal_displacement: solid.largest_normal_displacement(),
             drift: mean(&mut solid.displacements()),
             centroid: mean(&mut solid.positions.iter().copied()),
@@ -70,9 +70,9 @@ impl Solid {
             for (k, &point) in boundary.points.iter().enumerate() {
                 let before = if k == 0 { polygon[count - 1] - advance } else { polygon[k - 1] };
                 let after = if k + 1 == count { polygon[0] + advance } else { polygon[k + 1] };
-                let along = (after - before).try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+                let along = (after - before).normalize_or_zero();
                 let displacement = self.positions[point] - self.mesh.points()[point];
-                largest = largest.max(along.perp(&displacement).abs());
+                largest = largest.max(along.perp_dot(displacement).abs());
             }
         }
         largest
@@ -89,7 +89,7 @@ impl Solid {
     /// Energy of the tethers (energy).
     #[must_use]
     pub fn tether_energy(&self) -> f64 {
-        let stretch = |point: usize, anchor: Vec2| (self.positions[point] - anchor).norm_squared();
+        let stretch = |point: usize, anchor: Vec2| (self.positions[point] - anchor).length_squared();
         self.tethers.iter().map(|tether| 0.5 * tether.stiffness * stretch(tether.point, tether.anchor)).sum()
     }
 
@@ -97,7 +97,7 @@ impl Solid {
     pub fn jacobians(&self) -> impl Iterator<Item = f64> {
         self.mesh.areas().iter().enumerate().map(|(triangle, area)| {
             let [a, b, c] = self.mesh.corners(triangle, &self.positions);
-            0.5 * (b - a).perp(&(c - a)) / area
+            0.5 * (b - a).perp_dot(c - a) / area
         })
     }
 
@@ -116,7 +116,7 @@ impl Solid {
         // Mostly none is; the sign alone takes no division and no search.
         let upright = |triangle: usize| {
             let [a, b, c] = self.mesh.corners(triangle, &self.positions);
-            (b - a).perp(&(c - a)) > 0.0
+            (b - a).perp_dot(c - a) > 0.0
         };
         if (0..self.mesh.triangles().len()).all(upright) {
             return Ok(());
@@ -150,11 +150,9 @@ impl Solid {
     pub fn gradient(&self, triangle: usize) -> Mat2 {
         let sides = |positions: &[Vec2]| {
             let [a, b, c] = self.mesh.corners(triangle, positions);
-            Mat2::from_columns(&[b - a, c - a])
+            Mat2::from_cols(b - a, c - a)
         };
-        let reference = sides(self.mesh.points());
-        let adjugate = Mat2::new(reference.m22, -reference.m12, -reference.m21, reference.m11);
-        sides(&self.positions) * adjugate / (2.0 * self.mesh.areas()[triangle])
+        sides(&self.positions) * sides(self.mesh.points()).inverse()
     }
 
     /// The surface of a periodic wall that faces up, from right to left (length); `None` where there is none.

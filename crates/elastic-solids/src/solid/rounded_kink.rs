@@ -96,7 +96,7 @@ impl RoundedKink {
     /// that turns to its left with the `curvature` (1/length); nothing beyond the reach.
     pub(crate) fn beside(&self, away: Vec2, tangent: Vec2, curvature: f64, spacing: f64) -> Option<Beside> {
         let normal = Vec2::new(-tangent.y, tangent.x);
-        let height = away.dot(&normal);
+        let height = away.dot(normal);
         let s = height.abs() / spacing;
         (s < self.reach()).then(|| {
             let [along, across] = self.parts(s);
@@ -117,7 +117,7 @@ impl Beside {
     /// The adjoint: the force that works on what is missing on the line, and the one (times length) that works on its
     /// slope.
     pub(crate) fn work(&self, force: Vec2) -> [f64; 2] {
-        [self.along * self.tangent.dot(&force), self.across.dot(&force)]
+        [self.along * self.tangent.dot(force), self.across.dot(force)]
     }
 }
 

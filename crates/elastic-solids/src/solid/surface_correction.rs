@@ -130,7 +130,7 @@ impl SurfaceCorrection {
                 let (before, after) = ((k + count - 1) % count, (k + 1) % count);
                 let span = nearest_step(mesh, boundary.points[before], point)
                     + nearest_step(mesh, point, boundary.points[after]);
-                flat.push(deficit.flat(span.try_normalize(0.0).unwrap_or_else(Vec2::zeros)));
+                flat.push(deficit.flat(span.normalize_or_zero()));
                 vertices.push(Vertex {
                     point,
                     own: start + k,
@@ -148,13 +148,13 @@ impl SurfaceCorrection {
             near: Vec::new(),
             spacing,
             passes: 0,
-            edges: vec![Edge { from: Vec2::zeros(), tangent: Vec2::zeros(), length: 0.0 }; count],
+            edges: vec![Edge { from: Vec2::ZERO, tangent: Vec2::ZERO, length: 0.0 }; count],
             bends: vec![Bend::default(); count],
             kinks: Vec::new(),
             feet: Vec::new(),
             missing: vec![0.0; count],
             slopes: vec![0.0; count],
-            directions: vec![Vec2::zeros(); count],
+            directions: vec![Vec2::ZERO; count],
             scratch: vec![0.0; count],
             vertices,
         };
@@ -189,7 +189,7 @@ impl SurfaceCorrection {
     /// The edge of the surface nearest to a point of the reference state, and how far away it is (length).
     fn find(&self, mesh: &TriangleMesh, marker: usize, place: Vec2) -> Option<(Near, f64)> {
         let free = self.vertices.iter().filter(|vertex| !(vertex.pinned && self.vertices[vertex.after].pinned));
-        let distances = free.map(|vertex| (vertex.own, self.away(vertex.own, place, mesh.period()).0.norm()));
+        let distances = free.map(|vertex| (vertex.own, self.away(vertex.own, place, mesh.period()).0.length()));
         let nearest = distances.fold(None, |nearest: Option<(usize, f64)>, this| match nearest {
             Some(least) if least.1 <= this.1 => nearest,
             _ => Some(this),
@@ -202,8 +202,8 @@ impl SurfaceCorrection {
         for (edge, vertex) in self.edges.iter_mut().zip(&self.vertices) {
             let from = positions[vertex.point];
             let along = wrapped(positions[self.vertices[vertex.after].point] - from, mesh.period());
-            let length = along.norm();
-            *edge = Edge { from, tangent: if length > 0.0 { along / length } else { Vec2::zeros() }, length };
+            let length = along.length();
+            *edge = Edge { from, tangent: if length > 0.0 { along / length } else { Vec2::ZERO }, length };
         }
     }
 
@@ -212,14 +212,14 @@ impl SurfaceCorrection {
         for vertex in &self.vertices {
             let [before, after] = [self.edges[vertex.before], self.edges[vertex.own]];
             let sum = before.tangent * before.length + after.tangent * after.length;
-            self.bends[vertex.own].tangent = sum.try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+            self.bends[vertex.own].tangent = sum.normalize_or_zero();
         }
         for vertex in &self.vertices {
             let [before, here, after] = [vertex.before, vertex.own, vertex.after].map(|k| self.bends[k].tangent);
-            self.directions[vertex.own] = (before + 2.0 * here + after).try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+            self.directions[vertex.own] = (before + 2.0 * here + after).normalize_or_zero();
         }
         for vertex in &self.vertices {
-            let turn = self.directions[vertex.before].perp(&self.directions[vertex.after]);
+            let turn = self.directions[vertex.before].perp_dot(self.directions[vertex.after]);
             let curvature = turn * self.inverse_span(vertex);
             self.bends[vertex.own] = Bend { tangent: self.directions[vertex.own], curvature };
         }
@@ -229,7 +229,7 @@ impl SurfaceCorrection {
     fn away(&self, vertex: usize, point: Vec2, period: Option<f64>) -> (Vec2, f64) {
         let Edge { from, tangent, length } = self.edges[vertex];
         let away = wrapped(point - from, period);
-        let along = away.dot(&tangent).clamp(0.0, length);
+        let along = away.dot(tangent).clamp(0.0, length);
         (away - tangent * along, if length > 0.0 { along / length } else { 0.0 })
     }
 
@@ -247,13 +247,13 @@ impl SurfaceCorrection {
                 break;
             };
             let there = self.away(next, point, period);
-            if there.0.norm_squared() >= away.norm_squared() {
+            if there.0.length_squared() >= away.length_squared() {
                 break;
             }
             (vertex, (away, fraction)) = (next, there);
         }
         let [first, second] = [self.bends[vertex], self.bends[self.vertices[vertex].after]];
-        let tangent = first.tangent.lerp(&second.tangent, fraction).try_normalize(0.0).unwrap_or_else(Vec2::zeros);
+        let tangent = first.tangent.lerp(second.tangent, fraction).normalize_or_zero();
         let curvature = first.curvature + fraction * (second.curvature - first.curvature);
         let beside = self.kinks[vertex].beside(away, tangent, curvature, self.spacing);
         Foot { vertex, fraction, beside }

@@ -30,7 +30,7 @@ type Motion = Box<dyn FnMut(&[Vec2], &[Vec2], &mut [Vec2]) + Send>;
 ///         forces[0] = -stiffness * positions[0];
 ///         for k in 1..positions.len() {
 ///             let spring = positions[k] - positions[k - 1];
-///             let pull = stiffness * (spring.norm() - rest) * spring.normalize();
+///             let pull = stiffness * (spring.length() - rest) * spring.normalize();
 ///             forces[k] = -pull;
 ///             forces[k - 1] += pull;
 ///         }
@@ -118,7 +118,7 @@ impl MarkerBody {
     fn decay_rate(&self, medium: &Medium, stiffness: f64) -> f64 {
         let count = self.positions.len() as f64;
         let centre = self.positions.iter().sum::<Vec2>() / count;
-        let gyration = (self.positions.iter().map(|p| (p - centre).norm_squared()).sum::<f64>() / count).sqrt();
+        let gyration = (self.positions.iter().map(|p| (p - centre).length_squared()).sum::<f64>() / count).sqrt();
         let [x, y] = medium.domain.periods;
         let height = medium.domain.walls.map(|[below, above]| above - below);
         let width = [x, y, height].into_iter().flatten().fold(f64::INFINITY, f64::min);
@@ -148,7 +148,7 @@ impl Body for MarkerBody {
     }
 
     fn write_forces(&mut self, _medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        forces.fill(Vec2::zeros());
+        forces.fill(Vec2::ZERO);
         (self.forces)(&self.positions, forces);
         Ok(())
     }
@@ -159,7 +159,7 @@ impl Body for MarkerBody {
 
     fn write_state(&self, state: &mut [f64]) {
         for (pair, position) in state.chunks_exact_mut(2).zip(&self.positions) {
-            pair.copy_from_slice(position.as_slice());
+            pair.copy_from_slice(&position.to_array());
         }
     }
 
@@ -180,7 +180,7 @@ impl Body for MarkerBody {
             motion(&self.positions, velocities, &mut self.rates);
         }
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(&self.rates) {
-            pair.copy_from_slice(velocity.as_slice());
+            pair.copy_from_slice(&velocity.to_array());
         }
     }
 

@@ -16,6 +16,9 @@ pub enum StepCause {
 }
 
 /// A bound on the time step.
+///
+/// An infinite one says that no step is unstable, which is not that any step is accurate: a scene without a finite
+/// bound runs with [`crate::StepSize::Fixed`] or [`crate::StepSize::Adaptive`] alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepLimit {
     /// Largest stable step of the explicit midpoint rule (time); infinity where there is none.

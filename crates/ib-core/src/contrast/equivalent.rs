@@ -163,8 +163,8 @@ impl EquivalentForces {
         }
         self.unknown.resize(2 * nodes, 0.0);
         self.right.resize(2 * nodes, 0.0);
-        self.forces.resize(nodes, Vec2::zeros());
-        self.velocities.resize(nodes, Vec2::zeros());
+        self.forces.resize(nodes, Vec2::ZERO);
+        self.velocities.resize(nodes, Vec2::ZERO);
 
         let Self { filters, gmres, right, unknown, forces, velocities } = self;
         let mut filtered = FilteredCurves { curves, filters, nodes, spacing };

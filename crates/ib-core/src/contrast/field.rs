@@ -53,18 +53,18 @@ impl Nearby {
             return at(point);
         }
         let [start, end] = self.nodes.map(|node| on_nodes[node]);
-        let surface = start.lerp(&end, self.fraction);
+        let surface = start.lerp(end, self.fraction);
         let (near, beyond) = (at(self.retreat(reach)).0, at(self.retreat(reach + step)).0);
         let (rise, slope) = ((near - surface) / reach, (beyond - near) / step);
         let bend = (slope - rise) / (reach + step);
         let mut gradient = at(self.retreat(2.0 * reach)).1;
         let change = 2.0 * (self.distance - 2.0 * reach) * bend;
         // The interface's own direction, without what is not at right angles to `away`.
-        let along = self.along - self.along.dot(&self.away) * self.away;
-        let length = along.norm();
+        let along = self.along - self.along.dot(self.away) * self.away;
+        let length = along.length();
         let tangent = if length > 0.0 { along / length } else { along };
         let left = 1.0 - 0.5 * self.distance / reach;
-        let stretching = (end - start) / self.along.norm().max(f64::MIN_POSITIVE);
+        let stretching = (end - start) / self.along.length().max(f64::MIN_POSITIVE);
         for (row, (change, stretching)) in gradient.iter_mut().zip([(change.x, stretching.x), (change.y, stretching.y)])
         {
             let turned = left * (stretching - row[0] * tangent.x - row[1] * tangent.y);
@@ -94,7 +94,7 @@ impl Contrast {
         let mut nearest = None;
         for curve in &self.curves {
             let relative = self.matrix.wrap(point - curve.centre);
-            if relative.norm() < curve.radius + least
+            if relative.length() < curve.radius + least
                 && let Some(foot) = curve.foot(relative, least)
             {
                 least = foot.distance;
@@ -103,9 +103,9 @@ impl Contrast {
         }
         let (curve, relative, foot) = nearest?;
         let next = (foot.node + 1) % curve.len();
-        let normal = curve.normals[foot.node].lerp(&curve.normals[next], foot.fraction).normalize();
+        let normal = curve.normals[foot.node].lerp(curve.normals[next], foot.fraction).normalize();
         let side = if curve.contains(relative) { -1.0 } else { 1.0 };
-        let place = curve.positions[foot.node].lerp(&curve.positions[next], foot.fraction);
+        let place = curve.positions[foot.node].lerp(curve.positions[next], foot.fraction);
         Some(Nearby {
             foot: point - relative + place,
             nodes: [curve.first + foot.node, curve.first + next],
@@ -121,7 +121,7 @@ impl Contrast {
     pub(crate) fn droplet_at(&self, point: Vec2) -> Option<usize> {
         self.curves.iter().position(|curve| {
             let relative = self.matrix.wrap(point - curve.centre);
-            relative.norm() <= curve.radius && curve.contains(relative)
+            relative.length() <= curve.radius && curve.contains(relative)
         })
     }
 
@@ -149,8 +149,8 @@ impl Contrast {
                 let unit = normal / *weight;
                 let tangent = Vec2::new(-unit.y, unit.x);
                 // Times the arc length.
-                let (q, f) = (equivalent[i].dot(&unit), forces[i].dot(&unit));
-                let stretching = 0.5 * (velocities[at(1)] - velocities[at(count - 1)]).dot(&tangent);
+                let (q, f) = (equivalent[i].dot(unit), forces[i].dot(unit));
+                let stretching = 0.5 * (velocities[at(1)] - velocities[at(count - 1)]).dot(tangent);
                 let (mean, ratio) = (weight * at_nodes[i], 1.0 + curve.contrast / self.viscosity);
                 sum += mean + 0.5 * q - f - 2.0 * curve.contrast * stretching - ratio * (mean - 0.5 * q);
             }

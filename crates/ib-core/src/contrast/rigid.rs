@@ -28,7 +28,7 @@ impl RigidModes {
             let perimeter: f64 = curve.perimeter();
             let centre = curve.positions.iter().zip(&curve.weights).map(|(x, w)| x * *w).sum::<Vec2>() / perimeter;
             let moment: f64 =
-                curve.positions.iter().zip(&curve.weights).map(|(x, w)| w * (x - centre).norm_squared()).sum();
+                curve.positions.iter().zip(&curve.weights).map(|(x, w)| w * (x - centre).length_squared()).sum();
             let scales = [1.0 / perimeter.sqrt(), 1.0 / perimeter.sqrt(), 1.0 / moment.sqrt()];
             for (motion, scale) in scales.into_iter().enumerate() {
                 let start = 2 * nodes * (RIGID * index + motion) + curve.first;

@@ -16,7 +16,7 @@ impl Outline {
         let boundary = Boundary::of(body);
         let mut points: Vec<Vec2> = boundary.corners().collect();
         if boundary.is_empty() {
-            points.resize(body.marker_count(), Vec2::zeros());
+            points.resize(body.marker_count(), Vec2::ZERO);
             body.write_markers(&mut points);
         }
         Self { boundary, points, is_interface: body.kind().is_interface() }

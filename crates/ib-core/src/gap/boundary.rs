@@ -40,8 +40,8 @@ pub(crate) struct Frame {
 
 impl Frame {
     fn around(points: impl Iterator<Item = Vec2>) -> Self {
-        let far = Vec2::repeat(f64::INFINITY);
-        let (low, high) = points.fold((far, -far), |(low, high), point| (low.inf(&point), high.sup(&point)));
+        let far = Vec2::splat(f64::INFINITY);
+        let (low, high) = points.fold((far, -far), |(low, high), point| (low.min(point), high.max(point)));
         Self { centre: 0.5 * (low + high), half: 0.5 * (high - low) }
     }
 
@@ -69,7 +69,7 @@ impl Frame {
 
     /// The longer of its sides (length).
     pub(crate) fn size(&self) -> f64 {
-        2.0 * self.half.max()
+        2.0 * self.half.max_element()
     }
 
     /// The same box elsewhere.
@@ -79,12 +79,12 @@ impl Frame {
 }
 
 /// The difference that is shortest over the periods.
-fn nearest(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
-    for (component, period) in difference.iter_mut().zip(periods) {
+pub(super) fn nearest(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
+    for (axis, period) in periods.into_iter().enumerate() {
         if let Some(period) = period
-            && component.abs() > 0.5 * period
+            && difference[axis].abs() > 0.5 * period
         {
-            *component -= period * (*component / period).round();
+            difference[axis] -= period * (difference[axis] / period).round();
         }
     }
     difference
@@ -117,13 +117,13 @@ impl Nearest {
 
     /// Looks at a straight side along `along`, from whose middle the point is `from_middle` away.
     fn look_at(&mut self, along: Vec2, from_middle: Vec2) {
-        let length = along.norm_squared();
+        let length = along.length_squared();
         if length == 0.0 {
             return;
         }
-        let part = (from_middle.dot(&along) / length).clamp(-0.5, 0.5);
-        let squared = (from_middle - part * along).norm_squared();
-        let height = from_middle.perp(&along) / length.sqrt();
+        let part = (from_middle.dot(along) / length).clamp(-0.5, 0.5);
+        let squared = (from_middle - part * along).length_squared();
+        let height = from_middle.perp_dot(along) / length.sqrt();
         // At a corner both sides are equally far; the one that the point stands more upright on says whether it is
         // inside.
         let tie = self.squared.is_finite() && (squared - self.squared).abs() <= TIE * (squared + self.squared);
@@ -137,7 +137,7 @@ impl Boundary {
     /// The boundary of a body where it is now, sorted.
     #[must_use]
     pub fn of(body: &dyn Body) -> Self {
-        let mut markers = vec![Vec2::zeros(); body.marker_count()];
+        let mut markers = vec![Vec2::ZERO; body.marker_count()];
         body.write_markers(&mut markers);
         let mut boundary = Self::default();
         body.write_boundary(&markers, &mut boundary);

@@ -1,6 +1,7 @@
 //! A short-range repulsion between interfaces.
 
-use crate::{FlowError, MarkerKind, Markers, Vec2};
+use super::boundary::nearest;
+use crate::{FlowError, MarkerKind, Markers};
 
 /// A repulsion between different interfaces that come close, an option for scenes of several droplets whose films the
 /// grid does not resolve; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of
@@ -72,13 +73,13 @@ impl Repulsion {
             let (count, i) = (range.len(), k - range.start);
             let [before, after] =
                 [(i + count - 1) % count, (i + 1) % count].map(|i| markers.positions[range.start + i]);
-            0.5 * (after - before).norm()
+            0.5 * (after - before).length()
         };
         for i in a.range.clone() {
             let (place, piece) = (markers.positions[i], length(markers, &a.range, i));
             for j in b.range.clone() {
-                let apart = apart(place - markers.positions[j], periods);
-                let distance = apart.norm();
+                let apart = nearest(place - markers.positions[j], periods);
+                let distance = apart.length();
                 if distance < self.range && distance > 0.0 {
                     let closeness = 1.0 - distance / self.range;
                     let size = self.strength * piece * length(markers, &b.range, j) * closeness * closeness;
@@ -89,15 +90,6 @@ impl Repulsion {
             }
         }
     }
-}
-
-fn apart(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
-    for (component, period) in difference.iter_mut().zip(periods) {
-        if let Some(period) = period {
-            *component -= period * (*component / period).round();
-        }
-    }
-    difference
 }
 
 #[cfg(test)]

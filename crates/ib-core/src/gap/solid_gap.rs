@@ -86,7 +86,7 @@ impl SolidGap {
     pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Option<NearestSolid> {
         let Self { surfaces, markers, set_back, .. } = self;
         let place = |body: &dyn Body, markers: &mut Vec<Vec2>| {
-            markers.resize(body.marker_count(), Vec2::zeros());
+            markers.resize(body.marker_count(), Vec2::ZERO);
             body.write_markers(markers);
         };
         surfaces.clear();

@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-/// A vector in the plane.
-pub type Vec2 = nalgebra::Vector2<f64>;
+use stokes_layers::Vec2;
 
 /// What a group of markers is, as far as the flow is concerned.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,7 +82,7 @@ impl Markers {
 
     fn resize(&mut self, count: usize) {
         for array in [&mut self.positions, &mut self.forces, &mut self.velocities] {
-            array.resize(count, Vec2::zeros());
+            array.resize(count, Vec2::ZERO);
         }
     }
 

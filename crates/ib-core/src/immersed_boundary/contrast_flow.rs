@@ -86,7 +86,7 @@ impl<K: Kernel> ContrastFlow<K> {
             gaps.extend_from_slice(self.clearance.gaps(markers, group, grid.spacing(), grid.lengths()[0]));
         }
         for array in [own, rigid, pulled, other, target] {
-            array.resize(positions.len(), Vec2::zeros());
+            array.resize(positions.len(), Vec2::ZERO);
         }
         self.transfer.locate(positions);
         Ok(())
@@ -176,13 +176,13 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         flow.all.clear();
         flow.all.extend_from_slice(&markers.forces);
         for droplet in flow.contrast.droplets() {
-            flow.all[droplet.markers.clone()].fill(Vec2::zeros());
+            flow.all[droplet.markers.clone()].fill(Vec2::ZERO);
         }
         if !flow.contrast.others().is_empty() {
             self.transfer.locate(&markers.positions);
         }
         let (mut gradient, mut moves) = ([0.0; 2], true);
-        if flow.all.iter().any(|force| *force != Vec2::zeros()) {
+        if flow.all.iter().any(|force| *force != Vec2::ZERO) {
             let report = self.solve_located(&flow.all)?;
             gradient = report.mean_pressure_gradient;
             copy(&mut flow.other, &self.velocity);
@@ -197,8 +197,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             flow.other_density.fill(0.0);
         }
         if !moves {
-            flow.nodes.other.fill(Vec2::zeros());
-            markers.velocities.fill(Vec2::zeros());
+            flow.nodes.other.fill(Vec2::ZERO);
+            markers.velocities.fill(Vec2::ZERO);
             return Ok(gradient);
         }
         flow.transfer.interpolate(&flow.other, &mut flow.nodes.other);
@@ -220,7 +220,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         if flow.contrast.rigid_part(forces, rigid) {
             self.respond((&flow.contrast, &flow.transfer, &flow.imposed), [positions, rigid], gaps, pulled)?;
         } else {
-            pulled.fill(Vec2::zeros());
+            pulled.fill(Vec2::ZERO);
         }
         Ok(())
     }
@@ -409,7 +409,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
                 Some(near) => {
                     // So that velocities are continuous where viscosities become equal.
                     let share = (near.contrast().abs() / self.solver.viscosity()).min(1.0);
-                    far.lerp(&near.flow(point, reach, &flow.nodes.target, velocity).0, share)
+                    far.lerp(near.flow(point, reach, &flow.nodes.target, velocity).0, share)
                 }
                 None => far,
             };

@@ -1,6 +1,8 @@
 //! Interfaces between different viscosities by a viscosity that is smeared over the kernel, the thesis' way.
 
-use stokes_grid::{CentreField, Grid, NodeField, RealFft2, StaggeredField, StokesSolver, Symbol, TwoPhaseStokes};
+use stokes_grid::{
+    CentreField, Drive, Grid, NodeField, RealFft2, StaggeredField, StokesSolver, Symbol, TwoPhaseStokes,
+};
 
 use crate::contrast::other_viscosity;
 use crate::{
@@ -139,7 +141,7 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
             for k in 0..count {
                 let d = 0.5 * (positions[(k + 1) % count] - positions[(k + count - 1) % count]);
                 let normal = Vec2::new(d.y, -d.x);
-                mean += (inside - outside) * 0.5 * (positions[k] - positions[0]).dot(&normal) / (lx * ly);
+                mean += (inside - outside) * 0.5 * (positions[k] - positions[0]).dot(normal) / (lx * ly);
                 self.spread.push((inside - outside) * normal);
                 self.positions.push(positions[k]);
             }
@@ -179,6 +181,10 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
 impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
     fn medium(&self) -> Medium {
         self.flow.medium()
+    }
+
+    fn drive(&self) -> Option<Drive> {
+        self.flow.drive()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {

@@ -24,7 +24,7 @@ impl Clearance {
         self.gaps.clear();
         let is_solid = |group: &MarkerGroup| {
             group.kind == MarkerKind::Points
-                && markers.forces[group.range.clone()].iter().any(|force| *force != Vec2::zeros())
+                && markers.forces[group.range.clone()].iter().any(|force| *force != Vec2::ZERO)
         };
         if !markers.groups().iter().any(is_solid) {
             return &self.gaps;
@@ -57,7 +57,7 @@ impl Clearance {
                     break;
                 }
                 let marker = marker as usize;
-                let squared = (positions[marker] - point).norm_squared();
+                let squared = (positions[marker] - point).length_squared();
                 self.squared[marker] = self.squared[marker].min(squared);
             }
         }

@@ -174,11 +174,11 @@ impl Plan {
             let before = positions[if k == 0 { count - 1 } else { k - 1 }];
             let after = positions[if k + 1 == count { 0 } else { k + 1 }];
             let d = 0.5 * (after - before);
-            let w = d.norm();
+            let w = d.length();
             perimeter += w;
             let inverse = if w > 0.0 { 1.0 / w } else { 0.0 };
             let (tau, force) = (inverse * d, inverse * forces[k]);
-            tangential[k] = force.dot(&tau);
+            tangential[k] = force.dot(tau);
             normal[k] = force.x * tau.y - force.y * tau.x;
             pressure += normal[k];
             *place = Place { tangent: tau, left: setting.left(positions[k].y, gaps.get(k)) };
@@ -291,7 +291,7 @@ impl Plan {
                 let phase = phase * phase;
                 // The second harmonic from the first: e^{-i phi} takes the first one's phase off.
                 let harmonics = first.re + second * (first * phase.conj()).re * (phase * phase).re;
-                *velocity -= place.left[0] * harmonics * (tau + mirrored - tau.dot(&mirrored) * tau);
+                *velocity -= place.left[0] * harmonics * (tau + mirrored - tau.dot(mirrored) * tau);
             }
         }
     }

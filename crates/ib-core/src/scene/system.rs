@@ -7,6 +7,8 @@ mod state;
 
 pub use bodies::BodyFlow;
 
+use stokes_grid::Drive;
+
 use super::SceneId;
 use crate::gap::{Gap, Gaps};
 use crate::{
@@ -124,12 +126,18 @@ impl<H: Hydrodynamics> System<H> {
 
     /// What the scene is made of, besides its bodies and its domain.
     pub(crate) fn properties(&self) -> Vec<(String, f64)> {
-        let mut properties = vec![("the exterior viscosity".to_owned(), self.hydrodynamics.medium().viscosity)];
+        let mut properties = vec![("the exterior viscosity", self.hydrodynamics.medium().viscosity)];
+        properties.extend(self.hydrodynamics.drive().map(|drive| match drive {
+            Drive::ZeroGradient => ("the imposed pressure gradient", 0.0),
+            Drive::Gradient(gradient) => ("the imposed pressure gradient", gradient),
+            Drive::ZeroFlux => ("the imposed flux", 0.0),
+            Drive::Flux(flux) => ("the imposed flux", flux),
+        }));
         if let Some(repulsion) = &self.repulsion {
-            properties.push(("the strength of the repulsion".to_owned(), repulsion.strength()));
-            properties.push(("the range of the repulsion".to_owned(), repulsion.range()));
+            properties.push(("the strength of the repulsion", repulsion.strength()));
+            properties.push(("the range of the repulsion", repulsion.range()));
         }
-        properties
+        properties.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
     }
 
     /// Whether [`System::markers`] holds the flow of the present state.

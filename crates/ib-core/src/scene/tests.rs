@@ -11,8 +11,8 @@ fn scene() -> Scene<Flow> {
 
 /// Two points that a force pulls along x and y.
 fn pulled(name: &str) -> MarkerBody {
-    let places = vec![Vec2::zeros(), Vec2::new(0.5, 0.2)];
-    MarkerBody::new(name, places, |_, forces| forces.copy_from_slice(&[Vec2::x(), Vec2::y()]))
+    let places = vec![Vec2::ZERO, Vec2::new(0.5, 0.2)];
+    MarkerBody::new(name, places, |_, forces| forces.copy_from_slice(&[Vec2::X, Vec2::Y]))
 }
 
 /// The mean velocity of its markers.

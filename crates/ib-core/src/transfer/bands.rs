@@ -95,7 +95,7 @@ impl Bands {
     ) {
         let bands = anywhere.rows() / self.rows;
         let work = |band: usize, [fx, fy]: [&mut [f64]; 2]| {
-            let (mut near, mut pushing) = ([Spot::NONE; BLOCK], [Vec2::zeros(); BLOCK]);
+            let (mut near, mut pushing) = ([Spot::NONE; BLOCK], [Vec2::ZERO; BLOCK]);
             for lists in self.lists.chunks_exact(BANDS) {
                 for some in lists[band].chunks(BLOCK) {
                     for (k, marker) in some.iter().enumerate() {

@@ -32,7 +32,7 @@ pub fn streamlines(field: &Samples<Vec2>, spacing: f64, anchor: Vec2) -> Result<
     if !(spacing.is_finite() && spacing > 0.0 && size[0] * size[1] / (spacing * spacing) < 1e6) {
         return Err(Error::Streamlines { spacing, size });
     }
-    let fastest = field.values.iter().map(Vec2::norm).filter(|v| v.is_finite()).fold(0.0, f64::max);
+    let fastest = field.values.iter().map(|v| v.length()).filter(|v| v.is_finite()).fold(0.0, f64::max);
     if fastest == 0.0 {
         return Ok(Vec::new());
     }
@@ -55,7 +55,7 @@ fn seeds_beside(line: &[Vec2], spacing: f64) -> Vec<Vec2> {
     let every = STEPS as usize;
     let beside = |pair: &[Vec2]| {
         let along = pair[1] - pair[0];
-        let normal = Vec2::new(-along.y, along.x) * (1.001 * spacing / along.norm().max(1e-300));
+        let normal = Vec2::new(-along.y, along.x) * (1.001 * spacing / along.length().max(1e-300));
         [pair[0] + normal, pair[0] - normal]
     };
     line.windows(2).step_by(every).flat_map(beside).collect()
@@ -105,7 +105,7 @@ impl Tracer<'_> {
         };
         line.push(seed);
         line.extend(ahead);
-        let length: f64 = line.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+        let length: f64 = line.windows(2).map(|w| (w[1] - w[0]).length()).sum();
         let keep = length >= SHORTEST * self.spacing;
         self.near.kept.pop();
         self.near.kept.push(keep);
@@ -118,8 +118,8 @@ impl Tracer<'_> {
         let end = self.near.nearest_image(seed, *last);
         let gap = end - last;
         let along = (last - before).normalize();
-        let near = gap.norm() < (NEAREST_SELF + 2.0 / STEPS) * self.spacing;
-        (near && along.dot(&gap) > 0.0 && along.perp(&gap).abs() < 0.1 * self.spacing).then_some(end)
+        let near = gap.length() < (NEAREST_SELF + 2.0 / STEPS) * self.spacing;
+        (near && along.dot(gap) > 0.0 && along.perp_dot(gap).abs() < 0.1 * self.spacing).then_some(end)
     }
 
     /// The line from `seed` on, downstream (`sign` 1) or upstream (-1), without the seed.
@@ -148,7 +148,7 @@ impl Tracer<'_> {
     fn step(&self, p: Vec2, length: f64) -> Option<Vec2> {
         let direction = |p: Vec2| {
             let v = self.field.raster.covers(p).then(|| self.field.at(p))?;
-            let speed = v.norm();
+            let speed = v.length();
             (speed > self.slowest).then(|| v / speed)
         };
         let a = direction(p)?;
@@ -213,7 +213,7 @@ impl Neighbourhood {
         let near = |&(q, line, number): &(Vec2, usize, i64)| {
             self.kept[line]
                 && wanted((line == last).then_some(number))
-                && (self.nearest_image(p, q) - q).norm() < distance
+                && (self.nearest_image(p, q) - q).length() < distance
         };
         around(1).any(|j| around(0).any(|i| self.points[j * self.cells[0] + i].iter().any(near)))
     }

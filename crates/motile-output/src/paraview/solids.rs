@@ -62,7 +62,7 @@ impl Pieces {
         }
         self.jacobian.extend(solid.jacobians());
         match solid.stresses() {
-            Ok(stresses) => self.stress.extend(stresses.iter().map(|s| [s.m11, s.m12, s.m22])),
+            Ok(stresses) => self.stress.extend(stresses.iter().map(|s| [s.x_axis.x, s.y_axis.x, s.y_axis.y])),
             // An inverted triangle has none.
             Err(_) => self.stress.resize(self.jacobian.len(), [f64::NAN; 3]),
         }

@@ -23,8 +23,8 @@ fn each_droplet_has_its_own_forces_and_velocities() {
     let states = handles.map(|handle| InterfaceState::of(scene.system(), handle).unwrap());
     for state in &states {
         // Tension alone puts no net force on the fluid.
-        let (sum, largest) = state.forces.iter().fold((Vec2::zeros(), 0.0_f64), |(s, m), f| (s + f, m.max(f.norm())));
-        assert!(sum.norm() < 1e-10 * largest, "{sum} of {largest}");
+        let (sum, largest) = state.forces.iter().fold((Vec2::ZERO, 0.0_f64), |(s, m), f| (s + f, m.max(f.length())));
+        assert!(sum.length() < 1e-10 * largest, "{sum} of {largest}");
     }
     let both = |pick: fn(&InterfaceState<'_>) -> Vec<Vec2>| states.iter().flat_map(pick).collect::<Vec<Vec2>>();
     let tensions: Vec<f64> =

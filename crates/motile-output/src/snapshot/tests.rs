@@ -14,10 +14,10 @@ fn a_snapshot_of_a_box_and_of_a_channel() {
     assert_eq!((raster.cells(), raster.periodic), ([24, 16], [true, true]));
     assert_eq!(raster.coarsened(12).cells(), [12, 8]);
     let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
-    assert!((seen.droplets[0].centroid - Vec2::new(1.0, 0.5)).norm() < 1e-9);
+    assert!((seen.droplets[0].centroid - Vec2::new(1.0, 0.5)).length() < 1e-9);
     // The pressure inside is above that outside, the droplet moves to the right.
     let at = |x: f64, y: f64| {
-        let near = |p: &&(Vec2, FlowSample)| (p.0 - Vec2::new(x, y)).norm() < 0.2;
+        let near = |p: &&(Vec2, FlowSample)| (p.0 - Vec2::new(x, y)).length() < 0.2;
         let all: Vec<_> = raster.points().into_iter().zip(seen.flow.iter().copied()).collect();
         all.iter().find(near).unwrap().1
     };
@@ -49,7 +49,7 @@ fn all_droplets_and_solids_of_any_material_are_seen() {
     let raster = Raster::of(scene.system(), 0.2).unwrap();
     let seen = Snapshot::take(scene.system_mut(), raster).unwrap();
     for (droplet, x) in seen.droplets.iter().zip([-2.0, 2.0]) {
-        assert!((droplet.centroid - Vec2::new(x, 0.0)).norm() < 1e-6, "{}", droplet.centroid);
+        assert!((droplet.centroid - Vec2::new(x, 0.0)).length() < 1e-6, "{}", droplet.centroid);
     }
     // Areas are those of the setup, of the disc's polygon a little less.
     let areas: Vec<f64> = seen.solids.iter().map(|solid| polygon_moments(&solid.area[0]).unwrap().area).collect();

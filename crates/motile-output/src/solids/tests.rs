@@ -14,7 +14,7 @@ fn walls_of_a_channel() {
     let system = scene.system();
     let area = |ring: &[Vec2]| {
         let next = ring.iter().cycle().skip(1);
-        0.5 * ring.iter().zip(next).map(|(a, b)| a.perp(b)).sum::<f64>()
+        0.5 * ring.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>()
     };
     for solid in solids(system) {
         let shape = solid_shape(solid);

@@ -17,13 +17,13 @@ fn the_rows_are_those_of_the_droplet_asked_for() {
     let mut rows: Vec<TrajectoryCsv> =
         (0..2).map(|k| TrajectoryCsv::create(path(k), scene.system_mut(), droplets[k]).unwrap()).collect();
     let at_start = [0, 1].map(|k| scene.observe(droplets[k]).unwrap().velocity);
-    assert!((at_start[0] - at_start[1]).norm() > 0.01, "{at_start:?}");
+    assert!((at_start[0] - at_start[1]).length() > 0.01, "{at_start:?}");
     let [first, second] = &mut rows[..] else { unreachable!("there are two") };
     scene.run(0.1).observe(Every::Steps(1), first).observe(Every::Steps(1), second).go().unwrap();
     for (k, (rows, [x, y])) in rows.iter_mut().zip([[-2.0, 0.0], [2.0, 0.5]]).enumerate() {
         rows.finish(scene.system_mut()).unwrap();
         let (time, start) = rows.track()[0];
-        assert!(time == 0.0 && (start - Vec2::new(x, y)).norm() < 1e-6, "{start}");
+        assert!(time == 0.0 && (start - Vec2::new(x, y)).length() < 1e-6, "{start}");
         let text = std::fs::read_to_string(path(k)).unwrap();
         assert_eq!(text.lines().count(), rows.table().rows().len() + 1);
         // A box has no walls.

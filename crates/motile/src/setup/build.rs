@@ -215,12 +215,12 @@ impl Setup {
     fn fits(&self, number: usize, markers: &[Vec2]) -> Result<(), SetupError> {
         let (mut low, mut high) = (markers[0], markers[0]);
         for marker in markers {
-            (low, high) = (low.inf(marker), high.sup(marker));
+            (low, high) = (low.min(*marker), high.max(*marker));
         }
         let [length, width] = self.region.lengths();
         let extent = high - low;
         // The polygon of the markers has the area of its curve and so stands out of it a little.
-        let slack = 4.0 * extent.norm() / (markers.len() * markers.len()) as f64;
+        let slack = 4.0 * extent.length() / (markers.len() * markers.len()) as f64;
         let fits = match self.region {
             Region::Plane => true,
             Region::Box { .. } => extent.x < length && extent.y < width,

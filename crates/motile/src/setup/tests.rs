@@ -129,7 +129,7 @@ fn moduli_follow_their_grading() {
     for (y, factor) in [(-5.0, 1.0), (-1.0, 1.0), (0.0, 2.0), (1.0, 3.0), (1.5, 1.75), (7.0, 0.5)] {
         assert!((at(y) - factor).abs() < 1e-15, "{y}: {}", at(y));
     }
-    assert_eq!(Grading::Uniform.factor(Vec2::zeros()), 1.0);
+    assert_eq!(Grading::Uniform.factor(Vec2::ZERO), 1.0);
     // The energy of a wall that is stiffer by a factor everywhere is larger by it.
     let energy = |grading: Grading| {
         let base = elastic(3.0, Surface::Plain);

@@ -50,8 +50,8 @@ impl NodeCurve {
         self.centre = positions.iter().sum::<Vec2>() / n as f64;
         self.positions.clear();
         self.positions.extend(positions.iter().map(|x| x - self.centre));
-        self.radius = self.positions.iter().map(Vec2::norm).fold(0.0, f64::max);
-        self.longest = (0..n).map(|k| (self.positions[(k + 1) % n] - self.positions[k]).norm()).fold(0.0, f64::max);
+        self.radius = self.positions.iter().map(|v| v.length()).fold(0.0, f64::max);
+        self.longest = (0..n).map(|k| (self.positions[(k + 1) % n] - self.positions[k]).length()).fold(0.0, f64::max);
         self.normals.clear();
         self.weights.clear();
         self.area = 0.0;
@@ -60,9 +60,9 @@ impl NodeCurve {
             // Fourth order: that of the curve's parameter, in which the trapezoidal rule is spectral.
             let d = (8.0 * (at(1) - at(n - 1)) - (at(2) - at(n - 2))) / 12.0;
             let normal = Vec2::new(d.y, -d.x);
-            self.area += 0.5 * self.positions[k].dot(&normal);
+            self.area += 0.5 * self.positions[k].dot(normal);
             self.normals.push(normal);
-            self.weights.push(d.norm());
+            self.weights.push(d.length());
         }
         if self.area <= 0.0 {
             return Err(LayerError::Clockwise { curve: self.first });
@@ -120,9 +120,9 @@ impl NodeCurve {
         while node < n {
             let (a, b) = (self.positions[node], self.positions[(node + 1) % n]);
             let along = b - a;
-            let square = along.norm_squared();
-            let fraction = if square > 0.0 { ((point - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
-            let distance = (point - a - fraction * along).norm();
+            let square = along.length_squared();
+            let fraction = if square > 0.0 { ((point - a).dot(along) / square).clamp(0.0, 1.0) } else { 0.0 };
+            let distance = (point - a - fraction * along).length();
             if distance < least {
                 least = distance;
                 best = Some(Foot { node, fraction, distance });

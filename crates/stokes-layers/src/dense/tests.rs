@@ -75,7 +75,7 @@ fn what_cannot_be_is_refused_before_memory_is_taken() {
     assert!(DoubleLayerMatrix::new(Region::Box { lengths: [1.0, -1.0] }, 0.0, 1.0, 0.1).is_err());
     let mut layer = layers()[0].clone();
     let mut curve = NodeCurve::default();
-    let error = curve.load(&layer, 0, 1.0, &[Vec2::zeros(); 7]).unwrap_err();
+    let error = curve.load(&layer, 0, 1.0, &[Vec2::ZERO; 7]).unwrap_err();
     assert!(matches!(error, LayerError::OutOfRange { value: 7.0, least: 8.0, .. }), "{error}");
     let circle = |k: usize| 1e-3 * std::f64::consts::TAU * k as f64;
     let positions: Vec<Vec2> = (0..1000).map(|k| Vec2::new(circle(k).cos(), circle(k).sin())).collect();

@@ -14,7 +14,7 @@ fn errors(region: Region, second: Complex64, viscosities: [f64; 2]) -> [f64; 2] 
         let place = |k: usize| Vec2::new((centre + outline(k)).re, (centre + outline(k)).im);
         (0..NODES).map(place).collect::<Vec<_>>()
     });
-    let forces = vec![Vec2::zeros(); NODES];
+    let forces = vec![Vec2::ZERO; NODES];
     let interfaces = curves.iter().zip(viscosities);
     let given = interfaces.map(|(positions, viscosity)| Interface { positions, forces: &forces, viscosity });
     flow.load(given).unwrap();

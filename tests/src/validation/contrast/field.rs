@@ -50,7 +50,7 @@ pub fn field_errors(region: Region, droplet: &Droplet, h: f64) -> Result<[FieldE
     for (((_, distance), found), exact) in points.iter().zip(&found).zip(&exact) {
         let class = usize::from(distance.abs() > 3.0 * h) * 2 + usize::from(*distance > 0.0);
         let error = &mut errors[class];
-        error.velocity = error.velocity.max((found.velocity - exact.velocity).norm() / largest);
+        error.velocity = error.velocity.max((found.velocity - exact.velocity).length() / largest);
         for (found, exact) in found.gradient.iter().flatten().zip(exact.gradient.iter().flatten()) {
             error.gradient = error.gradient.max((found - exact).abs() / largest);
         }
@@ -65,7 +65,7 @@ fn exact_samples(region: Region, droplet: &Droplet, points: &[Vec2]) -> Result<(
     let mut markers = Markers::new();
     droplet.push_exact(256, &mut markers);
     sample(exact(region, 256)?, &mut markers, points, &mut samples)?;
-    Ok((samples, markers.velocities.iter().map(Vec2::norm).fold(0.0, f64::max)))
+    Ok((samples, markers.velocities.iter().map(|v| v.length()).fold(0.0, f64::max)))
 }
 
 /// The velocities of the flow of a single droplet at points, by boundary integrals.

@@ -50,14 +50,14 @@ pub fn ratio_ten(case: Case, h: f64) -> Result<RatioTen, StudyError> {
     flow.sample(&shape.markers, &places, &mut found)?;
     let (mut inside, mut outside) = (0.0_f64, 0.0_f64);
     for ((place, exact), found) in places.iter().zip(&exact).zip(&found) {
-        let error = (found.velocity - exact).norm() / largest;
+        let error = (found.velocity - exact).length() / largest;
         let class = if case.contains(*place) { &mut inside } else { &mut outside };
         *class = class.max(error);
     }
 
     let table =
         case.select(Reference::read(ReferenceFile::MomentsRatio10)?).select("L", "6").select("conv", "farfield");
-    let frame = Frame::new(Vec2::zeros(), 0.0)?;
+    let frame = Frame::new(Vec2::ZERO, 0.0)?;
     let state = &shape.markers;
     let viscosities = [10.0, 1.0];
     let moments =

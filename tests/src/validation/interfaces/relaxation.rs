@@ -48,7 +48,7 @@ pub fn relax(ratio: u32, nodes: usize, markers: usize, dt: f64) -> Result<Integr
 
 /// Area and second moments along x and y of the smooth curve through the markers, about the origin.
 fn moments(markers: &[Vec2]) -> Result<[f64; 3], StudyError> {
-    let mut slopes = vec![Vec2::zeros(); markers.len()];
+    let mut slopes = vec![Vec2::ZERO; markers.len()];
     PeriodicCalculus::new(markers.len())?.derivative(markers, &mut slopes)?;
     let weight = 2.0 * PI / markers.len() as f64;
     let mut sums = [0.0; 3];

@@ -11,7 +11,7 @@ fn errors(n: usize) -> (f64, f64) {
         .collect();
     let spline = PeriodicSpline::new(&points).unwrap();
     let off = (0..1000)
-        .map(|i| ((spline.point(f64::from(i) / 1000.0) - Vec2::new(3.0, 0.0)).norm() - 1.0).abs())
+        .map(|i| ((spline.point(f64::from(i) / 1000.0) - Vec2::new(3.0, 0.0)).length() - 1.0).abs())
         .fold(0.0, f64::max);
     ((spline.area() - PI).abs(), off)
 }
@@ -30,9 +30,9 @@ fn goes_through_its_points_and_refuses_doubles() {
         [[0.0, 0.0], [2.0, 0.1], [2.2, 1.5], [0.4, 1.1]].iter().map(|&[x, y]| Vec2::new(x, y)).collect();
     let spline = PeriodicSpline::new(&points).unwrap();
     for (point, knot) in points.iter().zip(&spline.knots) {
-        assert!((spline.point(knot / spline.knots[4]) - point).norm() < 1e-14);
+        assert!((spline.point(knot / spline.knots[4]) - point).length() < 1e-14);
     }
-    assert!((spline.point(1.0) - points[0]).norm() < 1e-14);
+    assert!((spline.point(1.0) - points[0]).length() < 1e-14);
     points[2] = points[1];
     assert!(matches!(PeriodicSpline::new(&points), Err(InterfaceError::CoincidentPoints { index: 1 })));
 }

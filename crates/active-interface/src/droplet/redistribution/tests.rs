@@ -17,10 +17,10 @@ fn particles_stay_and_spacing_is_bounded() {
     assert_eq!(markers.len(), numbers.len());
     assert!((numbers.iter().sum::<f64>() - total).abs() < 1e-12 * total);
     for k in 0..markers.len() {
-        let length = (markers[(k + 1) % markers.len()] - markers[k]).norm();
+        let length = (markers[(k + 1) % markers.len()] - markers[k]).length();
         assert!(length < 1.6 * target, "{k}: {}", length / target);
         // The cubic keeps new markers on the circle.
-        assert!((markers[k].norm() - 1.0).abs() < 1e-4);
+        assert!((markers[k].length() - 1.0).abs() < 1e-4);
     }
 }
 

@@ -14,7 +14,7 @@ fn an_ellipse_to_round_off() {
     let scale = markers[0].x / 1.3;
     for (marker, tau) in markers.iter().zip(&geometry.tangents) {
         let exact = Vec2::new(-marker.y / 0.64, marker.x / 1.69).normalize();
-        assert!((tau - exact).norm() < 2e-7, "{}", (tau - exact).norm());
+        assert!((tau - exact).length() < 2e-7, "{}", (tau - exact).length());
     }
     assert!((geometry.perimeter / scale - curve.perimeter()).abs() < 1e-7);
     let mut before = geometry.directions[255];
@@ -32,7 +32,7 @@ fn an_ellipse_to_round_off() {
         let (x, y) = (markers[k].x / scale, markers[k].y / scale);
         let curvature = (1.3_f64 * 0.8).powi(-2) / (x * x / 1.3_f64.powi(4) + y * y / 0.8_f64.powi(4)).powf(1.5);
         let exact = -curvature / scale * outward(geometry.tangents[k]) * geometry.weights[k];
-        assert!((force - exact).norm() < 1e-5 * exact.norm(), "{k}: {force} {exact}");
+        assert!((force - exact).length() < 1e-5 * exact.length(), "{k}: {force} {exact}");
     }
 }
 
@@ -44,9 +44,9 @@ fn motion_keeps_spacing_and_area() {
     let mut spectral = SpectralCurve::new(128);
     spectral.update(&markers, &mut geometry);
     let velocities: Vec<Vec2> = markers.iter().map(|x| Vec2::new(x.y + 0.2 * x.x * x.x, 0.3 * x.x - x.y)).collect();
-    let (mut motion, mut slip) = (vec![Vec2::zeros(); 128], vec![0.0; 128]);
+    let (mut motion, mut slip) = (vec![Vec2::ZERO; 128], vec![0.0; 128]);
     spectral.equidistribute(&geometry, &velocities, 0.0, &mut motion, &mut slip);
-    let area: f64 = (0..128).map(|k| motion[k].dot(&outward(geometry.tangents[k])) * geometry.weights[k]).sum();
+    let area: f64 = (0..128).map(|k| motion[k].dot(outward(geometry.tangents[k])) * geometry.weights[k]).sum();
     assert!(area.abs() < 1e-13);
     let step = 1e-5;
     let moved: Vec<Vec2> = markers.iter().zip(&motion).map(|(x, v)| x + step * v).collect();

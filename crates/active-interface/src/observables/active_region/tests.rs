@@ -68,7 +68,7 @@ fn the_polarised_state_is_half_active() {
     // reference/swimmer_transient_box6_activity_1.csv, t = 0: active_frac 0.5, kappa_act 1
     let markers = Curve::circle(1.0).unwrap().markers(250).unwrap();
     let numbers = crate::InitialConcentration::polarised(100.0, 0.3).unwrap().particle_numbers(&markers).unwrap();
-    let lengths: Vec<f64> = edges(&markers).map(|(a, b)| (b - a).norm()).collect();
+    let lengths: Vec<f64> = edges(&markers).map(|(a, b)| (b - a).length()).collect();
     let region = active_region(&lengths, &numbers).unwrap().unwrap();
     assert_relative_eq!(region.fraction, 0.5, epsilon = 1e-8);
     assert_relative_eq!(active_curvature(&markers, &region).unwrap(), 1.0, max_relative = 1e-3);

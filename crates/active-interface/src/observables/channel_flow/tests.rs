@@ -147,7 +147,7 @@ fn flux_through_interface(markers: &[Vec2], velocities: &[Vec2], x: f64) -> f64 
             };
             let velocity = velocities[k] + (velocities[next] - velocities[k]) * (0.5 * (from + to));
             let normal = Vec2::new(b.y - a.y, a.x - b.x) * (to - from);
-            velocity.dot(&normal)
+            velocity.dot(normal)
         })
         .sum()
 }

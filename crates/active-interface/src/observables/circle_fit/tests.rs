@@ -20,7 +20,7 @@ fn a_line_has_no_curvature() {
     let line: Vec<Vec2> = (0..20).map(|k| Vec2::new(f64::from(k), 2.0 * f64::from(k))).collect();
     assert!(fitted_curvature(&line).unwrap().abs() < 1e-13);
     assert!(fitted_curvature(&line[..2]).is_err());
-    assert!(fitted_curvature(&[Vec2::zeros(); 5]).is_err());
+    assert!(fitted_curvature(&[Vec2::ZERO; 5]).is_err());
     assert!(fitted_curvature(&[line[0], line[1], Vec2::new(f64::NAN, 0.0)]).is_err());
 }
 
@@ -35,7 +35,7 @@ fn the_fit_is_a_minimum() {
     let kappa = fitted_curvature(&points).unwrap();
     // Minimise over the centre for each radius by Newton's method with numerical derivatives.
     let best = |radius: f64| {
-        let cost = |c: Vec2| points.iter().map(|p| ((p - c).norm() - radius).powi(2)).sum::<f64>();
+        let cost = |c: Vec2| points.iter().map(|p| ((p - c).length() - radius).powi(2)).sum::<f64>();
         let mut c = Vec2::new(3.0, 1.0);
         for _ in 0..30 {
             let h = 1e-4;

@@ -22,7 +22,7 @@ fn shape_modes_are_those_the_curve_was_made_of() {
 fn the_polarised_state_is_one_mode() {
     let markers = Curve::circle(1.0).unwrap().markers(60).unwrap();
     let numbers = InitialConcentration::polarised(100.0, 0.7).unwrap().particle_numbers(&markers).unwrap();
-    let frame = Frame::new(Vec2::zeros(), 0.7).unwrap();
+    let frame = Frame::new(Vec2::ZERO, 0.7).unwrap();
     let modes = concentration_modes(&markers, &numbers, &frame, 5).unwrap();
     assert_relative_eq!(modes.amplitude(0), 100.0, max_relative = 1e-12);
     assert_relative_eq!(modes.cosines[0], -100.0, max_relative = 1e-12);

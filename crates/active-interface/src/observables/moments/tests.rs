@@ -17,7 +17,7 @@ fn forces(markers: &[Vec2], tension: impl Fn(Vec2) -> f64) -> Vec<Vec2> {
 }
 
 fn x_frame() -> Frame {
-    Frame::new(Vec2::zeros(), 0.0).unwrap()
+    Frame::new(Vec2::ZERO, 0.0).unwrap()
 }
 
 /// The entries of the reference tables: F2xx, F2yy, Sxx, F3xxx, F3xyy, F3yxy, F3yyx, Nxyy, Nyxy, Nyyx.
@@ -70,7 +70,7 @@ fn moments_of_the_reference_ellipse() {
             let markers = Curve::ellipse(1.3, 1.0 / 1.3).unwrap().markers(count).unwrap();
             let tension = |p: Vec2| 1.0 + amplitude * (p.y * 1.3).atan2(p.x / 1.3).cos();
             let forces = forces(&markers, tension);
-            let rest = vec![Vec2::zeros(); count];
+            let rest = vec![Vec2::ZERO; count];
             force_moments(&markers, &forces, &rest, [1.0, 1.0], Convention::FarField, &x_frame()).unwrap()
         };
         check(moments, wanted);
@@ -123,7 +123,7 @@ fn both_conventions_on_the_reference_circle() {
     for (convention, wanted) in [(Convention::AsPrinted, printed), (Convention::FarField, far_field)] {
         let moments = |count| {
             let markers = Curve::circle(1.0).unwrap().markers(count).unwrap();
-            let forces = forces(&markers, |p| 1.0 + 0.5 * p.x / p.norm());
+            let forces = forces(&markers, |p| 1.0 + 0.5 * p.x / p.length());
             let velocities: Vec<Vec2> = markers
                 .iter()
                 .map(|p| {
@@ -141,7 +141,7 @@ fn both_conventions_on_the_reference_circle() {
 
 #[test]
 fn bad_input_is_refused() {
-    let list = [Vec2::zeros(); 5];
+    let list = [Vec2::ZERO; 5];
     let call = |n: usize, viscosity: f64| {
         force_moments(&list, &list[..n], &list, [viscosity, 1.0], Convention::FarField, &x_frame())
     };
@@ -159,8 +159,8 @@ proptest! {
             let markers = curve.markers(60).unwrap();
             let frame = Frame::new(polygon_moments(&markers).unwrap().centroid, angle).unwrap();
             let forces = forces(&markers, |p| 2.0 + frame.coordinates(p).x);
-            let turn = nalgebra::Rotation2::new(angle);
-            let velocities: Vec<Vec2> = markers.iter().map(|p| turn * Vec2::new(frame.coordinates(*p).y, 0.3)).collect();
+            let turn = Vec2::from_angle(angle);
+            let velocities: Vec<Vec2> = markers.iter().map(|p| turn.rotate(Vec2::new(frame.coordinates(*p).y, 0.3))).collect();
             force_moments(&markers, &forces, &velocities, [3.0, 1.0], Convention::FarField, &frame).unwrap()
         };
         let (a, b) = (moments(0.0, 0.0), moments(angle, x));

@@ -9,19 +9,19 @@ fn droplet(count: usize, heading: f64, forces: bool) -> (Vec<Vec2>, Vec<Vec2>, V
     let markers = Curve::circle(1.0).unwrap().translated(centre).markers(count).unwrap();
     let numbers = InitialConcentration::polarised(100.0, heading).unwrap().particle_numbers(&markers).unwrap();
     let squirmer = SquirmerFlow::new(1.0, 0.3, -0.1).unwrap();
-    let turn = nalgebra::Rotation2::new(heading);
+    let turn = Vec2::from_angle(heading);
     let velocities = markers
         .iter()
         .map(|p| {
-            let on_circle = (turn.inverse() * (p - centre)).normalize();
-            turn * squirmer.velocity(on_circle, VelocityFrame::Laboratory)
+            let on_circle = Vec2::from_angle(-heading).rotate(p - centre).normalize();
+            turn.rotate(squirmer.velocity(on_circle, VelocityFrame::Laboratory))
         })
         .collect();
     // gamma = 10 + c - Pi(c), as in the reference: A = 2, T = 2, a = 20, c0 = 100.
     let law = ContractileTension::new(10.0, -1.0, ExcludedVolume::thesis(2.0, 100.0)).unwrap();
     let pull = |k: usize| {
         let chord = markers[(k + 1) % count] - markers[k];
-        chord.normalize() * law.value(numbers[k] / chord.norm())
+        chord.normalize() * law.value(numbers[k] / chord.length())
     };
     let strength = if forces { 1.0 } else { 0.0 };
     let forces = (0..count).map(|k| (pull(k) - pull((k + count - 1) % count)) * strength).collect();
@@ -83,7 +83,7 @@ fn the_columns_have_names_of_their_own() {
 #[test]
 fn a_drop_without_particles_at_rest() {
     let (markers, forces, _, _) = droplet(40, 0.0, false);
-    let rest = vec![Vec2::zeros(); 40];
+    let rest = vec![Vec2::ZERO; 40];
     let state =
         InterfaceState { markers: &markers, forces: &forces, velocities: &rest, numbers: &[], viscosities: [1.0, 2.0] };
     let record = observe(&state, Convention::AsPrinted).unwrap();

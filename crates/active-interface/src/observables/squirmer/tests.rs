@@ -34,7 +34,7 @@ fn second_order_on_an_ellipse() {
     // The reference is the integral over the polar angle with 100 times as many points.
     let fit = |count: usize| {
         let markers = Curve::ellipse(1.3, 0.8).unwrap().markers(count).unwrap();
-        let frame = Frame::new(Vec2::zeros(), 0.0).unwrap();
+        let frame = Frame::new(Vec2::ZERO, 0.0).unwrap();
         let velocities: Vec<Vec2> = markers.iter().map(|p| Vec2::new(p.x * p.y, 0.4 + p.x * p.x - p.y)).collect();
         squirmer_coefficients(&markers, &velocities, VelocityFrame::Laboratory, &frame).unwrap()
     };

@@ -27,3 +27,27 @@ fn smooth_residuals_count_less() {
     assert_eq!(inflation(&alternating), 1.0);
     assert_eq!(inflation(&[0.0; 20]), 1.0);
 }
+
+#[test]
+fn columns_that_are_nearly_dependent() {
+    // Powers of 1 + t/10, of condition K = 1e5: the data are a cubic, then a cubic and a part that no column has.
+    // Round-off may move residuals by K and coefficients by K^2 times as much.
+    let t: Vec<f64> = (0..20).map(|i| f64::from(i) / 19.0).collect();
+    let columns: Vec<Vec<f64>> = (0..4).map(|k| t.iter().map(|t| (1.0 + 0.1 * t).powi(k)).collect()).collect();
+    let exact = [2.0, -1.0, 0.5, 3.0];
+    let mut data: Vec<f64> =
+        (0..20).map(|i| columns.iter().zip(exact).map(|(column, c)| c * column[i]).sum()).collect();
+    let solution = Solution::new(columns.clone(), &data).unwrap();
+    for (found, exact) in solution.coefficients.iter().zip(exact) {
+        assert!((found - exact).abs() < 1e-8, "{solution:?}");
+    }
+    // Fifth differences of a quintic are orthogonal to cubics on even points: binomials with signs.
+    for (value, weight) in data.iter_mut().zip([1.0, -5.0, 10.0, -10.0, 5.0, -1.0]) {
+        *value += weight;
+    }
+    let solution = Solution::new(columns, &data).unwrap();
+    for (found, exact) in solution.residuals.iter().zip([1.0, -5.0, 10.0, -10.0, 5.0, -1.0, 0.0, 0.0]) {
+        assert!((found - exact).abs() < 1e-10, "{solution:?}");
+    }
+    assert!((solution.coefficients[3] - 3.0).abs() < 1e-6);
+}

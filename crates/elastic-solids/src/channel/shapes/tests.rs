@@ -56,7 +56,7 @@ fn a_valve_keeps_its_sharp_tips_and_rounds_them_on_request() {
     let valve = Valve { period: 8.0, width: 2.0, gap: 0.2, base: 1.2, radius: 0.0, centre: 0.5 };
     // The channel less two triangles of base 1.2 and height 0.9.
     let sharp = walls(&valve.channel().unwrap(), 0.07, 16.0 - 1.08, 1e-10);
-    assert!((highest(&sharp.lower) - Vec2::new(0.5, -0.1)).norm() < 1e-12);
+    assert!((highest(&sharp.lower) - Vec2::new(0.5, -0.1)).length() < 1e-12);
     let rounded = Valve { radius: 0.1, ..valve }.channel().unwrap();
     let rounded = rounded.walls(BOTTOM, TOP, &Mesher::new(0.05).unwrap()).unwrap();
     let tip = highest(&rounded.lower).y;
@@ -141,7 +141,7 @@ fn bad_shapes_are_refused() {
     assert!(matches!(ratchet.channel(), Err(SolidError::Input(InputError::OutOfRange { .. }))));
     let ratchet = Ratchet { teeth: 2, rise: 1.0, ..ratchet };
     assert!(matches!(ratchet.channel(), Err(SolidError::Input(InputError::OutOfRange { .. }))));
-    let (flat, circle) = (|y| Outline::flat(0.0, 4.0, y).unwrap(), Outline::circle(Vec2::zeros(), 0.2).unwrap());
+    let (flat, circle) = (|y| Outline::flat(0.0, 4.0, y).unwrap(), Outline::circle(Vec2::ZERO, 0.2).unwrap());
     assert!(matches!(Channel::new(flat(1.0), flat(-1.0)), Err(SolidError::NotBetween { .. })));
     assert!(matches!(Channel::new(flat(-1.0), circle.clone()), Err(SolidError::DifferentPeriods { .. })));
     assert!(matches!(Channel::new(circle.clone(), flat(1.0)), Err(SolidError::Unsupported { .. })));

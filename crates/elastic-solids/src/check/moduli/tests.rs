@@ -22,15 +22,14 @@ fn unstructured() -> [TriangleMesh; 2] {
     let flat = |y: f64| Outline::flat(0.0, 4.0, y).unwrap();
     let wall = Region::new([flat(0.0), flat(1.5)]).unwrap();
     let turned = Mesher::new(0.05).unwrap().turned(0.2).unwrap().mesh(&wall).unwrap();
-    [turned, Outline::circle(Vec2::zeros(), 1.0).unwrap().mesh(0.06).unwrap()]
+    [turned, Outline::circle(Vec2::ZERO, 1.0).unwrap().mesh(0.06).unwrap()]
 }
 
 #[test]
 fn springs_on_an_equilateral_lattice() {
-    for mesh in [
-        equilateral_strip(Vec2::zeros(), 20, 12, 0.05).unwrap(),
-        equilateral_block(Vec2::zeros(), 12, 9, 0.05).unwrap(),
-    ] {
+    for mesh in
+        [equilateral_strip(Vec2::ZERO, 20, 12, 0.05).unwrap(), equilateral_block(Vec2::ZERO, 12, 9, 0.05).unwrap()]
+    {
         let law = Springs::new(&mesh, SHEAR).unwrap();
         for inner in [InnerPoints::Strained, InnerPoints::Relaxed] {
             assert_close(measured(&mesh, &law, inner), SHEAR, 2.0 * SHEAR, 1e-3);
@@ -74,7 +73,7 @@ fn hyperelastic_material_on_any_mesh() {
 /// Two layers in series: the compliances add up under shear, the stiffnesses would if the strain were uniform.
 #[test]
 fn layers_in_series_relax_to_the_mean_compliance() {
-    let mesh = equilateral_strip(Vec2::zeros(), 10, 20, 0.05).unwrap();
+    let mesh = equilateral_strip(Vec2::ZERO, 10, 20, 0.05).unwrap();
     let middle = 10.0 * 0.05 * 0.75_f64.sqrt();
     let law =
         Hyperelastic::graded(
@@ -91,13 +90,13 @@ fn layers_in_series_relax_to_the_mean_compliance() {
 
 #[test]
 fn bad_strains_are_refused() {
-    let mesh = equilateral_block(Vec2::zeros(), 3, 3, 1.0).unwrap();
+    let mesh = equilateral_block(Vec2::ZERO, 3, 3, 1.0).unwrap();
     let law = Springs::new(&mesh, 1.0).unwrap();
     for strain in [0.0, -1e-3, 0.5, f64::NAN] {
         let found = measured_moduli(&mesh, &law, strain, InnerPoints::Strained);
         assert!(matches!(found, Err(SolidError::Input(InputError::OutOfRange { .. }))));
     }
-    let other = equilateral_block(Vec2::zeros(), 4, 3, 1.0).unwrap();
+    let other = equilateral_block(Vec2::ZERO, 4, 3, 1.0).unwrap();
     let found = measured_moduli(&other, &law, 1e-3, InnerPoints::Strained);
     assert!(matches!(found, Err(SolidError::Input(InputError::WrongLength { .. }))));
 }

@@ -10,7 +10,7 @@ const TOLERANCE: f64 = 1e-3;
 /// Makes points that coincide modulo the period one, the first of them.
 pub(super) fn join_ends(points: &[Vec2], triangles: &[[usize; 3]], period: f64) -> (Vec<Vec2>, Vec<[usize; 3]>) {
     let edges = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-    let shortest = edges.map(|(a, b)| (points[a] - points[b]).norm()).fold(f64::INFINITY, f64::min);
+    let shortest = edges.map(|(a, b)| (points[a] - points[b]).length()).fold(f64::INFINITY, f64::min);
     let reach = TOLERANCE * shortest;
     // Without a length there is nothing to compare with; the mesh will be refused.
     if !(reach.is_finite() && reach > 0.0) {
@@ -35,7 +35,7 @@ pub(super) fn join_ends(points: &[Vec2], triangles: &[[usize; 3]], period: f64) 
                 .flat_map(|i| (-1..=1).map(move |j| (x.saturating_add(i), y.saturating_add(j))))
                 .filter_map(|key| cells.get(&key))
                 .flatten();
-            if let Some(&same) = near.into_iter().find(|&&other| (homes[other] - place).norm() <= reach) {
+            if let Some(&same) = near.into_iter().find(|&&other| (homes[other] - place).length() <= reach) {
                 return same;
             }
             cells.entry((x, y)).or_default().push(kept.len());

@@ -143,7 +143,7 @@ fn errors_name_the_line() {
 #[test]
 fn bad_groups_are_not_written() {
     let refused = |tag: i32, name: &str, triangles: Vec<usize>| {
-        let mesh = crate::mesh::equilateral_block(Vec2::zeros(), 2, 2, 1.0).unwrap();
+        let mesh = crate::mesh::equilateral_block(Vec2::ZERO, 2, 2, 1.0).unwrap();
         let good = PhysicalGroup { tag: 1, name: None, triangles: vec![0] };
         let bad = PhysicalGroup { tag, name: Some(name.to_owned()), triangles };
         GmshMesh { mesh, groups: vec![good, bad] }.to_text().unwrap_err()

@@ -23,7 +23,7 @@ fn a_strip_is_equilateral_and_periodic() {
 
 #[test]
 fn a_fitted_strip_fills_its_rectangle() {
-    let mesh = fitted_strip(Vec2::zeros(), [3.0, 1.0], 0.11).unwrap();
+    let mesh = fitted_strip(Vec2::ZERO, [3.0, 1.0], 0.11).unwrap();
     assert!((mesh.area() - 3.0).abs() < 1e-12);
     let highest = mesh.points().iter().map(|p| p.y).fold(0.0, f64::max);
     assert!((highest - 1.0).abs() < 1e-14);
@@ -33,7 +33,7 @@ fn a_fitted_strip_fills_its_rectangle() {
 #[test]
 fn a_block_is_equilateral() {
     for (columns, rows) in [(1, 1), (2, 2), (4, 3), (3, 6)] {
-        let mesh = equilateral_block(Vec2::zeros(), columns, rows, 0.5).unwrap();
+        let mesh = equilateral_block(Vec2::ZERO, columns, rows, 0.5).unwrap();
         let quality = mesh.quality();
         assert_eq!(quality.triangles, rows * (2 * columns - 1));
         assert!(quality.edge_deviation < 1e-13);
@@ -46,7 +46,7 @@ fn a_block_is_equilateral() {
 
 #[test]
 fn sizes_that_make_no_lattice_are_refused() {
-    let origin = Vec2::zeros();
+    let origin = Vec2::ZERO;
     assert!(matches!(
         equilateral_strip(origin, 2, 4, 0.1),
         Err(SolidError::Input(InputError::TooFew { minimum: 3, .. }))

@@ -31,7 +31,7 @@ fn it_has_no_divergence_and_ends() {
         // What is missing on y = 0 is sin(x).
         let velocity = |x: f64, y: f64| {
             let beside = kink.beside(Vec2::new(0.0, y), Vec2::new(1.0, 0.0), 0.0, spacing);
-            beside.map_or_else(Vec2::zeros, |beside| beside.velocity(x.sin(), x.cos()))
+            beside.map_or_else(Vec2::default, |beside| beside.velocity(x.sin(), x.cos()))
         };
         let places: [(f64, f64); 5] = [(0.3, 0.2), (0.3, -0.7), (1.2, 1.1), (2.0, -2.3), (0.1, 3.0)];
         for (x, s) in places.into_iter().filter(|(_, s)| s.abs() + 0.01 < kink.reach()) {
@@ -40,7 +40,7 @@ fn it_has_no_divergence_and_ends() {
                 (velocity(x + step, y) - velocity(x - step, y)).x + (velocity(x, y + step) - velocity(x, y - step)).y;
             assert!((0.5 * divergence / step).abs() < 1e-5, "{x} {s}: {divergence}");
         }
-        assert!((velocity(1.0, 0.0) - Vec2::new(1.0_f64.sin(), 0.0)).norm() < 1e-15);
+        assert!((velocity(1.0, 0.0) - Vec2::new(1.0_f64.sin(), 0.0)).length() < 1e-15);
         // Nothing flows across where it ends.
         assert!(velocity(0.0, spacing * kink.reach() * (1.0 - 1e-9)).y.abs() < 1e-8);
     }
@@ -52,6 +52,6 @@ fn velocity_and_work_are_adjoint() {
     let beside = kink.beside(Vec2::new(0.03, -0.11), Vec2::new(0.6, 0.8), 0.5, 0.1).unwrap();
     let (force, missing, slope) = (Vec2::new(1.3, -0.4), 0.7, -2.1);
     let [on_missing, on_slope] = beside.work(force);
-    let (power, adjoint) = (force.dot(&beside.velocity(missing, slope)), on_missing * missing + on_slope * slope);
+    let (power, adjoint) = (force.dot(beside.velocity(missing, slope)), on_missing * missing + on_slope * slope);
     assert!((power - adjoint).abs() < 1e-14 && power.abs() > 1e-4, "{power} {adjoint}");
 }

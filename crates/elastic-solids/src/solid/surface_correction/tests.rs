@@ -27,7 +27,7 @@ fn velocities(mesh: &TriangleMesh, forces: &[Vec2]) -> Vec<Vec2> {
     correction.update(mesh, &free, &medium, &positions, forces);
     let mut rate = vec![0.0; 2 * free.len()];
     correction.add(&mut rate);
-    let mut velocities = vec![Vec2::zeros(); count];
+    let mut velocities = vec![Vec2::ZERO; count];
     for (pair, point) in rate.chunks_exact(2).zip(free) {
         velocities[point] = Vec2::new(pair[0], pair[1]);
     }
@@ -36,13 +36,13 @@ fn velocities(mesh: &TriangleMesh, forces: &[Vec2]) -> Vec<Vec2> {
 
 #[test]
 fn it_is_reciprocal_and_takes_energy() {
-    let disc = Outline::circle(Vec2::zeros(), 1.0).unwrap();
+    let disc = Outline::circle(Vec2::ZERO, 1.0).unwrap();
     let mesh = Mesher::new(0.1).unwrap().mesh(&Region::new([disc]).unwrap()).unwrap();
     let count = mesh.points().len();
     let forces = |a: f64, b: f64| -> Vec<Vec2> {
         (0..count).map(|k| k as f64).map(|k| Vec2::new((a * k).sin(), (b * k + 1.0).cos())).collect()
     };
-    let power = |f: &[Vec2], v: &[Vec2]| f.iter().zip(v).map(|(f, v)| f.dot(v)).sum::<f64>();
+    let power = |f: &[Vec2], v: &[Vec2]| f.iter().zip(v).map(|(f, v)| f.dot(*v)).sum::<f64>();
     let (one, two) = (forces(0.7, 1.9), forces(2.3, 0.4));
     let (moved_by_one, moved_by_two) = (velocities(&mesh, &one), velocities(&mesh, &two));
     let (there, back) = (power(&two, &moved_by_one), power(&one, &moved_by_two));
@@ -58,7 +58,7 @@ fn uniform_shear_forces_on_a_flat_surface() {
     let deficit = MobilityDeficit::new(&CubicQuadratic::default());
     let free: Vec<usize> = (0..mesh.points().len()).filter(|&k| mesh.points()[k].y > -0.99).collect();
     let upper: &BoundaryLoop = mesh.boundary_loops().iter().find(|line| mesh.points()[line.points[0]].y > 0.0).unwrap();
-    let mut forces = vec![Vec2::zeros(); mesh.points().len()];
+    let mut forces = vec![Vec2::ZERO; mesh.points().len()];
     for &point in &upper.points {
         forces[point].x = 3.0 / upper.points.len() as f64;
     }

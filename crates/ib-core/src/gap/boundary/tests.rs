@@ -30,10 +30,10 @@ fn distances_have_the_right_sign_at_sides_and_corners() {
     }
     assert!(square.distance(Vec2::new(f64::NAN, 0.0), PLANE).is_nan());
     let mut empty = Boundary::default();
-    assert_eq!(empty.distance(Vec2::zeros(), PLANE), f64::INFINITY);
+    assert_eq!(empty.distance(Vec2::ZERO, PLANE), f64::INFINITY);
     empty.sort();
-    assert_eq!(empty.distance(Vec2::zeros(), PLANE), f64::INFINITY);
-    assert_eq!(empty.smallest(&[Vec2::zeros()], PLANE), None);
+    assert_eq!(empty.distance(Vec2::ZERO, PLANE), f64::INFINITY);
+    assert_eq!(empty.smallest(&[Vec2::ZERO], PLANE), None);
     assert_eq!(square.smallest(&[], PLANE), None);
 }
 

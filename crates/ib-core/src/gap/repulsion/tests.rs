@@ -1,4 +1,5 @@
 use super::*;
+use crate::Vec2;
 
 fn circle(markers: &mut Markers, centre: Vec2) {
     let start = markers.len();
@@ -12,23 +13,23 @@ fn circle(markers: &mut Markers, centre: Vec2) {
 #[test]
 fn pushes_apart_across_a_period_without_a_resultant() {
     let mut markers = Markers::new();
-    circle(&mut markers, Vec2::zeros());
+    circle(&mut markers, Vec2::ZERO);
     circle(&mut markers, Vec2::new(-2.1, 0.0));
     let repulsion = Repulsion::new(3.0, 0.2).unwrap();
     let sums =
         |markers: &Markers| [0, 1].map(|k| markers.forces[markers.groups()[k].range.clone()].iter().sum::<Vec2>());
     repulsion.add(&mut markers, [None; 2]);
     let near = sums(&markers);
-    assert!(near[0].x > 1e-4 && (near[0] + near[1]).norm() < 1e-15);
-    markers.forces.fill(Vec2::zeros());
+    assert!(near[0].x > 1e-4 && (near[0] + near[1]).length() < 1e-15);
+    markers.forces.fill(Vec2::ZERO);
     for place in &mut markers.positions[64..] {
         place.x += 8.0;
     }
     repulsion.add(&mut markers, [Some(8.0), None]);
-    assert!((sums(&markers)[0] - near[0]).norm() < 1e-14);
-    markers.forces.fill(Vec2::zeros());
+    assert!((sums(&markers)[0] - near[0]).length() < 1e-14);
+    markers.forces.fill(Vec2::ZERO);
     repulsion.add(&mut markers, [None; 2]);
-    assert_eq!(sums(&markers)[0], Vec2::zeros());
+    assert_eq!(sums(&markers)[0], Vec2::ZERO);
 }
 
 #[test]

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 fn extremes() {
     assert_eq!(wall_gap(&[], [-1.0, 1.0]), f64::INFINITY);
     assert_eq!(wall_gap(&[Vec2::new(0.0, 1.125)], [-1.0, 1.0]), -0.125);
-    for markers in [[Vec2::new(0.0, f64::NAN), Vec2::zeros()], [Vec2::zeros(), Vec2::new(0.0, f64::NAN)]] {
+    for markers in [[Vec2::new(0.0, f64::NAN), Vec2::ZERO], [Vec2::ZERO, Vec2::new(0.0, f64::NAN)]] {
         assert!(wall_gap(&markers, [-1.0, 1.0]).is_nan());
     }
 }

@@ -112,13 +112,13 @@ fn a_run_needs_a_bound_on_its_steps() {
     for step in [StepSize::Fixed(0.01), StepSize::Adaptive { tolerance: 1e-4 }] {
         scene.body_mut(point).unwrap().positions_mut()[0].x = 0.3;
         scene.run(scene.time() + 1.0).step_size(step).go().unwrap();
-        assert!(scene.body(point).unwrap().positions()[0].norm() < 1e-2, "{step:?}");
+        assert!(scene.body(point).unwrap().positions()[0].length() < 1e-2, "{step:?}");
     }
     // A bound that a body states, and a scene in which nothing moves.
     let mut scene = empty();
     let point = scene.add(drawn().with_stiffness(100.0));
     scene.run(1.0).go().unwrap();
-    assert!(scene.body(point).unwrap().positions()[0].norm() < 1e-3);
+    assert!(scene.body(point).unwrap().positions()[0].length() < 1e-3);
     let mut scene = empty();
     scene.run(2.0).go().unwrap();
     assert_eq!((scene.steps(), scene.time()), (1, 2.0));
@@ -156,6 +156,6 @@ fn adaptive_steps_need_an_estimate_of_errors() {
     assert!(matches!(error, SceneError::NoErrorEstimate { integrator: "Euler's method" }), "{error}");
     assert_eq!(scene.steps(), 0);
     scene.run(1.0).go().unwrap();
-    assert!(scene.body(point).unwrap().positions()[0].norm() < 1e-3);
+    assert!(scene.body(point).unwrap().positions()[0].length() < 1e-3);
     assert_eq!(scene.integrator_work(), IntegratorWork::default());
 }

@@ -69,7 +69,7 @@ impl<H: Hydrodynamics> System<H> {
     fn contact_scale(&self) -> f64 {
         let groups = self.markers.groups().iter().filter(|group| group.kind.is_interface());
         let distances = groups.flat_map(|group| self.markers.positions[group.range.clone()].windows(2));
-        let finest = || distances.map(|pair| (pair[1] - pair[0]).norm()).fold(0.0, f64::max);
+        let finest = || distances.map(|pair| (pair[1] - pair[0]).length()).fold(0.0, f64::max);
         self.hydrodynamics.medium().spacing.unwrap_or_else(finest)
     }
 

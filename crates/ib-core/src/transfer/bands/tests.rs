@@ -24,7 +24,7 @@ fn several_threads_give_the_bits_of_one() {
                 assert_eq!(transfer.bands.are_used(), threads > 1);
                 let mut density = StaggeredField::zeros(grid);
                 transfer.spread(&forces, &mut density);
-                let mut velocities = vec![Vec2::zeros(); positions.len()];
+                let mut velocities = vec![Vec2::ZERO; positions.len()];
                 transfer.interpolate(&density, &mut velocities);
                 (density, velocities)
             })

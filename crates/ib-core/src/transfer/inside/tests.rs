@@ -28,7 +28,7 @@ fn all_instructions_agree() {
         } else {
             task.run(Portable);
         }
-        let mut velocities = vec![Vec2::zeros(); positions.len()];
+        let mut velocities = vec![Vec2::ZERO; positions.len()];
         let (u, v, velocities_mut) = (&fx[..], &fy[..], &mut velocities[..]);
         let pieces = CubicQuadratics;
         let task = Interpolation { anywhere, pieces, spots, elsewhere, u, v, velocities: velocities_mut };

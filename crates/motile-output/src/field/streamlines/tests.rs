@@ -10,12 +10,12 @@ fn lines_of_a_rotation_are_circles_at_the_spacing() {
     let field = sampled(false, |p| Vec2::new(-p.y, p.x));
     let lines = streamlines(&field, 0.2, Vec2::new(0.3, 0.0)).unwrap();
     for line in &lines {
-        let radius = line[0].norm();
-        assert!(line.iter().all(|p| (p.norm() - radius).abs() < 2e-3), "a line leaves its circle of {radius}");
+        let radius = line[0].length();
+        assert!(line.iter().all(|p| (p.length() - radius).abs() < 2e-3), "a line leaves its circle of {radius}");
     }
     // The radii from the anchor outwards, as closed lines.
     for expected in [0.3, 0.5, 0.7, 0.9] {
-        let line = lines.iter().find(|l| (l[0].norm() - expected).abs() < 2e-3);
+        let line = lines.iter().find(|l| (l[0].length() - expected).abs() < 2e-3);
         assert!(line.is_some_and(|l| l[0] == l[l.len() - 1]), "the line at {expected} is not closed");
     }
 }
@@ -25,14 +25,14 @@ fn lines_keep_apart_and_fill_a_periodic_box() {
     let pi = std::f64::consts::PI;
     let field = sampled(true, |p| Vec2::new((pi * p.y).sin(), (pi * p.x).sin()));
     let spacing = 0.15;
-    let lines = streamlines(&field, spacing, Vec2::zeros()).unwrap();
+    let lines = streamlines(&field, spacing, Vec2::ZERO).unwrap();
     let near = Neighbourhood::new(&field.raster, spacing);
     for (k, a) in lines.iter().enumerate() {
         for b in &lines[k + 1..] {
             let closest = a
                 .iter()
                 .flat_map(|&p| b.iter().map(move |&q| (p, q)))
-                .map(|(p, q)| (near.nearest_image(p, q) - q).norm())
+                .map(|(p, q)| (near.nearest_image(p, q) - q).length())
                 .fold(f64::INFINITY, f64::min);
             assert!(closest >= NEAREST_OTHER * spacing * 0.999, "{closest}");
         }
@@ -47,9 +47,9 @@ fn lines_keep_apart_and_fill_a_periodic_box() {
 
 #[test]
 fn a_fluid_at_rest_has_no_streamlines_and_a_bad_spacing_is_refused() {
-    let field = sampled(true, |_| Vec2::zeros());
-    assert!(streamlines(&field, 0.1, Vec2::zeros()).unwrap().is_empty());
+    let field = sampled(true, |_| Vec2::ZERO);
+    assert!(streamlines(&field, 0.1, Vec2::ZERO).unwrap().is_empty());
     for spacing in [0.0, -1.0, f64::NAN, 1e-9] {
-        assert!(streamlines(&field, spacing, Vec2::zeros()).is_err());
+        assert!(streamlines(&field, spacing, Vec2::ZERO).is_err());
     }
 }

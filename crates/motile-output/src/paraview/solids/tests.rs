@@ -16,7 +16,7 @@ fn triangles_of_both_walls_of_a_channel() {
     solids(system).enumerate().for_each(|(number, solid)| pieces.add(number, solid));
     let size = |t: &[usize; 3]| {
         let [a, b, c] = t.map(|k| pieces.points[k]);
-        0.5 * (b - a).perp(&(c - a))
+        0.5 * (b - a).perp_dot(c - a)
     };
     // None is stretched over the period, and together they are both walls.
     assert!(pieces.triangles.iter().all(|t| size(t) > 0.0 && size(t) < 0.03));

@@ -53,8 +53,8 @@ fn it_is_that_of_the_greens_function_of_points() {
 fn close_to_the_source_it_is_that_of_the_plane() {
     for region in REGIONS {
         let d = Vec2::new(0.003, -0.002);
-        let [stress] = at(&region, Vec2::zeros(), &[d, d])[..] else { unreachable!() };
-        let r4 = d.norm_squared().powi(2);
+        let [stress] = at(&region, Vec2::ZERO, &[d, d])[..] else { unreachable!() };
+        let r4 = d.length_squared().powi(2);
         let products = [d.x * d.x * d.x, d.x * d.x * d.y, d.x * d.y * d.y, d.y * d.y * d.y];
         for (value, product) in stress.into_iter().zip(products) {
             assert!((value + 4.0 * product / r4).abs() < 0.02, "{value}, {}", -4.0 * product / r4);

@@ -47,7 +47,7 @@ impl Body for Disc {
         positions.copy_from_slice(&self.0);
     }
     fn write_forces(&mut self, _: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        forces.fill(Vec2::zeros());
+        forces.fill(Vec2::ZERO);
         Ok(())
     }
     fn state_len(&self) -> usize {
@@ -69,10 +69,10 @@ impl Body for Disc {
 #[test]
 fn an_interface_in_fluid_of_another_viscosity_is_refused() {
     // In its middle, near its edge, and in the image of it beyond the edge of the box.
-    for place in [Vec2::zeros(), Vec2::new(0.6, 0.0), Vec2::new(-3.2, 3.2 + 0.3)] {
+    for place in [Vec2::ZERO, Vec2::new(0.6, 0.0), Vec2::new(-3.2, 3.2 + 0.3)] {
         let mut scene = scene();
-        scene.add(ring("outer", Vec2::zeros(), 1.0, Some(100.0), Vec2::zeros()));
-        scene.add(ring("inner", place, 0.3, None, Vec2::zeros()));
+        scene.add(ring("outer", Vec2::ZERO, 1.0, Some(100.0), Vec2::ZERO));
+        scene.add(ring("inner", place, 0.3, None, Vec2::ZERO));
         for error in [
             scene.system_mut().evaluate().map(|_| ()).unwrap_err(),
             scene.step(0.05).unwrap_err(),
@@ -91,8 +91,8 @@ fn an_interface_in_fluid_of_another_viscosity_is_refused() {
 fn an_interface_in_fluid_of_the_same_viscosity_is_solved() {
     for outside in [None, Some(10.0)] {
         let mut scene = scene();
-        scene.add(ring("outer", Vec2::zeros(), 1.0, outside, Vec2::zeros()));
-        scene.add(ring("inner", Vec2::new(0.6, 0.0), 0.3, Some(50.0), Vec2::zeros()));
+        scene.add(ring("outer", Vec2::ZERO, 1.0, outside, Vec2::ZERO));
+        scene.add(ring("inner", Vec2::new(0.6, 0.0), 0.3, Some(50.0), Vec2::ZERO));
         scene.run(0.2).go().unwrap();
         // The distance from within.
         let gap = scene.system().minimum_gap().unwrap();
@@ -100,15 +100,15 @@ fn an_interface_in_fluid_of_the_same_viscosity_is_solved() {
     }
     // Beside each other any viscosity will do.
     let mut scene = scene();
-    scene.add(ring("left", Vec2::new(-0.7, 0.0), 0.5, Some(100.0), Vec2::zeros()));
-    scene.add(ring("right", Vec2::new(0.7, 0.0), 0.5, Some(1.0), Vec2::zeros()));
+    scene.add(ring("left", Vec2::new(-0.7, 0.0), 0.5, Some(100.0), Vec2::ZERO));
+    scene.add(ring("right", Vec2::new(0.7, 0.0), 0.5, Some(1.0), Vec2::ZERO));
     scene.run(0.1).go().unwrap();
 }
 
 #[test]
 fn crossing_out_of_an_interface_is_the_error() {
     let mut scene = scene();
-    scene.add(ring("outer", Vec2::zeros(), 1.0, None, Vec2::zeros()));
+    scene.add(ring("outer", Vec2::ZERO, 1.0, None, Vec2::ZERO));
     scene.add(ring("inner", Vec2::new(0.5, 0.0), 0.3, None, Vec2::new(1.0, 0.0)));
     let error = scene.run(1.0).go().unwrap_err();
     let SceneError::Crossing { body, other, depth, .. } = error else { panic!("{error}") };
@@ -120,10 +120,10 @@ fn crossing_out_of_an_interface_is_the_error() {
 #[test]
 fn an_interface_that_comes_to_lie_in_another_viscosity_ends_the_run() {
     let mut scene = scene();
-    scene.add(ring("outer", Vec2::zeros(), 1.0, None, Vec2::zeros()));
-    let inner = scene.add(ring("inner", Vec2::new(0.2, 0.0), 0.3, None, Vec2::zeros()));
+    scene.add(ring("outer", Vec2::ZERO, 1.0, None, Vec2::ZERO));
+    let inner = scene.add(ring("inner", Vec2::new(0.2, 0.0), 0.3, None, Vec2::ZERO));
     scene.run(0.1).go().unwrap();
-    scene.add(ring("third", Vec2::new(-0.3, 0.0), 0.15, Some(2.0), Vec2::zeros()));
+    scene.add(ring("third", Vec2::new(-0.3, 0.0), 0.15, Some(2.0), Vec2::ZERO));
     scene.run(0.2).go().unwrap();
     // A jump over the film between the two, by hand and by a step too long.
     for marker in scene.body_mut(inner).unwrap().positions_mut() {
@@ -159,16 +159,16 @@ fn bodies_that_overlap_at_the_start_are_to_be_moved_apart() {
     touching.run(0.1).go().unwrap();
     // Two interfaces, an interface and a solid.
     let mut interfaces = scene();
-    interfaces.add(ring("left", centre(0.0), 0.5, None, Vec2::zeros()));
-    interfaces.add(ring("right", centre(0.9), 0.5, None, Vec2::zeros()));
+    interfaces.add(ring("left", centre(0.0), 0.5, None, Vec2::ZERO));
+    interfaces.add(ring("right", centre(0.9), 0.5, None, Vec2::ZERO));
     assert!((overlap(&mut interfaces) - 0.1).abs() < 5e-3);
     let mut mixed = scene();
-    mixed.add(ring("left", centre(0.0), 0.5, None, Vec2::zeros()));
+    mixed.add(ring("left", centre(0.0), 0.5, None, Vec2::ZERO));
     mixed.add(disc(0.9));
     assert!((overlap(&mut mixed) - 0.1).abs() < 5e-3);
     // A nucleus.
     let mut nucleus = scene();
-    nucleus.add(ring("cell", centre(0.0), 1.0, None, Vec2::zeros()));
+    nucleus.add(ring("cell", centre(0.0), 1.0, None, Vec2::ZERO));
     nucleus.add(disc(0.4));
     nucleus.run(0.1).go().unwrap();
     let gap = nucleus.system().minimum_gap().unwrap();
@@ -178,7 +178,7 @@ fn bodies_that_overlap_at_the_start_are_to_be_moved_apart() {
 #[test]
 fn the_gap_between_any_two_bodies() {
     let mut scene = scene();
-    let cell = scene.add(ring("cell", Vec2::zeros(), 1.0, None, Vec2::zeros()));
+    let cell = scene.add(ring("cell", Vec2::ZERO, 1.0, None, Vec2::ZERO));
     let nucleus = scene.add(Disc(circle(Vec2::new(0.4, 0.0), 0.5)));
     let square = [(1.3, 1.3), (1.5, 1.3), (1.5, 1.5), (1.3, 1.5)].map(|(x, y)| Vec2::new(x, y));
     let island = scene.add(Disc(square.to_vec()));

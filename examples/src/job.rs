@@ -1,0 +1,115 @@
+//! A run from the first check to the last line, whatever watches it.
+
+use std::path::PathBuf;
+
+use anyhow::{Result, ensure};
+use motile::ib_core::{Every, Observer, Scene, SceneError, StepSize};
+use motile::{AnyFlow, Setup};
+use motile_output::RunProgress;
+
+use crate::{Decided, MethodFlags, OutputFlags, Summary, say};
+
+/// Most steps of a run: more would take weeks.
+const MOST_STEPS: f64 = 1e9;
+
+/// A run of a scene: its end, its directory, its checkpoints, its progress and how it went.
+#[derive(Debug)]
+pub struct Job {
+    /// Where the results go.
+    pub directory: PathBuf,
+    /// Time of its end.
+    pub end: f64,
+    /// Wall clock time that it took (seconds).
+    pub seconds: f64,
+    output: OutputFlags,
+    description: String,
+    outcome: Result<(), SceneError>,
+}
+
+impl Job {
+    /// A run of the scene that was made from `setup`, from the checkpoint that is asked for on. Its results go where
+    /// `output` says, by default to `out/<name>/`.
+    ///
+    /// # Errors
+    /// A time step that is not stable or so short that the run would take more than 1e9 steps, before anything is
+    /// written; a checkpoint that does not fit; a file or directory that cannot be made.
+    pub fn new(
+        scene: &mut Scene<AnyFlow>,
+        setup: &Setup,
+        method: &MethodFlags,
+        output: &OutputFlags,
+        name: &str,
+    ) -> Result<Self> {
+        let end = method.time;
+        check_run(scene, end, setup.step)?;
+        output.write_scene(setup)?;
+        // The time step may change on the way.
+        let description = format!("{name}: scene {}", setup.fingerprint());
+        output.checkpoints.resume(scene, &description, end)?;
+        let (directory, output) = (output.directory(name)?, output.clone());
+        Ok(Self { directory, end, output, description, seconds: 0.0, outcome: Ok(()) })
+    }
+
+    /// Whether pictures are wanted.
+    #[must_use]
+    pub fn draws(&self) -> bool {
+        !self.output.no_pictures
+    }
+
+    /// Runs to the end, or until an observer ends it by the error [`Decided`] or it breaks off.
+    ///
+    /// # Errors
+    /// Checkpoints that cannot be written. Why a run broke off is kept for [`Job::finish`].
+    pub fn go(
+        &mut self,
+        scene: &mut Scene<AnyFlow>,
+        observers: Vec<(Every, &mut dyn Observer<AnyFlow>)>,
+    ) -> Result<()> {
+        let Self { output, description, .. } = self;
+        let mut progress = RunProgress::new(self.end, output.quiet);
+        let run = scene.run(self.end).observe(Every::Steps(1), &mut progress);
+        let run = observers.into_iter().fold(run, |run, (every, observer)| run.observe(every, observer));
+        self.outcome = match output.checkpoints.watch(run, description)?.go() {
+            Err(SceneError::Observer { source, .. }) if source.is::<Decided>() => Ok(()),
+            outcome => outcome,
+        };
+        self.seconds = progress.finish();
+        output.checkpoints.save(scene, description, &self.outcome)
+    }
+
+    /// Why the run broke off, if it did.
+    #[must_use]
+    pub fn failure(&self) -> Option<String> {
+        self.outcome.as_ref().err().map(SceneError::explanation)
+    }
+
+    /// Writes `summary.json` and prints its table, draws what `pictures` draws, and ends as the run ended.
+    ///
+    /// # Errors
+    /// What made the run break off; files that cannot be written.
+    pub fn finish(self, summary: &Summary, pictures: impl FnOnce() -> Result<()>) -> Result<()> {
+        summary.write(&self.directory.join("summary.json"))?;
+        say(summary.table().trim_end());
+        pictures()?;
+        say(format_args!("results in {}", self.directory.display()));
+        Ok(self.outcome?)
+    }
+}
+
+/// Refuses a run that could not start with its time step, or could not end in a lifetime.
+fn check_run(scene: &Scene<AnyFlow>, end: f64, step: StepSize) -> Result<()> {
+    let dt = match step {
+        StepSize::Fixed(dt) => {
+            scene.check_step(dt)?;
+            dt
+        }
+        StepSize::OfLimit(fraction) => scene.step_limit().map_or(f64::INFINITY, |(limit, ..)| fraction * limit),
+        StepSize::Adaptive { .. } => f64::INFINITY,
+    };
+    ensure!(
+        end / dt <= MOST_STEPS,
+        "time {end} would take {:.0e} steps of {dt:.1e}: give a higher viscosity, a larger spacing or a shorter time",
+        end / dt
+    );
+    Ok(())
+}

@@ -1,0 +1,116 @@
+//! What is said of a run with a droplet.
+
+use anyhow::{Context, Result};
+use motile::AnyFlow;
+use motile::active_interface::Observables;
+use motile::active_interface::trajectory::{Evidence, RegimeCriteria};
+use motile::ib_core::{Hydrodynamics as _, Scene};
+use motile_output::SolidMeter;
+
+use super::WatchedRun;
+use crate::method_flags::METHODS;
+use crate::{Steadiness, Summary};
+
+/// What the values of a [`SolidMeter`] are.
+const SOLIDS: [&str; 8] = [
+    "in the end (R0)",
+    "in the end (R0)",
+    "between droplet and walls, in the end (R0)",
+    "of the walls, in any direction (R0)",
+    "across their surface (R0)",
+    "mean displacement of a wall along the channel (R0)",
+    "of the walls",
+    "deformed over reference area of a triangle",
+];
+
+impl WatchedRun {
+    /// The results that all scenes with a droplet have: its state in the end compared with the start, and what the run
+    /// took.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn summary(&self, scene: &Scene<AnyFlow>) -> Result<Summary> {
+        let first = &self.recorder.records().records().first().context("nothing was measured")?.observables;
+        let mut summary = Summary::new();
+        self.put_droplet(&mut summary, first, &self.last()?.observables)?;
+        self.put_cost(&mut summary, scene);
+        let method = METHODS.iter().find(|(_, _, kind)| *kind == self.method);
+        summary.put("method", method.map(|(name, ..)| *name), "for the flow");
+        if let Some(values) = self.recorder.last_solids() {
+            for ((name, value), about) in SolidMeter::NAMES.iter().zip(values).zip(SOLIDS) {
+                summary.put(name, *value, about);
+            }
+            let least = self.gap.smallest().map(|(gap, _)| gap);
+            summary.put("minimum_gap", least, "between droplet and walls, over the run (R0)");
+        }
+        Ok(summary)
+    }
+
+    /// Puts in what the droplet does across its channel.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn put_regime(&self, summary: &mut Summary) -> Result<Evidence> {
+        let report = self.recorder.records().regime(&RegimeCriteria::default())?;
+        summary.put("regime", report.regime.to_string(), "across the channel");
+        summary.put("amplitude", report.evidence.amplitude, "largest distance from the centre line, in the end (R0)");
+        Ok(report.evidence)
+    }
+
+    fn put_droplet(&self, summary: &mut Summary, first: &Observables, last: &Observables) -> Result<()> {
+        let value = |name: &str| last.get(name).unwrap_or(f64::NAN);
+        for (name, about) in [
+            ("speed", "of the centroid (R0 per time)"),
+            ("heading_degrees", "direction of motion, from x"),
+            ("aspect_ratio_moments", "along over across the motion, from area moments"),
+            ("aspect_ratio_ellipse", "the same of a fitted ellipse"),
+            ("stresslet_xx", "axes along the motion; below 0 a puller"),
+            ("beta", "B2/|B1| in the droplet's frame"),
+            ("b1", "squirmer coefficient (R0 per time)"),
+            ("b2", "squirmer coefficient (R0 per time)"),
+            ("active_fraction", "of the perimeter"),
+            ("active_curvature", "signed, of the active region (1/R0)"),
+        ] {
+            summary.put(name, value(name), about);
+        }
+        for name in ["concentration_max", "concentration_min"] {
+            summary.put(name, value(name) / self.particles.concentration, "in c0");
+        }
+        summary.put("perimeter", last.perimeter, "(R0)");
+        summary.put("area_relative_change", last.area / first.area - 1.0, "since the start");
+        let particles = last.particle_number / first.particle_number - 1.0;
+        summary.put("particle_relative_change", particles, "since the start");
+        let speeds = self.recorder.table().curve("time", "speed")?;
+        let steady = Steadiness::of(&speeds, self.particles.diffusion * std::f64::consts::PI / self.area);
+        summary.put("steady", steady.json(), "speed within 0.1 % of its final mean");
+        Ok(())
+    }
+
+    fn put_cost(&self, summary: &mut Summary, scene: &Scene<AnyFlow>) {
+        summary.put("time", scene.time(), "simulated");
+        summary.put("steps", scene.steps(), "");
+        summary.put("dt", scene.time() / scene.steps() as f64, "mean time step");
+        let report = scene.step_report();
+        summary.put("dt_shortest", report.shortest, "");
+        summary.put("dt_longest", report.longest, "");
+        let limiting = report.most_limiting().map(|limiting| match limiting.body.as_str() {
+            "" => limiting.reason.clone(),
+            body => format!("{} of {body}", limiting.reason),
+        });
+        summary.put("dt_set_by", limiting, "for most steps");
+        summary.put("steps_rejected", report.rejections, "for their error");
+        summary.put("steps_failed", report.failures, "and taken anew");
+        summary.put("stages", scene.integrator_work().stages, "of all steps");
+        let work = scene.system().hydrodynamics().work();
+        summary.put("stokes_solves", work.stokes_solves, "on the grid");
+        let mean = work.iterations as f64 / work.evaluations.max(1) as f64;
+        summary.put("solver_iterations_mean", mean, "of an evaluation of the flow");
+        summary.put("solver_iterations_max", work.most_iterations, "");
+        summary.put("seconds", self.job.seconds, "of computation");
+        let failure = self.job.failure();
+        summary.put("finished", failure.is_none(), "");
+        if let Some(failure) = failure {
+            summary.put("failure", failure, "");
+        }
+    }
+}
