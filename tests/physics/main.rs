@@ -18,5 +18,6 @@ mod swimmers;
 #[cfg(feature = "rayon")]
 mod threads;
 mod time_steps;
+mod units;
 mod without_grid;
 mod work;

@@ -45,7 +45,9 @@ pub enum Motion {
     /// With the fluid's normal velocity (its mean removed, so that the area stays) and a tangential velocity W of their
     /// own that keeps them equally spaced; the default (docs/method.md, section 4). The mobility correction needs it.
     Equidistributed {
-        /// Rate at which unequal spacing relaxes (1/time).
+        /// Rate at which unequal spacing relaxes, in units of the rate at which the flow moves the markers against each
+        /// other: the root mean square of their velocities less the mean one, over the radius of a circle of the same
+        /// perimeter.
         relaxation: f64,
         /// Whether modes of the markers shorter than the kernel are filtered after each step; without it they grow in
         /// long runs. Only on a grid.
@@ -58,7 +60,7 @@ pub enum Motion {
 
 impl Default for Motion {
     fn default() -> Self {
-        Self::Equidistributed { relaxation: 5.0, filter: true }
+        Self::Equidistributed { relaxation: 20.0, filter: true }
     }
 }
 
@@ -86,6 +88,8 @@ pub struct ActiveDroplet {
     pub(crate) concentrations: Vec<f64>,
     pub(crate) tensions: Vec<f64>,
     pub(crate) slip: Vec<f64>,
+    /// Rate at which unequal spacing relaxes (1/time), of the last evaluation.
+    pub(crate) relaxation: f64,
     pub(crate) motions: Vec<Vec2>,
     pub(crate) transport: Option<Transport>,
     /// Diffusivities at the markers of the stabiliser, and of stabiliser and diffusion together (length^2 per time).
@@ -164,6 +168,7 @@ impl ActiveDroplet {
             concentrations: Vec::new(),
             tensions: Vec::new(),
             slip: vec![0.0; markers.len()],
+            relaxation: 0.0,
             motions: Vec::new(),
             transport,
             stabiliser: Vec::new(),

@@ -8,7 +8,7 @@ use ib_core::{
     checkpoint::SavedState,
 };
 
-use super::geometry::{Geometry, equidistribute, outward};
+use super::geometry::{Geometry, deformation_rate, equidistribute, outward};
 use super::redistribution::redistribute;
 use super::shape::Shape;
 use super::spectral::SpectralCurve;
@@ -19,8 +19,8 @@ use crate::{
     curve::polygon::raw_area,
 };
 
-/// Concentrations (particles per length) whose tensions tell a law, in whatever units it is.
-const LAW_SAMPLES: [f64; 12] = [0.0, 0.01, 0.1, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 30.0, 100.0, 1000.0];
+/// Concentrations, in units of the mean one, whose tensions tell a law.
+const LAW_SAMPLES: [f64; 10] = [0.0, 0.01, 0.1, 0.5, 1.0, 1.5, 2.0, 3.0, 10.0, 30.0];
 /// Part of all particles in one segment from which on they have collapsed.
 const COLLAPSED: f64 = 0.15;
 
@@ -102,7 +102,8 @@ impl Body for ActiveDroplet {
         self.slip.resize(count, 0.0);
         match self.motion {
             Motion::Equidistributed { relaxation, .. } => {
-                let (motions, slip) = (&mut self.motions, &mut self.slip);
+                self.relaxation = relaxation * deformation_rate(&self.shape.geometry, velocities);
+                let (relaxation, motions, slip) = (self.relaxation, &mut self.motions, &mut self.slip);
                 match self.spectral.as_mut() {
                     Some(curve) => curve.equidistribute(&self.shape.geometry, velocities, relaxation, motions, slip),
                     None => equidistribute(&self.shape.geometry, velocities, relaxation, motions, slip),
@@ -239,9 +240,10 @@ impl Body for ActiveDroplet {
         if self.transport.is_some() {
             push("the diffusion constant", self.diffusion);
         }
-        for concentration in LAW_SAMPLES {
-            let name = format!("the tension at a concentration of {concentration}");
-            push(&name, self.tension.value(concentration));
+        let mean = self.initial_number / (2.0 * (PI * self.initial_area).sqrt());
+        for sample in LAW_SAMPLES {
+            let name = format!("the tension at {sample} times the mean concentration at the start");
+            push(&name, self.tension.value(sample * if mean > 0.0 { mean } else { 1.0 }));
         }
         push("the number of markers at the start", self.initial_markers as f64);
         properties
@@ -252,7 +254,7 @@ impl Body for ActiveDroplet {
         let mut reals = vec![0.0; self.state_len()];
         self.write_state(&mut reals);
         reals.extend_from_slice(&self.slip);
-        reals.extend([*target_spacing, *initial_area, *initial_number, repair.moved]);
+        reals.extend([*target_spacing, *initial_area, *initial_number, repair.moved, self.relaxation]);
         let counts = [self.shape.markers.len(), repair.segments, repair.furthest, redistributed.0, redistributed.1];
         SavedState { reals, counts: counts.map(|count| count as u64).to_vec() }
     }
@@ -262,7 +264,7 @@ impl Body for ActiveDroplet {
         let per_marker = if self.transport.is_some() { 4 } else { 3 };
         let found = saved.reals.len();
         let count = usize::try_from(count).unwrap_or(usize::MAX).min(found);
-        let expected = per_marker * count + 4;
+        let expected = per_marker * count + 5;
         if count < MINIMUM_MARKERS || expected != found {
             return Err(BodyError::ForeignState { expected, found });
         }
@@ -276,6 +278,7 @@ impl Body for ActiveDroplet {
         self.fit(medium);
         self.slip.copy_from_slice(slip);
         (self.target_spacing, self.initial_area, self.initial_number) = (numbers[0], numbers[1], numbers[2]);
+        self.relaxation = numbers[4];
         self.repair = Repair { segments: segments as usize, moved: numbers[3], furthest: furthest as usize };
         self.redistributed = (inserted as usize, removed as usize);
         Ok(())

@@ -61,6 +61,15 @@ pub(crate) fn outward(tangent: Vec2) -> Vec2 {
     Vec2::new(tangent.y, -tangent.x)
 }
 
+/// The rate at which a flow moves markers against each other (1/time): the root mean square of their velocities less
+/// the mean one, over the radius of a circle of the same perimeter.
+pub(crate) fn deformation_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
+    let count = velocities.len() as f64;
+    let mean = velocities.iter().sum::<Vec2>() / count;
+    let square = velocities.iter().map(|velocity| velocity.distance_squared(mean)).sum::<f64>() / count;
+    square.sqrt() * std::f64::consts::TAU / geometry.perimeter
+}
+
 /// Velocities of markers that follow the interface normally and stay equally spaced (docs/method.md, section 4):
 ///
 /// * normal velocity `V_n = U . n` less its mean over the arc weights, which keeps the polygon's area;
