@@ -8,7 +8,7 @@ use ib_core::{
     checkpoint::SavedState,
 };
 
-use super::geometry::{Geometry, deformation_rate, equidistribute, outward};
+use super::geometry::{Geometry, equidistribute, motion_rate, outward};
 use super::redistribution::redistribute;
 use super::shape::Shape;
 use super::spectral::SpectralCurve;
@@ -102,7 +102,7 @@ impl Body for ActiveDroplet {
         self.slip.resize(count, 0.0);
         match self.motion {
             Motion::Equidistributed { relaxation, .. } => {
-                self.relaxation = relaxation * deformation_rate(&self.shape.geometry, velocities);
+                self.relaxation = relaxation * motion_rate(&self.shape.geometry, velocities);
                 let (relaxation, motions, slip) = (self.relaxation, &mut self.motions, &mut self.slip);
                 match self.spectral.as_mut() {
                     Some(curve) => curve.equidistribute(&self.shape.geometry, velocities, relaxation, motions, slip),

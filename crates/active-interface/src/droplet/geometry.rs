@@ -61,12 +61,10 @@ pub(crate) fn outward(tangent: Vec2) -> Vec2 {
     Vec2::new(tangent.y, -tangent.x)
 }
 
-/// The rate at which a flow moves markers against each other (1/time): the root mean square of their velocities less
-/// the mean one, over the radius of a circle of the same perimeter.
-pub(crate) fn deformation_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
-    let count = velocities.len() as f64;
-    let mean = velocities.iter().sum::<Vec2>() / count;
-    let square = velocities.iter().map(|velocity| velocity.distance_squared(mean)).sum::<f64>() / count;
+/// The rate at which a flow moves markers around or away (1/time): the root mean square of their velocities over the
+/// radius of a circle of the same perimeter. Spacing becomes unequal by errors of that motion, a translation included.
+pub(crate) fn motion_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
+    let square = velocities.iter().map(|velocity| velocity.length_squared()).sum::<f64>() / velocities.len() as f64;
     square.sqrt() * std::f64::consts::TAU / geometry.perimeter
 }
 
