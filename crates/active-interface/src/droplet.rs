@@ -8,7 +8,6 @@ mod observe;
 mod redistribution;
 mod shape;
 mod spectral;
-mod warning;
 
 use std::sync::Arc;
 
@@ -25,14 +24,13 @@ use filter::ShortWaveFilter;
 pub(crate) use limits::finest_response;
 use shape::Shape;
 use spectral::SpectralCurve;
-pub use warning::DropletWarning;
 
 /// Least number of markers of a droplet.
 pub const MINIMUM_MARKERS: usize = 8;
 
 /// Above this cell Peclet number `ds max|V_t - W| / D` (no dimension) the edge of the concentration is not resolved,
-/// however fine the grid.
-pub const PECLET_LIMIT: f64 = 0.5;
+/// however fine the grid: speeds may be off by a per cent (study `warnings`).
+pub const PECLET_LIMIT: f64 = 0.35;
 
 /// Relative change of the area, and of the number of particles, at which a run ends unless the droplet is told
 /// otherwise.
@@ -313,25 +311,14 @@ impl ActiveDroplet {
         self.redistributed
     }
 
-    /// The cell Peclet number `ds max|V_t - W| / D` of the last evaluation; 0 for a passive droplet.
+    /// The cell Peclet number `ds max|V_t - W| / D` of the last evaluation; 0 for a passive droplet, infinite for
+    /// particles that do not diffuse.
     #[must_use]
     pub fn cell_peclet(&self) -> f64 {
-        if self.transport.is_none() || self.diffusion == 0.0 {
+        if self.transport.is_none() {
             return 0.0;
         }
         cell_peclet(&self.slip, &self.shape.geometry.lengths, self.diffusion)
-    }
-
-    /// What a user should know at the present state.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<DropletWarning> {
-        let mut warnings = Vec::from_iter(self.tension.warning());
-        let peclet = self.cell_peclet();
-        if peclet > PECLET_LIMIT {
-            let spacing = self.shape.geometry.mean_length() * PECLET_LIMIT / peclet;
-            warnings.push(DropletWarning::CellPeclet { peclet, spacing });
-        }
-        warnings
     }
 
     /// Brings everything that follows from markers and particle numbers up to date.

@@ -1,9 +1,9 @@
 //! The droplet as a body of a scene.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use ib_core::{
-    Body, BodyError, MarkerKind, Medium, Vec2,
+    Body, BodyError, MarkerKind, Medium, Vec2, Warning,
     body::{StepInfo, StepLimits},
     checkpoint::SavedState,
 };
@@ -12,7 +12,7 @@ use super::geometry::{Geometry, equidistribute, motion_rate, outward};
 use super::redistribution::redistribute;
 use super::shape::Shape;
 use super::spectral::SpectralCurve;
-use super::{MINIMUM_MARKERS, finest_response};
+use super::{MINIMUM_MARKERS, PECLET_LIMIT, finest_response};
 use crate::{
     ActiveDroplet, InterfaceError, Motion,
     concentration::{Repair, Transport, repair_positivity},
@@ -21,6 +21,8 @@ use crate::{
 
 /// Concentrations, in units of the mean one, whose tensions tell a law.
 const LAW_SAMPLES: [f64; 10] = [0.0, 0.01, 0.1, 0.5, 1.0, 1.5, 2.0, 3.0, 10.0, 30.0];
+/// Least radius of a droplet on a grid, in grid spacings: the speed is then about a per cent off.
+const LEAST_RADIUS: f64 = 5.0;
 /// Part of all particles in one segment from which on they have collapsed.
 const COLLAPSED: f64 = 0.15;
 
@@ -247,6 +249,32 @@ impl Body for ActiveDroplet {
         }
         push("the number of markers at the start", self.initial_markers as f64);
         properties
+    }
+
+    fn warnings(&self, medium: &Medium) -> Vec<Warning> {
+        let body = self.name.clone();
+        let warning = |cause, excess, message| Warning { body: body.clone(), cause, excess, message };
+        let mut warnings = Vec::new();
+        if let Some(message) = self.tension.warning() {
+            warnings.push(warning("tension without a plateau", f64::INFINITY, message));
+        }
+        let peclet = self.cell_peclet();
+        if peclet > PECLET_LIMIT {
+            let spacing = self.shape.geometry.mean_length() * PECLET_LIMIT / peclet;
+            let remedy = if spacing > 0.0 {
+                format!("use a marker spacing below {spacing:.2e}")
+            } else {
+                "give the particles a diffusion constant".to_owned()
+            };
+            let message = format!("the cell Peclet number is {peclet:.2}, above {PECLET_LIMIT}: {remedy}");
+            warnings.push(warning("edge of the concentration not resolved", peclet / PECLET_LIMIT, message));
+        }
+        let radius = self.shape.geometry.perimeter / TAU;
+        if let Some(least) = medium.spacing.map(|h| LEAST_RADIUS * h).filter(|least| radius < *least) {
+            let message = format!("its radius is {radius:.2e}, below {least:.2e}: use a finer grid");
+            warnings.push(warning("droplet not resolved", least / radius, message));
+        }
+        warnings
     }
 
     fn save(&self) -> SavedState {

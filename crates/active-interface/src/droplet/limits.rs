@@ -5,7 +5,7 @@ use ib_core::{
     body::{StepCause, StepLimit, StepLimits},
 };
 
-use super::ActiveDroplet;
+use super::{ActiveDroplet, Motion};
 
 impl ActiveDroplet {
     /// The stable steps; see [`ib_core::Body::step_limits`].
@@ -14,7 +14,7 @@ impl ActiveDroplet {
         let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
         let stiffness = medium.interface_stiffness * tension;
         let mut limits = StepLimits::from(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
-        if self.relaxation > 0.0 {
+        if let Motion::Equidistributed { .. } = self.motion {
             limits.push(StepLimit::decay(2.0 / self.relaxation, "the relaxation of the marker spacing"));
         }
         if self.transport.is_some() {
