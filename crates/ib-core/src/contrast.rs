@@ -42,7 +42,7 @@ pub(crate) struct Effort {
 /// amplified by the ratio of viscosities. Reciprocity tells what a droplet's own forces have there: their net force and
 /// torque, which are zero. So phi is computed and that part of s is removed from the flow of the droplets' own forces,
 /// while the flow of all other forces (solids, other interfaces, walls that move) keeps it.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Contrast {
     matrix: DoubleLayerMatrix,
     viscosity: f64,
@@ -65,7 +65,7 @@ pub(crate) struct Contrast {
 }
 
 /// Which markers a droplet has.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Droplet {
     pub(crate) markers: Range<usize>,
     /// Whether its markers are equally spaced.

@@ -1,9 +1,9 @@
 //! Interfaces to other viscosities on the grid.
 
-use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
+use stokes_grid::{Grid, StaggeredField, StokesSolver};
 use stokes_layers::{Forcing, Region};
 
-use super::{ImmersedBoundary, add, sampling};
+use super::{ImmersedBoundary, sampling};
 use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
 use crate::mobility::{Clearance, Setting};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// What interfaces to other viscosities need beside the grid.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct ContrastFlow<K> {
     contrast: Contrast,
     equivalent: EquivalentForces,
@@ -31,7 +31,7 @@ pub(super) struct ContrastFlow<K> {
 }
 
 /// Vectors at the droplets' nodes.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 struct Nodes {
     positions: Vec<Vec2>,
     /// Distances from solids (grid spacings); empty without solids.
@@ -132,14 +132,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         flow.load(self.solver.grid(), markers)?;
         self.work.evaluations += 1;
         let mut gradient = self.solve_others(flow, markers)?;
-        let own = self.solve_on(&flow.transfer, &flow.nodes.forces)?;
-        let fixed = flow.imposed.as_ref().map_or([0.0; 2], |(_, gradient)| *gradient);
-        for (total, (own, fixed)) in gradient.iter_mut().zip(own.mean_pressure_gradient.into_iter().zip(fixed)) {
-            *total += own - fixed;
-        }
-        if let Some((imposed, _)) = &flow.imposed {
-            add(&mut self.velocity, imposed, -1.0);
-        }
+        let own = self.solve_droplets(&flow.transfer, &flow.imposed, &flow.nodes.forces)?;
+        gradient.iter_mut().zip(own).for_each(|(total, own)| *total += own);
         flow.transfer.interpolate(&self.velocity, &mut flow.nodes.own);
         let Nodes { positions, gaps, forces, own, .. } = &mut flow.nodes;
         self.correct_droplets(&flow.contrast, gaps, positions, forces, own)?;
@@ -149,10 +143,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         if !flow.contrast.others().is_empty() {
             let found = self.find_equivalent(flow)?;
             (iterations, residual) = (iterations + found.iterations, residual.max(found.residual));
-            self.solve_on(&flow.transfer, flow.equivalent.forces())?;
-            if let Some((imposed, _)) = &flow.imposed {
-                add(&mut self.velocity, imposed, -1.0);
-            }
+            self.solve_droplets(&flow.transfer, &flow.imposed, flow.equivalent.forces())?;
             self.add_to_others(flow, markers);
         }
         for (droplet, curve) in flow.contrast.droplets().iter().zip(flow.contrast.curves()) {
@@ -161,9 +152,26 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         }
         self.work.iterations += iterations;
         self.work.most_iterations = self.work.most_iterations.max(iterations);
-        add(&mut self.velocity, &flow.other, 1.0);
-        add(&mut self.density, &flow.other_density, 1.0);
+        self.velocity.combine(1.0, 1.0, &flow.other);
+        self.density.combine(1.0, 1.0, &flow.other_density);
         Ok(FlowReport { iterations, residual, mean_pressure_gradient: gradient })
+    }
+
+    /// The flow on the grid of forces at the droplets' nodes alone, and its mean pressure gradient.
+    fn solve_droplets(
+        &mut self,
+        transfer: &Transfer<K>,
+        imposed: &Option<(StaggeredField, [f64; 2])>,
+        forces: &[Vec2],
+    ) -> Result<[f64; 2], FlowError> {
+        self.density.fill(0.0);
+        transfer.spread(forces, &mut self.density);
+        let mut gradient = self.solve_density(forces.len())?.mean_pressure_gradient;
+        if let Some((imposed, fixed)) = imposed {
+            self.velocity.combine(1.0, -1.0, imposed);
+            gradient.iter_mut().zip(fixed).for_each(|(gradient, fixed)| *gradient -= fixed);
+        }
+        Ok(gradient)
     }
 
     /// The flow of all forces but the droplets' and of what is imposed: at the droplets' nodes, at the other markers
@@ -181,11 +189,11 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         if flow.all.iter().any(|force| *force != Vec2::ZERO) {
             let report = self.solve_located(&flow.all)?;
             gradient = report.mean_pressure_gradient;
-            copy(&mut flow.other, &self.velocity);
-            copy(&mut flow.other_density, &self.density);
+            flow.other.copy_from(&self.velocity);
+            flow.other_density.copy_from(&self.density);
         } else if let Some((imposed, fixed)) = &flow.imposed {
             gradient = *fixed;
-            copy(&mut flow.other, imposed);
+            flow.other.copy_from(imposed);
             flow.other_density.fill(0.0);
         } else {
             moves = false;
@@ -227,13 +235,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             }
             let nodes = curve.first..curve.first + curve.len();
             let (positions, forces) = (&positions[nodes.clone()], &forces[nodes.clone()]);
-            correction.apply(
-                &setting,
-                gaps.get(nodes.clone()).unwrap_or(&[]),
-                positions,
-                forces,
-                &mut velocities[nodes],
-            )?;
+            let gaps = gaps.get(nodes.clone()).unwrap_or_default();
+            correction.apply(&setting, gaps, positions, forces, &mut velocities[nodes])?;
             self.work.corrections += 1;
         }
         Ok(())
@@ -249,10 +252,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let (contrast, transfer, imposed) = (&flow.contrast, &flow.transfer, &flow.imposed);
         let spacing = self.grid().spacing();
         flow.equivalent.solve(contrast.curves(), spacing, target, |forces, out| {
-            self.solve_on(transfer, forces)?;
-            if let Some((imposed, _)) = imposed {
-                add(&mut self.velocity, imposed, -1.0);
-            }
+            self.solve_droplets(transfer, imposed, forces)?;
             transfer.interpolate(&self.velocity, out);
             self.correct_droplets(contrast, gaps, positions, forces, out)?;
             out.iter_mut().for_each(|velocity| *velocity *= viscosity);
@@ -286,15 +286,10 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let mut scratch = markers.clone();
         self.solve_others(flow, &mut scratch)?;
         self.find_equivalent(flow)?;
-        self.solve_on(&flow.transfer, flow.equivalent.forces())?;
-        if let Some((imposed, _)) = &flow.imposed {
-            add(&mut self.velocity, imposed, -1.0);
-        }
-        add(&mut self.velocity, &flow.other, 1.0);
-        add(&mut self.density, &flow.other_density, 1.0);
-        let mut pressure = CentreField::zeros(*self.solver.grid());
-        self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
-
+        self.solve_droplets(&flow.transfer, &flow.imposed, flow.equivalent.forces())?;
+        self.velocity.combine(1.0, 1.0, &flow.other);
+        self.density.combine(1.0, 1.0, &flow.other_density);
+        let pressure = self.pressure_field()?;
         let (contrast, nodes) = (&flow.contrast, &flow.nodes);
         let at_nodes: Vec<f64> = nodes.positions.iter().map(|&node| sampling::pressure(&pressure, node)).collect();
         let offsets = contrast.pressure_offsets(&at_nodes, flow.equivalent.forces(), &nodes.forces, &nodes.velocities);
@@ -371,10 +366,4 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             variance: self.variance,
         }
     }
-}
-
-fn copy(target: &mut StaggeredField, source: &StaggeredField) {
-    let (x, y) = target.components_mut();
-    x.copy_from_slice(source.x());
-    y.copy_from_slice(source.y());
 }

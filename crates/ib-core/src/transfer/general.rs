@@ -159,18 +159,13 @@ impl<K: Kernel> GeneralTransfer<'_, K> {
             let wrapped = if (0..ny).contains(&row) { row } else { row.rem_euclid(ny) };
             return (wrapped as usize, 1.0);
         }
-        match component {
-            Component::X if (0..ny).contains(&row) => (row as usize, 1.0),
-            Component::Y if (0..=ny).contains(&row) => (row as usize, 1.0),
-            Component::X => {
-                // Odd about both walls: period 2 ny, row r and 2 ny - 1 - r opposite.
-                let r = row.rem_euclid(2 * ny);
-                if r < ny { (r as usize, 1.0) } else { ((2 * ny - 1 - r) as usize, -1.0) }
-            }
-            Component::Y => {
-                let r = row.rem_euclid(2 * ny);
-                (if r <= ny { r } else { 2 * ny - r } as usize, 1.0)
-            }
-        }
+        // Between rows of cells, odd, or about rows of nodes, even, with the period 2 ny.
+        let (end, sign) = match component {
+            Component::X => (2 * ny - 1, -1.0),
+            Component::Y => (2 * ny, 1.0),
+        };
+        let row = if (0..ny).contains(&row) { row } else { row.rem_euclid(2 * ny) };
+        let mirrored = end - row;
+        if row <= mirrored { (row as usize, 1.0) } else { (mirrored as usize, sign) }
     }
 }
