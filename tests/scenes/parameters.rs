@@ -6,7 +6,7 @@ use motile::active_interface::{
     observables::Frame,
     theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
-use motile::boundary_integral::{BoundaryIntegral, Forcing, Region as Domain, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Forcing, Geometry, Settings};
 use motile::elastic_solids::{
     Mesher, Moduli, NeoHookean, Outline, Solid,
     material::{MooneyRivlin, SaintVenantKirchhoff},
@@ -210,15 +210,15 @@ fn makers() -> Vec<Maker> {
             .is_ok()
         }),
         maker("Region::Box", &[4.0, 4.0], "++", |v| {
-            BoundaryIntegral::new(Domain::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
+            BoundaryIntegral::new(Geometry::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
         }),
         maker("Region::Channel", &[4.0, 4.0, 0.1], "++-", |v| {
-            let region = Domain::Channel { length: v[0], width: v[1], forcing: Forcing::Flux(v[2]) };
+            let region = Geometry::Channel { length: v[0], width: v[1], forcing: Forcing::Flux(v[2]) };
             BoundaryIntegral::new(region, 1.0, settings()).is_ok()
         }),
         maker("BoundaryIntegral", &[1.0, 1e-8, 6.0], "+++", |v| {
             let settings = Settings { tolerance: v[1], ..settings() };
-            let flow = BoundaryIntegral::new(Domain::Plane, v[0], settings);
+            let flow = BoundaryIntegral::new(Geometry::Plane, v[0], settings);
             flow.and_then(|flow| flow.with_reference_perimeter(v[2])).is_ok()
         }),
         maker("Moduli", &[1.0, 2.0], "++", |v| Moduli::new(v[0], v[1]).is_ok()),

@@ -7,7 +7,7 @@ mod rigid;
 
 use std::ops::Range;
 
-use stokes_layers::Region;
+use stokes_layers::Geometry;
 use stokes_layers::dense::{DoubleLayerMatrix, NodeCurve};
 pub(crate) use stokes_layers::gmres::Outcome;
 use stokes_layers::gmres::{Gmres, dot};
@@ -92,7 +92,7 @@ pub(crate) fn other_viscosity(kind: &MarkerKind, surroundings: f64) -> Result<Op
 impl Contrast {
     /// For exterior fluid of the given viscosity in a box or a channel, whose `middle` is at that height; nodes closer
     /// to a wall than `least_gap` count as that far away.
-    pub(crate) fn new(region: Region, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, FlowError> {
+    pub(crate) fn new(region: Geometry, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, FlowError> {
         Ok(Self {
             matrix: DoubleLayerMatrix::new(region, middle, viscosity, least_gap)?,
             viscosity,

@@ -1,7 +1,7 @@
 //! Interfaces to other viscosities on the grid.
 
 use stokes_grid::{Grid, StaggeredField, StokesSolver};
-use stokes_layers::{Forcing, Region};
+use stokes_layers::{Forcing, Geometry};
 
 use super::{ImmersedBoundary, sampling};
 use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
@@ -103,8 +103,10 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let zero_flux = matches!(self.solver.drive(), stokes_grid::Drive::ZeroFlux | stokes_grid::Drive::Flux(_));
         let forcing = if zero_flux { Forcing::Flux(0.0) } else { Forcing::Gradient(0.0) };
         let (region, middle) = match self.walls() {
-            None => (Region::Box { lengths: [lx, ly] }, 0.0),
-            Some([bottom, top]) => (Region::Channel { length: lx, width: top - bottom, forcing }, 0.5 * (top + bottom)),
+            None => (Geometry::Box { lengths: [lx, ly] }, 0.0),
+            Some([bottom, top]) => {
+                (Geometry::Channel { length: lx, width: top - bottom, forcing }, 0.5 * (top + bottom))
+            }
         };
         Ok(ContrastFlow {
             contrast: Contrast::new(region, middle, self.solver.viscosity(), 0.1 * grid.spacing())?,
