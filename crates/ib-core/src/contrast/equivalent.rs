@@ -211,6 +211,11 @@ impl EquivalentForces {
         Ok(outcome)
     }
 
+    /// The same, to be changed.
+    pub(crate) fn forces_mut(&mut self) -> &mut [Vec2] {
+        &mut self.forces
+    }
+
     /// The forces found last, node by node.
     pub(crate) fn forces(&self) -> &[Vec2] {
         &self.forces

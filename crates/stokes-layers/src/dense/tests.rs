@@ -41,6 +41,9 @@ fn the_transposed_product_is_that_of_the_transposed_matrix() {
         let (mut av, mut aq) = (vec![0.0; 128], vec![0.0; 128]);
         layer.product(&curves, &v, &mut av);
         layer.transposed_product(&curves, &q, &mut aq);
+        for curve in &curves {
+            curve.entries(64).for_each(|i| aq[i] = q[i] + curve.contrast * aq[i]);
+        }
         let (left, right) = (dot(&q, &av), dot(&aq, &v));
         // The walls' modes are truncated for each distance on its own.
         assert!((left - right).abs() < 1e-5 * left.abs().max(1.0), "{left} {right}");
