@@ -19,5 +19,6 @@ mod swimmers;
 mod threads;
 mod time_steps;
 mod units;
+mod warnings;
 mod without_grid;
 mod work;
