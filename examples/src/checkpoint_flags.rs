@@ -19,7 +19,7 @@ static STOP: AtomicBool = AtomicBool::new(false);
 /// Checkpoints.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub struct CheckpointFlags {
-    /// File to save checkpoints to; Ctrl-C then saves one and ends the run
+    /// File to save checkpoints to; Ctrl-C, SIGTERM and SIGHUP then save one and end the run
     #[arg(long, value_name = "FILE")]
     pub checkpoint: Option<PathBuf>,
     /// Steps between checkpoints [default: 500]
@@ -35,8 +35,10 @@ impl CheckpointFlags {
     /// saved with other flags: the run goes on with those that are given now, and says so.
     ///
     /// # Errors
-    /// A checkpoint that cannot be read or is of another scene, or one that is not before `end`.
+    /// A checkpoint that cannot be read or is of another scene, or one that is not before `end`; a file to save to that
+    /// cannot be written.
     pub fn resume(&self, scene: &mut Scene<AnyFlow>, description: &str, end: f64) -> Result<()> {
+        self.try_file()?;
         let Some(path) = &self.resume else { return Ok(()) };
         let flag = || format!("--resume {}", path.display());
         let checkpoint = Checkpoint::read(path).with_context(flag)?;
@@ -52,7 +54,18 @@ impl CheckpointFlags {
         Ok(())
     }
 
-    /// The run with checkpoints and Ctrl-C as the flags say.
+    /// Makes sure that checkpoints can be saved where they are wanted.
+    fn try_file(&self) -> Result<()> {
+        let Some(path) = &self.checkpoint else { return Ok(()) };
+        let flag = || format!("--checkpoint {}", path.display());
+        let special = path.metadata().is_ok_and(|data| !data.is_file());
+        ensure!(!special, "{}: there is something that is not a file, give another name", flag());
+        let mut trial = path.clone().into_os_string();
+        trial.push(".trial");
+        std::fs::write(&trial, "trial").and_then(|()| std::fs::remove_file(&trial)).with_context(flag)
+    }
+
+    /// The run with checkpoints and Ctrl-C as the flags say; SIGTERM and SIGHUP end it like Ctrl-C.
     ///
     /// # Errors
     /// Ctrl-C that cannot be listened to.

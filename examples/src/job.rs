@@ -1,5 +1,6 @@
 //! A run from the first check to the last line, whatever watches it.
 
+use std::fs::{File, TryLockError};
 use std::path::PathBuf;
 
 use anyhow::{Result, ensure};
@@ -26,6 +27,8 @@ pub struct Job {
     output: OutputFlags,
     description: String,
     outcome: Result<(), SceneError>,
+    /// The directory, for this run alone as long as it lasts.
+    _lock: File,
 }
 
 impl Job {
@@ -34,7 +37,8 @@ impl Job {
     ///
     /// # Errors
     /// A time step that is not stable or so short that the run would take more than 1e9 steps, before anything is
-    /// written; a checkpoint that does not fit; a file or directory that cannot be made.
+    /// written; a checkpoint that does not fit; a file or directory that cannot be made, a directory that another run
+    /// writes to.
     pub fn new(
         scene: &mut Scene<AnyFlow>,
         setup: &Setup,
@@ -49,7 +53,19 @@ impl Job {
         let description = format!("{name}: scene {}", setup.fingerprint());
         output.checkpoints.resume(scene, &description, end)?;
         let (directory, output) = (output.directory(name)?, output.clone());
-        Ok(Self { directory, end, output, description, seconds: 0.0, warnings: Vec::new(), outcome: Ok(()) })
+        let lock = File::open(&directory)?;
+        let taken = matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
+        ensure!(!taken, "another run writes to {}: give another --out, or wait for its end", directory.display());
+        Ok(Self {
+            _lock: lock,
+            directory,
+            end,
+            output,
+            description,
+            seconds: 0.0,
+            warnings: Vec::new(),
+            outcome: Ok(()),
+        })
     }
 
     /// Whether pictures are wanted.

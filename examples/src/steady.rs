@@ -15,12 +15,14 @@ const PATIENCE: f64 = 0.5;
 /// Whether and when a steady state was reached.
 ///
 /// The final speed is the mean over the last fifth of the run. The state is steady from the time on after which the
-/// speed stays within 0.1 % of it (or below 1e-5 D/R0, at rest), provided that this is at least the last fifth of the
-/// run and at least half a diffusion time R0^2/D.
+/// speed stays within 0.1 % of it, or after which it stays below 1e-5 D/R0 (at rest), provided that this is at least the
+/// last fifth of the run and at least half a diffusion time R0^2/D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steadiness {
     /// Since when the state has been steady; `None` if it is not.
     pub since: Option<f64>,
+    /// Whether that is rest: a speed below 1e-5 D/R0, be it constant or not.
+    pub at_rest: bool,
     /// Mean speed over the last fifth of the run (length per time).
     pub final_speed: f64,
     /// Largest relative deviation from it there.
@@ -31,24 +33,37 @@ impl Steadiness {
     /// From points (time, speed) in the order of time, and the diffusion constant of the particles in R0^2 per time.
     #[must_use]
     pub fn of(points: &[(f64, f64)], diffusion: f64) -> Self {
-        let nothing = Self { since: None, final_speed: f64::NAN, deviation: f64::NAN };
+        let nothing = Self { since: None, at_rest: false, final_speed: f64::NAN, deviation: f64::NAN };
         let (Some(&(start, _)), Some(&(end, _))) = (points.first(), points.last()) else { return nothing };
         let late = points.iter().filter(|(t, _)| *t >= end - LATE * (end - start));
         let (count, sum) = late.clone().fold((0.0, 0.0), |(n, sum), (_, v)| (n + 1.0, sum + v));
         let mean: f64 = sum / count;
         let rest = REST * diffusion;
-        let within = |v: f64| (v - mean).abs() <= DEVIATION * mean.abs() || v.abs() <= rest;
-        let first = points.iter().rposition(|&(_, v)| !within(v)).map_or(0, |k| k + 1);
-        let since = points.get(first).map(|&(t, _)| t);
-        let long_enough = |t: f64| end - t >= LATE * (end - start) && (end - t) * diffusion >= PATIENCE;
+        let long_enough = |t: &f64| end - t >= LATE * (end - start) && (end - t) * diffusion >= PATIENCE;
+        let since = |within: &dyn Fn(f64) -> bool| {
+            let first = points.iter().rposition(|&(_, v)| !within(v)).map_or(0, |k| k + 1);
+            points.get(first).map(|&(t, _)| t).filter(long_enough)
+        };
+        let constant = since(&|v| (v - mean).abs() <= DEVIATION * mean.abs());
+        let resting = since(&|v| v.abs() <= rest);
         let deviation = late.map(|(_, v)| (v / mean - 1.0).abs()).fold(0.0, f64::max);
-        Self { since: since.filter(|&t| long_enough(t)), final_speed: mean, deviation }
+        Self { since: resting.or(constant), at_rest: resting.is_some(), final_speed: mean, deviation }
     }
 
     /// As it stands in `summary.json`.
     #[must_use]
     pub fn json(&self) -> Value {
-        json!({ "reached": self.since.is_some(), "time": self.since })
+        json!({ "reached": self.since.is_some(), "time": self.since, "at_rest": self.at_rest })
+    }
+
+    /// What the verdict goes by, in words.
+    #[must_use]
+    pub fn criterion(&self) -> &'static str {
+        if self.at_rest {
+            "at rest: speed below 1e-5 D/R0, constant or not"
+        } else {
+            "speed within 0.1 % of its final mean"
+        }
     }
 }
 

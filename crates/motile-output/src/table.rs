@@ -52,6 +52,24 @@ impl CsvTable {
         Ok(Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new(), file, path })
     }
 
+    /// As [`CsvTable::create`], but goes on with the rows of the file whose first value is below `from`, if it is a table
+    /// of the same columns: for what is resumed.
+    ///
+    /// # Errors
+    /// As [`CsvTable::create`].
+    pub fn resume(path: impl AsRef<Path>, names: &[&str], from: f64) -> Result<Self, Error> {
+        let text = std::fs::read_to_string(&path).unwrap_or_default();
+        let mut lines = text.lines();
+        let same = lines.next() == Some(names.join(",").as_str());
+        let number = |field: &str| field.parse().unwrap_or(f64::NAN);
+        let rows = lines.map(|line| line.split(',').map(number).collect::<Vec<f64>>());
+        let mut table = Self::create(path, names)?;
+        for row in rows.filter(|row| same && row.len() == names.len() && row[0] < from) {
+            table.push(&row)?;
+        }
+        Ok(table)
+    }
+
     /// Adds a row, in the order of the names. Numbers that are not finite become empty fields of the file.
     ///
     /// # Errors

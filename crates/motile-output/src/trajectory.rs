@@ -41,7 +41,8 @@ pub struct TrajectoryCsv {
 }
 
 impl TrajectoryCsv {
-    /// A recorder of a droplet that writes to `path`.
+    /// A recorder of a droplet that writes to `path`. Where the system is past time 0, as after resuming, the rows before
+    /// its time that the file has stay.
     ///
     /// # Errors
     /// [`Error::Write`]; [`Error::Observer`]: a state that cannot be measured.
@@ -64,7 +65,7 @@ impl TrajectoryCsv {
         let columns: Vec<usize> = (0..entries.len()).filter(wanted).collect();
         let mut names: Vec<&str> = columns.iter().map(|&k| entries[k].0).collect();
         names.extend(solids.iter().flat_map(|_| SolidMeter::NAMES));
-        Ok(Self { records, table: CsvTable::create(path, &names)?, columns, solids, last_solids: None })
+        Ok(Self { records, table: CsvTable::resume(path, &names, system.time())?, columns, solids, last_solids: None })
     }
 
     /// Everything measured, record by record.

@@ -29,3 +29,15 @@ fn a_run_in_two_parts_is_a_whole_one() {
     assert!(format!("{error:#}").contains("not a checkpoint"), "{error:#}");
     std::fs::remove_dir_all(&directory).unwrap();
 }
+
+#[test]
+fn a_file_that_cannot_be_written_is_refused_before_the_first_step() {
+    let directory = std::env::temp_dir();
+    for path in [directory.clone(), directory.join("motile-no-such-directory").join("state")] {
+        let flags = CheckpointFlags { checkpoint: Some(path), ..CheckpointFlags::default() };
+        let mut scene = Setup::default().build().unwrap().scene;
+        let error = flags.resume(&mut scene, "a droplet", 1.0).unwrap_err();
+        assert!(format!("{error:#}").contains("--checkpoint"), "{error:#}");
+        assert_eq!(scene.steps(), 0);
+    }
+}

@@ -25,6 +25,11 @@ fn what_has_not_settled_or_not_lasted_is_not_steady() {
 
 #[test]
 fn rest_is_steady() {
-    let since = run(200.0, |t| 1e-2 * (-0.2 * t).exp()).since.unwrap();
-    assert!((since - 46.0).abs() < 2.0, "{since}");
+    let resting = run(200.0, |t| 1e-2 * (-0.2 * t).exp());
+    let since = resting.since.unwrap();
+    assert!((since - 46.0).abs() < 2.0 && resting.at_rest && resting.criterion().contains("at rest"), "{resting:?}");
+    // What swims at a constant speed is not at rest, and what passes through the threshold is neither.
+    assert!(!run(60.0, |_| 0.1).at_rest);
+    let slowing = run(60.0, |t| 1.05e-6 * (1.0 + 3.0 * (-0.05 * t).exp()));
+    assert!(slowing.since.is_none() && !slowing.at_rest, "{slowing:?}");
 }

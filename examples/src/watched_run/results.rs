@@ -82,7 +82,7 @@ impl WatchedRun {
         summary.put("particle_relative_change", particles, "since the start");
         let speeds = self.recorder.table().curve("time", "speed")?;
         let steady = Steadiness::of(&speeds, self.particles.diffusion * std::f64::consts::PI / self.area);
-        summary.put("steady", steady.json(), "speed within 0.1 % of its final mean");
+        summary.put("steady", steady.json(), steady.criterion());
         Ok(())
     }
 

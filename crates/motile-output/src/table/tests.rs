@@ -20,3 +20,29 @@ fn rows_are_in_the_file_and_in_memory() {
 fn equal_names_are_refused() {
     assert!(CsvTable::create(Path::new("/nowhere/t.csv"), &["time", "time"]).is_err());
 }
+
+#[test]
+fn a_resumed_table_keeps_the_rows_before() {
+    let path = std::env::temp_dir().join(format!("motile-resumed-{}.csv", std::process::id()));
+    let mut table = CsvTable::create(&path, &["time", "x"]).unwrap();
+    for time in [0.0, 0.1, 0.2, 0.3] {
+        table.push(&[time, 1.0 / (time - 0.1)]).unwrap();
+    }
+    table.flush().unwrap();
+    let written = std::fs::read_to_string(&path).unwrap();
+    let mut table = CsvTable::resume(&path, &["time", "x"], 0.2).unwrap();
+    assert_eq!(table.rows().len(), 2);
+    assert!(table.rows()[1][1].is_nan() && table.rows()[0][1] == -10.0);
+    for time in [0.2, 0.3] {
+        table.push(&[time, 1.0 / (time - 0.1)]).unwrap();
+    }
+    table.flush().unwrap();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
+    // Other columns, a row that was torn, and no file at all.
+    assert!(CsvTable::resume(&path, &["time", "y"], 0.2).unwrap().rows().is_empty());
+    std::fs::write(&path, "time,x\n0,1\n0.1").unwrap();
+    assert_eq!(CsvTable::resume(&path, &["time", "x"], 0.2).unwrap().rows(), [[0.0, 1.0]]);
+    std::fs::remove_file(&path).unwrap();
+    assert!(CsvTable::resume(&path, &["time", "x"], 0.2).unwrap().rows().is_empty());
+    std::fs::remove_file(&path).unwrap();
+}
