@@ -7,9 +7,9 @@ use ib_core::Vec2;
 use ib_core::input::{InputError, finite, within};
 
 use crate::mesher::segments::Segments;
-use crate::{Mesher, Outline, Region, SolidError, TriangleMesh};
+use crate::{Interior, Mesher, Outline, SolidError, TriangleMesh};
 
-pub use shapes::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, StraightChannel, Valve};
+pub use shapes::ChannelShape;
 pub use width::{Width, width_between};
 
 /// A channel along x, periodic: the lines that bound it below and above, and islands between them.
@@ -181,7 +181,7 @@ impl Channel {
     /// # Errors
     /// Those of [`Mesher::mesh`].
     pub fn lower_wall(&self, bottom: f64, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
-        mesher.mesh(&Region::new([self.level(&self.lower, bottom)?, self.lower.clone()])?)
+        mesher.mesh(&Interior::new([self.level(&self.lower, bottom)?, self.lower.clone()])?)
     }
 
     /// The mesh of the wall from the upper line up to y = `top` (length) alone.
@@ -189,7 +189,7 @@ impl Channel {
     /// # Errors
     /// Those of [`Mesher::mesh`].
     pub fn upper_wall(&self, top: f64, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
-        mesher.mesh(&Region::new([self.upper.clone(), self.level(&self.upper, top)?])?)
+        mesher.mesh(&Interior::new([self.upper.clone(), self.level(&self.upper, top)?])?)
     }
 
     /// The mesh of one island alone, by its number in [`Channel::islands`].
@@ -203,7 +203,7 @@ impl Channel {
             found,
             minimum: number.saturating_add(1),
         })?;
-        mesher.mesh(&Region::new([island.clone()])?)
+        mesher.mesh(&Interior::new([island.clone()])?)
     }
 
     /// The flat outer surface of the wall at a side of the channel.

@@ -7,19 +7,21 @@ mod rigid;
 
 use std::ops::Range;
 
-use stokes_layers::Region;
+use stokes_layers::Geometry;
 use stokes_layers::dense::{DoubleLayerMatrix, NodeCurve};
 pub(crate) use stokes_layers::gmres::Outcome;
 use stokes_layers::gmres::{Gmres, dot};
 
 pub(crate) use equivalent::EquivalentForces;
 pub(crate) use field::Nearby;
-use rigid::RigidModes;
+use rigid::{RIGID, RigidModes};
 
 use crate::{FlowError, MarkerKind, Markers, Vec2, checkpoint::SavedState};
 
 /// Residual of the iterations relative to the right-hand side.
 const TOLERANCE: f64 = 1e-6;
+/// Net forces and torques relative to the sum of all forces that count as none.
+const ROUND_OFF: f64 = 1e-12;
 /// Iterations before giving up.
 const MOST_ITERATIONS: usize = 400;
 
@@ -37,12 +39,16 @@ pub(crate) struct Effort {
 ///
 /// `A v = s`, A the [`DoubleLayerMatrix`], s the one-viscosity velocity times viscosity.
 ///
-/// A stiff droplet answers to a rigid motion with the viscosity of its surroundings, to all else with the mean
+/// A stiff droplet answers to a rigid motion with the viscosity of the exterior fluid, eta, to all else with the mean
 /// viscosity. A small error of s along the corresponding left eigenvectors phi, `A^T phi = eta phi`, is therefore
-/// amplified by the ratio of viscosities. Reciprocity tells what a droplet's own forces have there: their net force and
-/// torque, which are zero. So phi is computed and that part of s is removed from the flow of the droplets' own forces,
-/// while the flow of all other forces (solids, other interfaces, walls that move) keeps it.
-#[derive(Debug)]
+/// amplified by the ratio of viscosities. As `K^T phi = 0`, the forces phi are those under which the droplets move
+/// rigidly, at any viscosity inside: with `K S = S K^T`, S the single layer, `K S phi = 0`. Droplets' own forces F
+/// consist of `R F`, the sum of phi times the net force or torque of F for each rigid motion, and of forces F - R F
+/// without either, which by reciprocity have nothing along phi: `phi . S F = F . S phi`, S phi a rigid motion of each
+/// droplet. What the flow of F - R F has there is the grid's error; it is divided by the mean viscosity, as the rest of
+/// that flow is, where that is the larger one. So errors do not grow with the ratio and are continuous where it passes
+/// through one.
+#[derive(Debug, Clone)]
 pub(crate) struct Contrast {
     matrix: DoubleLayerMatrix,
     viscosity: f64,
@@ -65,7 +71,7 @@ pub(crate) struct Contrast {
 }
 
 /// Which markers a droplet has.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Droplet {
     pub(crate) markers: Range<usize>,
     /// Whether its markers are equally spaced.
@@ -92,9 +98,9 @@ pub(crate) fn other_viscosity(kind: &MarkerKind, surroundings: f64) -> Result<Op
 impl Contrast {
     /// For exterior fluid of the given viscosity in a box or a channel, whose `middle` is at that height; nodes closer
     /// to a wall than `least_gap` count as that far away.
-    pub(crate) fn new(region: Region, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, FlowError> {
+    pub(crate) fn new(geometry: Geometry, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, FlowError> {
         Ok(Self {
-            matrix: DoubleLayerMatrix::new(region, middle, viscosity, least_gap)?,
+            matrix: DoubleLayerMatrix::new(geometry, middle, viscosity, least_gap)?,
             viscosity,
             droplets: Vec::new(),
             curves: Vec::new(),
@@ -179,21 +185,77 @@ impl Contrast {
         Ok(())
     }
 
-    /// Fills `velocities` at the nodes of the loaded droplets from the one-viscosity velocities there: `own` those of
-    /// the droplets' forces, `other` those of all other forces.
-    pub(crate) fn solve(&mut self, own: &[Vec2], other: &[Vec2], velocities: &mut [Vec2]) -> Result<Effort, FlowError> {
-        let len = 2 * self.nodes;
-        for array in [&mut self.own, &mut self.other, &mut self.right] {
-            array.resize(len, 0.0);
-        }
-        for (stresses, velocities) in [(&mut self.own, own), (&mut self.other, other)] {
-            let (x, y) = stresses.split_at_mut(self.nodes);
-            for ((x, y), velocity) in x.iter_mut().zip(y).zip(velocities) {
-                (*x, *y) = (self.viscosity * velocity.x, self.viscosity * velocity.y);
-            }
-        }
+    /// Computes the matrix and the left eigenvectors for the loaded droplets; returns the number of iterations.
+    pub(crate) fn prepare(&mut self) -> Result<usize, FlowError> {
         self.matrix.build(&self.curves)?;
         self.rigid.fill(&self.curves, self.nodes);
+        let outcome = self.find_left();
+        if outcome.is_err() {
+            self.left.clear();
+        }
+        outcome
+    }
+
+    fn find_left(&mut self) -> Result<usize, FlowError> {
+        let Self { matrix, curves, nodes, rigid, left, gmres, right, .. } = self;
+        let (curves, nodes) = (curves.as_slice(), *nodes);
+        let len = 2 * nodes;
+        right.resize(len, 0.0);
+        let mut iterations = 0;
+        if left.is_empty() {
+            rigid.weighted(nodes).for_each(|motion| left.extend_from_slice(motion));
+        }
+        for (column, weighted) in left.chunks_exact_mut(len).zip(rigid.weighted(nodes)) {
+            right.copy_from_slice(weighted);
+            // The other eigenvalues of K are about one half.
+            let product = |q: &[f64], out: &mut [f64], _: f64| {
+                matrix.transposed_product(curves, q, out);
+                out.iter_mut().for_each(|out| *out *= 2.0);
+                for (motion, weighted) in rigid.motions(nodes).zip(rigid.weighted(nodes)) {
+                    let amount = dot(motion, q);
+                    for (out, weighted) in out.iter_mut().zip(weighted) {
+                        *out += amount * weighted;
+                    }
+                }
+            };
+            let outcome = gmres.solve(product, right, column, TOLERANCE, MOST_ITERATIONS);
+            iterations += check("the rigid motions of droplets of another viscosity", outcome)?.iterations;
+        }
+        Ok(iterations)
+    }
+
+    /// Fills `rigid` with the part of the forces at the nodes that carries net forces and torques, R F. Returns whether
+    /// there are any.
+    pub(crate) fn rigid_part(&self, forces: &[Vec2], rigid: &mut [Vec2]) -> bool {
+        rigid.fill(Vec2::ZERO);
+        let mut found = false;
+        let (total, nodes) = (forces.iter().map(|force| force.length()).sum::<f64>(), self.nodes);
+        for (index, left) in self.left.chunks_exact((2 * nodes).max(1)).enumerate() {
+            let amount = self.rigid.component(index, forces);
+            let curve = &self.curves[index / RIGID];
+            if amount.abs() * curve.perimeter().sqrt() <= ROUND_OFF * total {
+                continue;
+            }
+            found = true;
+            for (i, rigid) in rigid.iter_mut().enumerate() {
+                *rigid += amount * Vec2::new(left[i], left[nodes + i]);
+            }
+        }
+        found
+    }
+
+    /// Fills `velocities` at the nodes of the prepared droplets from the one-viscosity velocities there: of the
+    /// droplets' forces F, of R F, and of all other forces.
+    pub(crate) fn solve(&mut self, of: [&[Vec2]; 3], velocities: &mut [Vec2]) -> Result<Effort, FlowError> {
+        let nodes = self.nodes;
+        for array in [&mut self.own, &mut self.other] {
+            array.resize(2 * nodes, 0.0);
+        }
+        for (i, ((all, rigid), other)) in of[0].iter().zip(of[1]).zip(of[2]).enumerate() {
+            let (own, other) = (self.viscosity * (all - rigid), self.viscosity * (rigid + other));
+            [self.own[i], self.own[nodes + i]] = [own.x, own.y];
+            [self.other[i], self.other[nodes + i]] = [other.x, other.y];
+        }
         let outcome = match self.solve_nodes() {
             Ok(outcome) => outcome,
             Err(error) => {
@@ -210,38 +272,10 @@ impl Contrast {
         Ok(Effort { iterations: outcome.iterations, residual: outcome.residual, pressure_gradient })
     }
 
-    /// Left eigenvectors, then the velocities at the nodes.
     fn solve_nodes(&mut self) -> Result<Outcome, FlowError> {
         let Self { matrix, curves, nodes, rigid, left, gmres, own, other, right, velocities, .. } = self;
         let (curves, nodes, viscosity) = (curves.as_slice(), *nodes, self.viscosity);
         let len = 2 * nodes;
-        let mut iterations = 0;
-
-        let weighted = || rigid.weighted(nodes);
-        if left.is_empty() {
-            weighted().for_each(|motion| left.extend_from_slice(motion));
-        }
-        for (index, column) in left.chunks_exact_mut(len).enumerate() {
-            right.copy_from_slice(weighted().nth(index).unwrap_or_default());
-            let product = |q: &[f64], out: &mut [f64], _: f64| {
-                matrix.transposed_product(curves, q, out);
-                // Half the contrast is about what the other eigenvalues lie above that of the rigid motions.
-                for curve in curves {
-                    let scale = 2.0 / curve.contrast;
-                    for i in curve.entries(nodes) {
-                        out[i] = scale * (out[i] - viscosity * q[i]);
-                    }
-                }
-                for (motion, weighted) in rigid.motions(nodes).zip(rigid.weighted(nodes)) {
-                    let amount = dot(motion, q);
-                    for (out, weighted) in out.iter_mut().zip(weighted) {
-                        *out += amount * weighted;
-                    }
-                }
-            };
-            let outcome = gmres.solve(product, right, column, TOLERANCE, MOST_ITERATIONS);
-            iterations += check("the rigid motions of droplets of another viscosity", outcome)?.iterations;
-        }
 
         // Splits off the rigid part, which the exterior viscosity alone resists.
         let project = |values: &mut [f64]| {
@@ -276,13 +310,14 @@ impl Contrast {
         let outcome = gmres.solve(product, right, velocities, TOLERANCE, MOST_ITERATIONS);
         let outcome = check("the velocities of droplets of another viscosity", outcome)?;
         project(velocities);
-        for (motion, left) in rigid.motions(nodes).zip(left.chunks_exact(len)) {
-            let amount = dot(left, other) / viscosity;
+        for (index, (motion, left)) in rigid.motions(nodes).zip(left.chunks_exact(len)).enumerate() {
+            let mean = viscosity + 0.5 * curves[index / RIGID].contrast;
+            let amount = dot(left, other) / viscosity + dot(left, own) / viscosity.max(mean);
             for (value, motion) in velocities.iter_mut().zip(motion) {
                 *value += amount * motion;
             }
         }
-        Ok(Outcome { iterations: iterations + outcome.iterations, residual: outcome.residual })
+        Ok(outcome)
     }
 }
 

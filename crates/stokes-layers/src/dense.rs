@@ -8,7 +8,7 @@ mod walls;
 
 use num_complex::Complex64;
 
-use crate::{Forcing, LayerError, Region, Vec2, error::within, gmres::dot, greens::StressKernel, region::Images};
+use crate::{Forcing, Geometry, LayerError, Vec2, error::within, geometry::Images, gmres::dot, greens::StressKernel};
 pub use curve::{Foot, NodeCurve};
 use walls::DenseWalls;
 
@@ -22,12 +22,13 @@ const MOST_NODES: usize = 10_000;
 /// that all forces have in a fluid of one viscosity:
 ///
 /// ```text
-/// A_(ia),(jb) = (D_j/4 pi) T_ab(X_j - X_i; n_j) w_j  -  (D_j/V) (X_j)_a (n_j)_b w_j
+/// A = eta + K D,    K_(ia),(jb) = (1/4 pi) T_ab(X_j - X_i; n_j) w_j  -  (1/V) (X_j)_a (n_j)_b w_j
 /// ```
 ///
-/// D the viscosity inside less that of the exterior fluid, V the area of a periodic box (no such term in a channel, which
-/// has the stress of its walls instead). The diagonal blocks follow from the exact identity that a uniform velocity on
-/// a curve is multiplied by the viscosity of the exterior fluid, without curvatures.
+/// D the viscosity inside the curve of the node less that of the exterior fluid, eta, and V the area of a periodic box
+/// (no such term in a channel, which has the stress of its walls instead). The diagonal blocks of K follow from the
+/// exact identity that it takes a uniform velocity of a curve to zero, without curvatures. K is kept, not A, so that
+/// nothing cancels where D is small.
 ///
 /// A curve with less viscous fluid inside gets the mode of uniform growth, which incompressible flow does not have,
 /// moved from the eigenvalue of the viscosity inside to the mean one.
@@ -41,8 +42,10 @@ pub struct DoubleLayerMatrix {
     walls: Option<DenseWalls>,
     viscosity: f64,
     nodes: usize,
-    /// Symmetric blocks, row after row.
+    /// Symmetric blocks of K, row after row.
     blocks: [Vec<f64>; 3],
+    /// Velocities times the contrast of their curve.
+    scaled: Vec<f64>,
     dipoles: Vec<[f64; 3]>,
 }
 
@@ -58,19 +61,19 @@ impl DoubleLayerMatrix {
     ///
     /// # Errors
     /// The plane, for which there is no such matrix, or a region out of its range.
-    pub fn new(region: Region, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, LayerError> {
-        region.check()?;
-        let walls = match region {
-            Region::Plane => return Err(LayerError::NoPeriod),
-            Region::Box { .. } => None,
-            Region::Channel { length, width, forcing } => {
+    pub fn new(geometry: Geometry, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, LayerError> {
+        geometry.check()?;
+        let walls = match geometry {
+            Geometry::Plane => return Err(LayerError::NoPeriod),
+            Geometry::Box { .. } => None,
+            Geometry::Channel { length, width, forcing } => {
                 Some(DenseWalls::new(length, width, middle, matches!(forcing, Forcing::Flux(_)), least_gap))
             }
         };
-        let (images, area) = (region.images(), region.area());
+        let (images, area) = (geometry.images(), geometry.area());
         let kernel = StressKernel::new(&images, TOLERANCE);
-        let (blocks, dipoles) = (Default::default(), Vec::new());
-        Ok(Self { kernel, images, area, walls, viscosity, nodes: 0, blocks, dipoles })
+        let (blocks, scaled, dipoles) = Default::default();
+        Ok(Self { kernel, images, area, walls, viscosity, nodes: 0, blocks, scaled, dipoles })
     }
 
     /// The shortest of the periodically equivalent distances.
@@ -80,7 +83,7 @@ impl DoubleLayerMatrix {
         Vec2::new(d.re, d.im)
     }
 
-    /// Computes the matrix for curves whose nodes follow each other.
+    /// Computes K for curves whose nodes follow each other.
     ///
     /// # Errors
     /// More than 10,000 nodes.
@@ -109,39 +112,37 @@ impl DoubleLayerMatrix {
     /// Blocks between the nodes of one curve; the stress is odd in the distance.
     fn fill_own(&mut self, curve: &NodeCurve) {
         let (first, count, n) = (curve.first, curve.len(), self.nodes);
-        let scale = curve.contrast / FOUR_PI;
         let [xx, xy, yy] = &mut self.blocks;
         for i in 0..count {
             let row = (first + i) * n + first;
             // Above the diagonal from the kernel, below it by symmetry.
             self.kernel.stresses(curve.positions[i], &curve.sources, i + 1, |j, stress| {
-                let here = contract(&stress, scale * curve.normals[j]);
-                let mirrored = contract(&stress, -scale * curve.normals[i]);
+                let here = contract(&stress, curve.normals[j] / FOUR_PI);
+                let mirrored = contract(&stress, -curve.normals[i] / FOUR_PI);
                 let column = (first + j) * n + first + i;
                 [xx[row + j], xy[row + j], yy[row + j]] = here;
                 [xx[column], xy[column], yy[column]] = mirrored;
             });
         }
-        let background = curve.contrast * curve.area / self.area;
+        let background = curve.area / self.area;
         for i in 0..count {
             let row = (first + i) * n + first;
             for (block, diagonal) in [(&mut *xx, true), (&mut *xy, false), (&mut *yy, true)] {
                 block[row + i] = 0.0;
                 let sum: f64 = block[row..row + count].iter().sum();
-                block[row + i] = if diagonal { self.viscosity + background - sum } else { -sum };
+                block[row + i] = if diagonal { background - sum } else { -sum };
             }
         }
     }
 
     fn fill_other(&mut self, target: &NodeCurve, source: &NodeCurve) {
         let n = self.nodes;
-        let scale = source.contrast / FOUR_PI;
         let offset = self.wrap(target.centre - source.centre);
         let [xx, xy, yy] = &mut self.blocks;
         for (i, position) in target.positions.iter().enumerate() {
             let row = (target.first + i) * n + source.first;
             self.kernel.stresses(position + offset, &source.sources, 0, |j, stress| {
-                [xx[row + j], xy[row + j], yy[row + j]] = contract(&stress, scale * source.normals[j]);
+                [xx[row + j], xy[row + j], yy[row + j]] = contract(&stress, source.normals[j] / FOUR_PI);
             });
         }
     }
@@ -149,15 +150,16 @@ impl DoubleLayerMatrix {
     /// `out = A v`.
     pub fn product(&mut self, curves: &[NodeCurve], v: &[f64], out: &mut [f64]) {
         let n = self.nodes;
-        let (vx, vy) = v.split_at(n);
-        let (ux, uy) = out.split_at_mut(n);
-        let mean = self.mean(curves, v);
+        self.scale(curves, v);
+        let (vx, vy) = self.scaled.split_at(n);
+        let mean = self.mean(curves);
         let [xx, xy, yy] = &self.blocks;
+        let (ux, uy) = out.split_at_mut(n);
         for i in 0..n {
             let row = i * n..(i + 1) * n;
             let mixed = &xy[row.clone()];
-            ux[i] = dot(&xx[row.clone()], vx) + dot(mixed, vy) + mean.x;
-            uy[i] = dot(mixed, vx) + dot(&yy[row], vy) + mean.y;
+            ux[i] = self.viscosity * v[i] + dot(&xx[row.clone()], vx) + dot(mixed, vy) + mean.x;
+            uy[i] = self.viscosity * v[n + i] + dot(mixed, vx) + dot(&yy[row], vy) + mean.y;
         }
         for curve in curves.iter().filter(|curve| curve.contrast < 0.0) {
             let nodes = curve.first..curve.first + curve.len();
@@ -170,13 +172,13 @@ impl DoubleLayerMatrix {
             }
         }
         if self.walls.is_some() {
-            self.fill_dipoles(curves, v);
+            self.fill_dipoles(curves);
             let Some(walls) = &mut self.walls else { return };
             walls.add_dipoles(&self.dipoles, ux, uy);
         }
     }
 
-    /// `out = A^T q`.
+    /// `out = K^T q`, so that `A^T q` is eta q plus D times this.
     pub fn transposed_product(&mut self, curves: &[NodeCurve], q: &[f64], out: &mut [f64]) {
         let n = self.nodes;
         out.fill(0.0);
@@ -203,7 +205,7 @@ impl DoubleLayerMatrix {
                 0.0
             };
             for ((j, normal), position) in nodes.zip(&curve.normals).zip(&curve.positions) {
-                let amount = growth - curve.contrast * background * position.dot(total);
+                let amount = growth - background * position.dot(total);
                 ux[j] += amount * normal.x;
                 uy[j] += amount * normal.y;
             }
@@ -213,30 +215,38 @@ impl DoubleLayerMatrix {
         }
     }
 
-    /// `-(1/V) sum D X (v.n) w` in a box.
-    fn mean(&self, curves: &[NodeCurve], v: &[f64]) -> Vec2 {
-        if self.area.is_infinite() {
-            return Vec2::ZERO;
+    /// `D v`.
+    fn scale(&mut self, curves: &[NodeCurve], v: &[f64]) {
+        self.scaled.clear();
+        self.scaled.extend_from_slice(v);
+        for curve in curves {
+            curve.entries(self.nodes).for_each(|i| self.scaled[i] *= curve.contrast);
         }
-        let n = self.nodes;
+    }
+
+    /// `-(1/V) sum D X (v.n) w` in a box.
+    fn mean(&self, curves: &[NodeCurve]) -> Vec2 {
+        let (n, v) = (self.nodes, &self.scaled);
         let mut sum = Vec2::ZERO;
+        if self.area.is_infinite() {
+            return sum;
+        }
         for curve in curves {
             for (k, (x, normal)) in curve.positions.iter().zip(&curve.normals).enumerate() {
                 let i = curve.first + k;
-                sum -= curve.contrast * (v[i] * normal.x + v[n + i] * normal.y) * x;
+                sum -= (v[i] * normal.x + v[n + i] * normal.y) * x;
             }
         }
         sum / self.area
     }
 
-    fn fill_dipoles(&mut self, curves: &[NodeCurve], v: &[f64]) {
+    fn fill_dipoles(&mut self, curves: &[NodeCurve]) {
         let n = self.nodes;
         self.dipoles.clear();
         for curve in curves {
-            let scale = curve.contrast / FOUR_PI;
             for (k, normal) in curve.normals.iter().enumerate() {
-                let (x, y) = (v[curve.first + k], v[n + curve.first + k]);
-                self.dipoles.push([scale * x * normal.x, scale * (x * normal.y + y * normal.x), scale * y * normal.y]);
+                let [x, y] = [0, n].map(|component| self.scaled[component + curve.first + k] / FOUR_PI);
+                self.dipoles.push([x * normal.x, x * normal.y + y * normal.x, y * normal.y]);
             }
         }
     }
@@ -244,14 +254,16 @@ impl DoubleLayerMatrix {
     /// Part of the mean pressure gradient that comes from velocities on the nodes (force per volume).
     #[must_use]
     pub fn pressure_gradient(&mut self, curves: &[NodeCurve], v: &[f64]) -> f64 {
-        self.fill_dipoles(curves, v);
+        self.scale(curves, v);
+        self.fill_dipoles(curves);
         self.walls.as_mut().map_or(0.0, |walls| -walls.pressure_gradient(&self.dipoles))
     }
 }
 
-/// What the flux of a curve with less viscous fluid inside is multiplied by: brings the eigenvalue of its growth to the mean viscosity.
+/// What the flux of a curve with less viscous fluid inside is multiplied by: brings the eigenvalue of its growth to the
+/// mean viscosity.
 fn growth(curve: &NodeCurve) -> f64 {
-    -0.5 * curve.contrast / curve.weights.iter().sum::<f64>()
+    -0.5 / curve.perimeter()
 }
 
 #[cfg(test)]

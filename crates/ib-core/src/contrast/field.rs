@@ -18,9 +18,16 @@ pub(crate) struct Nearby {
     /// Unit vector away from the interface on the point's side.
     away: Vec2,
     distance: f64,
+    /// Viscosity inside less that of the exterior fluid (stress times time).
+    contrast: f64,
 }
 
 impl Nearby {
+    /// Viscosity inside the interface less that of the exterior fluid (stress times time).
+    pub(crate) fn contrast(&self) -> f64 {
+        self.contrast
+    }
+
     /// The point at the distance `reach` (length) from the same place on the same side.
     pub(crate) fn retreat(&self, reach: f64) -> Vec2 {
         self.foot + reach * self.away
@@ -106,6 +113,7 @@ impl Contrast {
             along: curve.positions[next] - curve.positions[foot.node],
             away: side * normal,
             distance: foot.distance,
+            contrast: curve.contrast,
         })
     }
 

@@ -5,11 +5,11 @@ use stokes_layers::dense::NodeCurve;
 use crate::Vec2;
 
 /// Rigid motions of one droplet: along x, along y, and a rotation.
-pub(crate) const RIGID: usize = 3;
+pub(super) const RIGID: usize = 3;
 
 /// Rigid motions on the nodes of all droplets, orthonormal in the product weighted by the arc length; x components of
 /// all nodes first, then y components.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct RigidModes {
     /// Motion by motion, with zeros on the other droplets.
     motions: Vec<f64>,
@@ -42,6 +42,12 @@ impl RigidModes {
                 }
             }
         }
+    }
+
+    /// Component of forces at the nodes along a motion: net force or torque, scaled.
+    pub(crate) fn component(&self, motion: usize, forces: &[Vec2]) -> f64 {
+        let (x, y) = self.motions[2 * forces.len() * motion..].split_at(forces.len());
+        forces.iter().zip(x).zip(y).map(|((force, x), y)| force.x * x + force.y * y).sum()
     }
 
     /// The motions, one after the other.

@@ -1,9 +1,9 @@
 //! Interfaces to other viscosities on the grid.
 
-use stokes_grid::{CentreField, Grid, StaggeredField, StokesSolver};
-use stokes_layers::{Forcing, Region};
+use stokes_grid::{Grid, StaggeredField, StokesSolver};
+use stokes_layers::{Forcing, Geometry};
 
-use super::{ImmersedBoundary, add, sampling};
+use super::{ImmersedBoundary, sampling};
 use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
 use crate::mobility::{Clearance, Setting};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// What interfaces to other viscosities need beside the grid.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct ContrastFlow<K> {
     contrast: Contrast,
     equivalent: EquivalentForces,
@@ -19,7 +19,7 @@ pub(super) struct ContrastFlow<K> {
     transfer: Transfer<K>,
     /// The flow without forces (imposed fluxes, walls that move) and its mean pressure gradient; none where it
     /// vanishes.
-    imposed: Option<(StaggeredField, [f64; 2])>,
+    imposed: Imposed,
     /// At the droplets' nodes.
     nodes: Nodes,
     clearance: Clearance,
@@ -30,19 +30,25 @@ pub(super) struct ContrastFlow<K> {
     other_density: StaggeredField,
 }
 
+/// A flow and its mean pressure gradient (force per volume).
+type Imposed = Option<(StaggeredField, [f64; 2])>;
+
 /// Vectors at the droplets' nodes.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 struct Nodes {
     positions: Vec<Vec2>,
     /// Distances from solids (grid spacings); empty without solids.
     gaps: Vec<f64>,
     forces: Vec<Vec2>,
-    /// Velocities of one viscosity: of the droplets' own forces, and of all others.
+    /// The part of the forces that carries the droplets' net forces and torques.
+    rigid: Vec<Vec2>,
+    /// Velocities of one viscosity: of the droplets' own forces, of the rigid part of them, and of all other forces.
     own: Vec<Vec2>,
+    pulled: Vec<Vec2>,
     other: Vec<Vec2>,
     /// Velocities.
     velocities: Vec<Vec2>,
-    /// The part of them that is not the others', times viscosity.
+    /// The part of them that is not the others'.
     target: Vec<Vec2>,
 }
 
@@ -67,7 +73,7 @@ impl<K: Kernel> ContrastFlow<K> {
     /// Takes over the droplets.
     fn load(&mut self, grid: &Grid, markers: &Markers) -> Result<(), FlowError> {
         self.contrast.load(markers)?;
-        let Nodes { positions, gaps, forces, own, other, velocities, target } = &mut self.nodes;
+        let Nodes { positions, gaps, forces, rigid, own, pulled, other, velocities, target } = &mut self.nodes;
         gaps.clear();
         for array in [&mut *positions, &mut *forces, &mut *velocities] {
             array.clear();
@@ -79,7 +85,7 @@ impl<K: Kernel> ContrastFlow<K> {
             let group = markers.groups().iter().position(|group| group.range == droplet.markers).unwrap_or_default();
             gaps.extend_from_slice(self.clearance.gaps(markers, group, grid.spacing(), grid.lengths()[0]));
         }
-        for array in [own, other, target] {
+        for array in [own, rigid, pulled, other, target] {
             array.resize(positions.len(), Vec2::ZERO);
         }
         self.transfer.locate(positions);
@@ -102,12 +108,14 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let imposed = moves.then(|| (velocity.clone(), at_rest.mean_pressure_gradient));
         let zero_flux = matches!(self.solver.drive(), stokes_grid::Drive::ZeroFlux | stokes_grid::Drive::Flux(_));
         let forcing = if zero_flux { Forcing::Flux(0.0) } else { Forcing::Gradient(0.0) };
-        let (region, middle) = match self.walls() {
-            None => (Region::Box { lengths: [lx, ly] }, 0.0),
-            Some([bottom, top]) => (Region::Channel { length: lx, width: top - bottom, forcing }, 0.5 * (top + bottom)),
+        let (geometry, middle) = match self.walls() {
+            None => (Geometry::Box { lengths: [lx, ly] }, 0.0),
+            Some([bottom, top]) => {
+                (Geometry::Channel { length: lx, width: top - bottom, forcing }, 0.5 * (top + bottom))
+            }
         };
         Ok(ContrastFlow {
-            contrast: Contrast::new(region, middle, self.solver.viscosity(), 0.1 * grid.spacing())?,
+            contrast: Contrast::new(geometry, middle, self.solver.viscosity(), 0.1 * grid.spacing())?,
             equivalent: EquivalentForces::default(),
             transfer: Transfer::new(grid, self.transfer.kernel().clone()),
             imposed,
@@ -119,8 +127,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         })
     }
 
-    /// The flow with interfaces to other viscosities: one solve on the grid for their forces, one for all others if
-    /// there are any, and the double layer; where there are other markers, the flow of the equivalent forces for these.
+    /// The flow with interfaces to other viscosities: one solve on the grid for their forces, one more where these have
+    /// net forces or torques, one for all other forces if there are any, and the double layer; where there are other
+    /// markers, the flow of the equivalent forces for these.
     pub(super) fn contrast_velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
         let mut flow = self.take_contrast()?;
         let outcome = self.contrast_with(&mut flow, markers);
@@ -132,27 +141,18 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         flow.load(self.solver.grid(), markers)?;
         self.work.evaluations += 1;
         let mut gradient = self.solve_others(flow, markers)?;
-        let own = self.solve_on(&flow.transfer, &flow.nodes.forces)?;
-        let fixed = flow.imposed.as_ref().map_or([0.0; 2], |(_, gradient)| *gradient);
-        for (total, (own, fixed)) in gradient.iter_mut().zip(own.mean_pressure_gradient.into_iter().zip(fixed)) {
-            *total += own - fixed;
-        }
-        if let Some((imposed, _)) = &flow.imposed {
-            add(&mut self.velocity, imposed, -1.0);
-        }
-        flow.transfer.interpolate(&self.velocity, &mut flow.nodes.own);
-        let Nodes { positions, gaps, forces, own, .. } = &mut flow.nodes;
-        self.correct_droplets(&flow.contrast, gaps, positions, forces, own)?;
-        let effort = flow.contrast.solve(&flow.nodes.own, &flow.nodes.other, &mut flow.nodes.velocities)?;
+        let prepared = flow.contrast.prepare()?;
+        self.solve_rigid_part(flow)?;
+        let own = self.solve_own(flow)?;
+        gradient.iter_mut().zip(own).for_each(|(total, own)| *total += own);
+        let Nodes { own, pulled, other, velocities, .. } = &mut flow.nodes;
+        let effort = flow.contrast.solve([own, pulled, other], velocities)?;
         gradient[0] += effort.pressure_gradient;
-        let (mut iterations, mut residual) = (effort.iterations, effort.residual);
+        let (mut iterations, mut residual) = (prepared + effort.iterations, effort.residual);
         if !flow.contrast.others().is_empty() {
             let found = self.find_equivalent(flow)?;
             (iterations, residual) = (iterations + found.iterations, residual.max(found.residual));
-            self.solve_on(&flow.transfer, flow.equivalent.forces())?;
-            if let Some((imposed, _)) = &flow.imposed {
-                add(&mut self.velocity, imposed, -1.0);
-            }
+            self.solve_droplets(&flow.transfer, &flow.imposed, flow.equivalent.forces())?;
             self.add_to_others(flow, markers);
         }
         for (droplet, curve) in flow.contrast.droplets().iter().zip(flow.contrast.curves()) {
@@ -161,8 +161,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         }
         self.work.iterations += iterations;
         self.work.most_iterations = self.work.most_iterations.max(iterations);
-        add(&mut self.velocity, &flow.other, 1.0);
-        add(&mut self.density, &flow.other_density, 1.0);
+        self.velocity.combine(1.0, 1.0, &flow.other);
+        self.density.combine(1.0, 1.0, &flow.other_density);
         Ok(FlowReport { iterations, residual, mean_pressure_gradient: gradient })
     }
 
@@ -181,11 +181,11 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         if flow.all.iter().any(|force| *force != Vec2::ZERO) {
             let report = self.solve_located(&flow.all)?;
             gradient = report.mean_pressure_gradient;
-            copy(&mut flow.other, &self.velocity);
-            copy(&mut flow.other_density, &self.density);
+            flow.other.copy_from(&self.velocity);
+            flow.other_density.copy_from(&self.density);
         } else if let Some((imposed, fixed)) = &flow.imposed {
             gradient = *fixed;
-            copy(&mut flow.other, imposed);
+            flow.other.copy_from(imposed);
             flow.other_density.fill(0.0);
         } else {
             moves = false;
@@ -210,6 +210,54 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(gradient)
     }
 
+    /// Velocities at the nodes of the forces that carry the droplets' net forces and torques.
+    fn solve_rigid_part(&mut self, flow: &mut ContrastFlow<K>) -> Result<(), FlowError> {
+        let Nodes { positions, gaps, forces, rigid, pulled, .. } = &mut flow.nodes;
+        if flow.contrast.rigid_part(forces, rigid) {
+            self.respond((&flow.contrast, &flow.transfer, &flow.imposed), [positions, rigid], gaps, pulled)?;
+        } else {
+            pulled.fill(Vec2::ZERO);
+        }
+        Ok(())
+    }
+
+    /// Velocities at the nodes of the droplets' own forces, and the mean pressure gradient.
+    fn solve_own(&mut self, flow: &mut ContrastFlow<K>) -> Result<[f64; 2], FlowError> {
+        let Nodes { positions, gaps, forces, own, .. } = &mut flow.nodes;
+        self.respond((&flow.contrast, &flow.transfer, &flow.imposed), [positions, forces], gaps, own)
+    }
+
+    /// Velocities of one viscosity, without what is imposed, of forces at the droplets' nodes.
+    fn respond(
+        &mut self,
+        (contrast, transfer, imposed): (&Contrast, &Transfer<K>, &Imposed),
+        [positions, forces]: [&[Vec2]; 2],
+        gaps: &[f64],
+        velocities: &mut [Vec2],
+    ) -> Result<[f64; 2], FlowError> {
+        let gradient = self.solve_droplets(transfer, imposed, forces)?;
+        transfer.interpolate(&self.velocity, velocities);
+        self.correct_droplets(contrast, gaps, positions, forces, velocities)?;
+        Ok(gradient)
+    }
+
+    /// The flow on the grid of `forces` at the droplets' nodes alone, and its mean pressure gradient.
+    fn solve_droplets(
+        &mut self,
+        transfer: &Transfer<K>,
+        imposed: &Imposed,
+        forces: &[Vec2],
+    ) -> Result<[f64; 2], FlowError> {
+        self.density.fill(0.0);
+        transfer.spread(forces, &mut self.density);
+        let mut gradient = self.solve_density(forces.len())?.mean_pressure_gradient;
+        if let Some((imposed, fixed)) = imposed {
+            self.velocity.combine(1.0, -1.0, imposed);
+            gradient.iter_mut().zip(fixed).for_each(|(gradient, fixed)| *gradient -= fixed);
+        }
+        Ok(gradient)
+    }
+
     /// Adds the mobility correction of droplets to velocities at their nodes.
     fn correct_droplets(
         &mut self,
@@ -227,37 +275,42 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             }
             let nodes = curve.first..curve.first + curve.len();
             let (positions, forces) = (&positions[nodes.clone()], &forces[nodes.clone()]);
-            correction.apply(
-                &setting,
-                gaps.get(nodes.clone()).unwrap_or(&[]),
-                positions,
-                forces,
-                &mut velocities[nodes],
-            )?;
+            let gaps = gaps.get(nodes.clone()).unwrap_or_default();
+            correction.apply(&setting, gaps, positions, forces, &mut velocities[nodes])?;
             self.work.corrections += 1;
         }
         Ok(())
     }
 
-    /// Finds the forces that take the place of the other viscosities.
+    /// Finds the forces that take the place of the other viscosities: the droplets' own, reduced by the exterior viscosity
+    /// over the largest mean of both, and those of the flow that remains. Net forces and torques are those of
+    /// the droplets' own.
     fn find_equivalent(&mut self, flow: &mut ContrastFlow<K>) -> Result<Outcome, FlowError> {
         let viscosity = self.solver.viscosity();
-        let Nodes { positions, gaps, other, velocities, target, .. } = &mut flow.nodes;
-        for ((target, velocity), other) in target.iter_mut().zip(velocities).zip(other) {
-            *target = viscosity * (*velocity - *other);
+        let Nodes { positions, gaps, forces, rigid, own, other, velocities, target, .. } = &mut flow.nodes;
+        let contrasts = flow.contrast.curves().iter().map(|curve| curve.contrast);
+        let share = viscosity / (viscosity + 0.5 * contrasts.fold(-viscosity, f64::max));
+        for i in 0..target.len() {
+            rigid[i] = (1.0 - share) * forces[i];
+            target[i] = viscosity * (velocities[i] - other[i] - share * own[i]);
         }
         let (contrast, transfer, imposed) = (&flow.contrast, &flow.transfer, &flow.imposed);
         let spacing = self.grid().spacing();
-        flow.equivalent.solve(contrast.curves(), spacing, target, |forces, out| {
-            self.solve_on(transfer, forces)?;
-            if let Some((imposed, _)) = imposed {
-                add(&mut self.velocity, imposed, -1.0);
-            }
-            transfer.interpolate(&self.velocity, out);
-            self.correct_droplets(contrast, gaps, positions, forces, out)?;
+        let outcome = flow.equivalent.solve(contrast.curves(), spacing, target, |forces, out| {
+            self.respond((contrast, transfer, imposed), [positions, forces], gaps, out)?;
             out.iter_mut().for_each(|velocity| *velocity *= viscosity);
             Ok(())
-        })
+        })?;
+        let equivalent = flow.equivalent.forces_mut();
+        equivalent.iter_mut().zip(&*rigid).for_each(|(equivalent, reduced)| *equivalent -= *reduced);
+        contrast.rigid_part(equivalent, rigid);
+        for ((equivalent, force), rigid) in equivalent.iter_mut().zip(forces).zip(rigid) {
+            *equivalent += *force - *rigid;
+        }
+        for ((target, velocity), other) in target.iter_mut().zip(velocities).zip(other) {
+            *target = *velocity - *other;
+        }
+        Ok(outcome)
     }
 
     /// As [`crate::Hydrodynamics::sample`] where viscosities differ. Closer to an interface than the kernel reaches the
@@ -285,16 +338,13 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         flow.load(self.solver.grid(), markers)?;
         let mut scratch = markers.clone();
         self.solve_others(flow, &mut scratch)?;
+        flow.contrast.prepare()?;
+        self.solve_own(flow)?;
         self.find_equivalent(flow)?;
-        self.solve_on(&flow.transfer, flow.equivalent.forces())?;
-        if let Some((imposed, _)) = &flow.imposed {
-            add(&mut self.velocity, imposed, -1.0);
-        }
-        add(&mut self.velocity, &flow.other, 1.0);
-        add(&mut self.density, &flow.other_density, 1.0);
-        let mut pressure = CentreField::zeros(*self.solver.grid());
-        self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
-
+        self.solve_droplets(&flow.transfer, &flow.imposed, flow.equivalent.forces())?;
+        self.velocity.combine(1.0, 1.0, &flow.other);
+        self.density.combine(1.0, 1.0, &flow.other_density);
+        let pressure = self.pressure_field()?;
         let (contrast, nodes) = (&flow.contrast, &flow.nodes);
         let at_nodes: Vec<f64> = nodes.positions.iter().map(|&node| sampling::pressure(&pressure, node)).collect();
         let offsets = contrast.pressure_offsets(&at_nodes, flow.equivalent.forces(), &nodes.forces, &nodes.velocities);
@@ -350,14 +400,18 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// Adds the flow of the equivalent forces, which is on the grid, at the markers that are not on droplets.
     fn add_to_others(&self, flow: &mut ContrastFlow<K>, markers: &mut Markers) {
         self.transfer.interpolate(&self.velocity, &mut flow.all);
-        let (reach, inverse) = (self.reach(), 1.0 / self.solver.viscosity());
-        flow.nodes.target.iter_mut().for_each(|velocity| *velocity *= inverse);
+        let reach = self.reach();
         let velocity = |point| sampling::smooth_velocity(&self.velocity, point);
         for &marker in flow.contrast.others() {
             let point = markers.positions[marker];
+            let far = flow.all[marker];
             markers.velocities[marker] += match self.close_to(&flow.contrast, point) {
-                Some(near) => near.flow(point, reach, &flow.nodes.target, velocity).0,
-                None => flow.all[marker],
+                Some(near) => {
+                    // So that velocities are continuous where viscosities become equal.
+                    let share = (near.contrast().abs() / self.solver.viscosity()).min(1.0);
+                    far.lerp(near.flow(point, reach, &flow.nodes.target, velocity).0, share)
+                }
+                None => far,
             };
         }
     }
@@ -371,10 +425,4 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             variance: self.variance,
         }
     }
-}
-
-fn copy(target: &mut StaggeredField, source: &StaggeredField) {
-    let (x, y) = target.components_mut();
-    x.copy_from_slice(source.x());
-    y.copy_from_slice(source.y());
 }

@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use super::NodeCurve;
+use super::{FOUR_PI, NodeCurve};
 use crate::greens::walls::{WallModes, WallPoints};
 
 /// Relative size of the modes that are left out.
@@ -69,8 +69,8 @@ impl DenseWalls {
         self.modes.add_forces(&self.nodes, self.gap, |j| Complex64::new(qx[j], qy[j]));
         self.modes.solve();
         let slope = -2.0 * self.modes.mean[2];
+        let scale = 1.0 / FOUR_PI;
         for curve in curves {
-            let scale = curve.contrast / (4.0 * std::f64::consts::PI);
             for (k, normal) in curve.normals.iter().enumerate() {
                 let i = curve.first + k;
                 let flow = self.modes.flow(&self.nodes, i);
