@@ -64,7 +64,7 @@ impl Units {
     fn walls(self) -> Vec<SolidSetup> {
         let stress = self.force / self.length;
         let material = Material::NeoHookean { shear: 200.0 * stress, bulk: 400.0 * stress };
-        SolidSetup::walls(&ChannelShape::Straight { width: 2.4 * self.length }, &material).into()
+        SolidSetup::walls(&ChannelShape::Straight { width: 2.4 * self.length }, &material)
     }
 
     fn setup(self, scene: Scene) -> Setup {
