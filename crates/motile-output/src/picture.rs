@@ -142,7 +142,7 @@ impl Look {
     /// cell.
     pub fn write_picture(&self, seen: &Snapshot, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), Error> {
         let legends = self.legends(std::slice::from_ref(seen));
-        self.draw(seen, &legends, tracks, &Format::STILL)?.write_png(path)
+        self.draw(seen, &legends, tracks, &Format::STILL)?.write_png(path.as_ref())
     }
 }
 

@@ -197,6 +197,6 @@ impl Figure {
         fs::create_dir_all(directory).map_err(Error::writing(directory))?;
         let path = directory.join(format!("{name}.svg"));
         fs::write(&path, self.svg()?).map_err(Error::writing(&path))?;
-        self.image()?.write_png(directory.join(format!("{name}.png")))
+        self.image()?.write_png(&directory.join(format!("{name}.png")))
     }
 }

@@ -75,8 +75,7 @@ impl Canvas {
     ///
     /// # Errors
     /// [`Error::Write`].
-    pub(crate) fn write_png(&self, path: impl AsRef<Path>) -> Result<(), Error> {
-        let path = path.as_ref();
+    pub(crate) fn write_png(&self, path: &Path) -> Result<(), Error> {
         let write = || -> io::Result<()> {
             let file = BufWriter::new(File::create(path)?);
             let [width, height] = self.size.map(|side| side as u32);

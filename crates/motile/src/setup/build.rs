@@ -142,13 +142,14 @@ impl Setup {
             }),
             (Method::Grid(grid), Region::Box { lengths: [lx, ly] }) => {
                 let [nx, ny] = self.cells(grid, [lx, ly])?;
-                self.coupled(grid, PeriodicStokes::new(Grid::periodic(nx, ny, grid.spacing)?, viscosity)?)
+                let solver = PeriodicStokes::new(Grid::periodic(nx, ny, grid.spacing)?, viscosity)?;
+                self.coupled(grid, Box::new(solver))
             }
             (Method::Grid(grid), Region::Channel { length, width, drive }) => {
                 let [nx, ny] = self.cells(grid, [length, width])?;
                 let mut solver = ChannelStokes::new(Grid::channel(nx, ny, grid.spacing)?, viscosity)?;
                 solver.set_drive(drive)?;
-                self.coupled(grid, solver)
+                self.coupled(grid, Box::new(solver))
             }
         }
     }
@@ -173,7 +174,8 @@ impl Setup {
         }))
     }
 
-    fn coupled<S: StokesSolver + 'static>(&self, grid: &GridMethod, solver: S) -> Result<AnyFlow, SetupError> {
+    /// Takes a boxed solver, for which the method is compiled once, not once for each kind.
+    fn coupled(&self, grid: &GridMethod, solver: Box<dyn StokesSolver>) -> Result<AnyFlow, SetupError> {
         let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
         Ok(if differs && grid.contrast == Contrast::Arithmetic {
             Box::new(SmearedContrast::new(solver, grid.kernel)?)

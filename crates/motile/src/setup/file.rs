@@ -31,6 +31,8 @@ impl Setup {
     /// # Errors
     /// A seed above 2^63 - 1, which TOML has no number for.
     pub fn to_toml(&self) -> Result<String, SetupError> {
-        toml::to_string(self).map_err(|error| SetupError::File { problem: error.to_string() })
+        // By way of a table: the serializer of documents would be compiled for every part of the description.
+        let table = toml::Table::try_from(self).map_err(|error| SetupError::File { problem: error.to_string() })?;
+        Ok(table.to_string())
     }
 }
