@@ -4,7 +4,7 @@ use allocation_counter::measure;
 use motile::ib_core::{
     CubicQuadratic, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2,
 };
-use motile::stokes_grid::{Drive, Grid, PeriodicStokes};
+use motile::stokes_grid::{Drive, Grid, InputError, PeriodicStokes};
 use motile::{DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
 use motile_tests::validation::contrast::{Droplet, Errors, Exact, exact_flow, field_errors};
 use motile_tests::validation::scene::{flow, on_grid, open_channel, reference};
@@ -282,7 +282,7 @@ fn viscosities_are_checked() {
         let mut markers = Markers::new();
         markers.push_group(16, MarkerKind::Interface { viscosity_inside: Some(value) });
         let found = flow.velocities(&mut markers);
-        assert!(matches!(found, Err(FlowError::Parameter { .. })), "{value}: {found:?}");
+        assert!(matches!(found, Err(FlowError::Input(InputError::NotPositive { .. }))), "{value}: {found:?}");
     }
     // All markers at one point: no area.
     let mut markers = Markers::new();

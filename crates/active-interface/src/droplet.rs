@@ -11,7 +11,7 @@ mod spectral;
 
 use std::sync::Arc;
 
-use fourier::BandLimit;
+use fourier::PeriodicSeries;
 use ib_core::input::{InputError, all_finite, not_negative, positive, same_length};
 use ib_core::{Medium, Vec2};
 
@@ -94,7 +94,7 @@ pub struct ActiveDroplet {
     pub(crate) diffusivities: Vec<f64>,
     pub(crate) filter: ShortWaveFilter,
     /// Truncation of the motion, where the flow resolves fewer modes than there are markers.
-    pub(crate) band: Option<BandLimit>,
+    pub(crate) band: Option<(PeriodicSeries, usize)>,
     /// The smooth curve through the markers, where the flow is spectrally accurate.
     pub(crate) spectral: Option<SpectralCurve>,
     pub(crate) crossing: CrossingFinder,
@@ -347,10 +347,9 @@ impl ActiveDroplet {
             self.other.markers.clear();
             self.update();
         }
-        match medium.shape_modes.filter(|&modes| modes < count) {
-            None => self.band = None,
-            Some(modes) if self.band.as_ref().is_some_and(|b| b.len() == count && b.modes() == modes) => {}
-            Some(modes) => self.band = Some(BandLimit::new(count, modes)),
+        let band = medium.shape_modes.filter(|&modes| modes < count).map(|modes| (count, modes));
+        if band != self.band.as_ref().map(|(series, modes)| (series.len(), *modes)) {
+            self.band = band.map(|(count, modes)| (PeriodicSeries::new(count), modes));
         }
     }
 

@@ -1,5 +1,6 @@
 //! The flow of interfaces by boundary integrals.
 
+use ib_core::input::positive;
 use ib_core::{
     Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium,
     checkpoint::SavedState,
@@ -40,9 +41,7 @@ impl BoundaryIntegral {
     /// # Errors
     /// A perimeter that is not positive and finite.
     pub fn with_reference_perimeter(self, perimeter: f64) -> Result<Self, LayerError> {
-        if !(perimeter.is_finite() && perimeter > 0.0) {
-            return Err(LayerError::NotPositive { name: "the reference perimeter", value: perimeter });
-        }
+        positive("the reference perimeter", perimeter)?;
         Ok(Self { stiffness: stiffness(self.settings().nodes, perimeter), ..self })
     }
 

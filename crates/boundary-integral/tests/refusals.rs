@@ -5,6 +5,7 @@ mod scenes;
 use boundary_integral::{
     BoundaryIntegral, Forcing, Geometry, LayerError, PeriodicCalculus, Settings, TensionPlacement,
 };
+use ib_core::input::InputError;
 use ib_core::{FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 use scenes::{Ellipse, markers};
 
@@ -31,7 +32,7 @@ fn domains_and_settings() {
     }
     for viscosity in [0.0, -1.0, f64::NAN] {
         let error = BoundaryIntegral::new(Geometry::Plane, viscosity, Settings::default()).unwrap_err();
-        assert!(matches!(error, LayerError::NotPositive { name: "the viscosity", .. }));
+        assert!(matches!(error, LayerError::Input(InputError::NotPositive { name: "the viscosity", .. })));
     }
     let bad = [
         Settings { nodes: 8, ..Settings::default() },
@@ -62,10 +63,7 @@ fn markers_that_are_not_an_interface() {
     assert!(matches!(solver().velocities(&mut points), Err(FlowError::Unsupported { .. })));
 
     let mut few = markers(&[circle()], 32);
-    assert!(matches!(
-        solver().velocities(&mut few),
-        Err(FlowError::Layers(LayerError::OutOfRange { value: 32.0, .. }))
-    ));
+    assert!(matches!(solver().velocities(&mut few), Err(FlowError::Input(InputError::OutOfRange { value: 32.0, .. }))));
 
     let mut clockwise = markers(&[circle()], 64);
     clockwise.positions.reverse();
@@ -73,7 +71,10 @@ fn markers_that_are_not_an_interface() {
 
     for viscosity in [0.0, -3.0, f64::NAN] {
         let mut markers = markers(&[Ellipse { viscosity: Some(viscosity), ..circle() }], 64);
-        assert!(matches!(solver().velocities(&mut markers), Err(FlowError::Layers(_))));
+        assert!(matches!(
+            solver().velocities(&mut markers),
+            Err(FlowError::Input(InputError::NotPositive { .. } | InputError::NotFinite { .. }))
+        ));
     }
 }
 
@@ -93,7 +94,10 @@ fn numbers_that_are_not_finite() {
     solver.velocities(&mut good).expect("a valid scene");
     let mut out = [FlowSample::default()];
     assert!(solver.sample(&good, &[Vec2::new(f64::NAN, 0.0)], &mut out).is_err());
-    assert!(matches!(solver.sample(&good, &[], &mut out), Err(FlowError::WrongLength { expected: 0, found: 1, .. })));
+    assert!(matches!(
+        solver.sample(&good, &[], &mut out),
+        Err(FlowError::Input(InputError::WrongLength { expected: 0, found: 1, .. }))
+    ));
 }
 
 #[test]

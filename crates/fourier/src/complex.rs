@@ -3,10 +3,9 @@
 use std::fmt;
 use std::sync::Arc;
 
+use input_checks::{InputError, same_length};
 use num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
-
-use crate::FourierError;
 
 /// A plan for the discrete Fourier transform of N complex numbers and its inverse,
 ///
@@ -52,7 +51,7 @@ impl ComplexTransform {
     ///
     /// # Errors
     /// Not a whole multiple of N; `values` are then left as they were.
-    pub fn forward(&mut self, values: &mut [Complex64]) -> Result<(), FourierError> {
+    pub fn forward(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         self.check(values.len())?;
         self.forward.process_with_scratch(values, &mut self.scratch);
         Ok(())
@@ -62,19 +61,14 @@ impl ComplexTransform {
     ///
     /// # Errors
     /// Not a whole multiple of N; `values` are then left as they were.
-    pub fn inverse(&mut self, values: &mut [Complex64]) -> Result<(), FourierError> {
+    pub fn inverse(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         self.check(values.len())?;
         self.inverse.process_with_scratch(values, &mut self.scratch);
         Ok(())
     }
 
-    fn check(&self, found: usize) -> Result<(), FourierError> {
-        let expected = self.len();
-        if found.is_multiple_of(expected) {
-            Ok(())
-        } else {
-            Err(FourierError::WrongLength { name: "the complex numbers", expected, found })
-        }
+    fn check(&self, found: usize) -> Result<(), InputError> {
+        if found.is_multiple_of(self.len()) { Ok(()) } else { same_length("the complex numbers", self.len(), found) }
     }
 }
 

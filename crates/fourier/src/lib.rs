@@ -11,21 +11,18 @@
 //! | [`SineCosine`] | sines and cosines across an interval, for values on its nodes or in its cells |
 //!
 //! On them stand Fourier series through equally spaced samples of periodic functions, such as the points of a closed
-//! curve ([`PeriodicSeries`], [`BandLimit`]).
+//! curve ([`PeriodicSeries`]).
 //!
 //! Every length is correct, odd and prime ones included; lengths with no prime factors but 2, 3, 5, 7 and 11 are fast.
 
-mod band_limit;
 mod complex;
-mod error;
 mod real;
 mod series;
 mod sine_cosine;
 pub mod spectrum;
 
-pub use band_limit::BandLimit;
 pub use complex::ComplexTransform;
-pub use error::FourierError;
+pub use input_checks::InputError;
 pub use real::RealTransform;
 pub use series::PeriodicSeries;
 pub use sine_cosine::SineCosine;

@@ -3,11 +3,9 @@
 use std::fmt;
 use std::sync::Arc;
 
+use input_checks::{InputError, same_length};
 use num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-
-use crate::FourierError;
-use crate::error::same_length;
 
 /// A plan for the discrete Fourier transform of N real numbers to N/2 + 1 complex ones and its inverse,
 ///
@@ -59,7 +57,7 @@ impl RealTransform {
     ///
     /// # Errors
     /// Slices of other lengths than planned for.
-    pub fn forward(&mut self, values: &mut [f64], spectrum: &mut [Complex64]) -> Result<(), FourierError> {
+    pub fn forward(&mut self, values: &mut [f64], spectrum: &mut [Complex64]) -> Result<(), InputError> {
         self.check(values.len(), spectrum.len())?;
         // The lengths fit, so that the call cannot fail.
         let _ = self.forward.process_with_scratch(values, spectrum, &mut self.scratch);
@@ -71,7 +69,7 @@ impl RealTransform {
     ///
     /// # Errors
     /// Slices of other lengths than planned for.
-    pub fn inverse(&mut self, spectrum: &mut [Complex64], values: &mut [f64]) -> Result<(), FourierError> {
+    pub fn inverse(&mut self, spectrum: &mut [Complex64], values: &mut [f64]) -> Result<(), InputError> {
         self.check(values.len(), spectrum.len())?;
         spectrum[0].im = 0.0;
         if self.len().is_multiple_of(2) {
@@ -82,9 +80,9 @@ impl RealTransform {
         Ok(())
     }
 
-    fn check(&self, values: usize, spectrum: usize) -> Result<(), FourierError> {
-        same_length("the real numbers", values, self.len())?;
-        same_length("the spectrum", spectrum, self.spectrum_len())
+    fn check(&self, values: usize, spectrum: usize) -> Result<(), InputError> {
+        same_length("the real numbers", self.len(), values)?;
+        same_length("the spectrum", self.spectrum_len(), spectrum)
     }
 }
 

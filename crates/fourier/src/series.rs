@@ -1,9 +1,9 @@
 //! Fourier series of periodic functions.
 
+use input_checks::{InputError, same_length};
 use num_complex::Complex64;
 
-use crate::error::same_length;
-use crate::{ComplexTransform, FourierError, spectrum};
+use crate::{ComplexTransform, spectrum};
 
 /// The Fourier series through N equally spaced samples of a function of period 2 pi, such as a closed curve,
 ///
@@ -48,8 +48,8 @@ impl PeriodicSeries {
     ///
     /// # Errors
     /// Another number of samples than N; the series is then left as it was.
-    pub fn analyse(&mut self, samples: impl ExactSizeIterator<Item = Complex64>) -> Result<(), FourierError> {
-        same_length("the samples", samples.len(), self.len())?;
+    pub fn analyse(&mut self, samples: impl ExactSizeIterator<Item = Complex64>) -> Result<(), InputError> {
+        same_length("the samples", self.len(), samples.len())?;
         let scale = 1.0 / self.len() as f64;
         for (slot, sample) in self.coefficients.iter_mut().zip(samples) {
             *slot = scale * sample;
@@ -61,7 +61,7 @@ impl PeriodicSeries {
     ///
     /// # Errors
     /// Another number of vectors than N; the series is then left as it was.
-    pub fn analyse_vectors<V: Copy + Into<[f64; 2]>>(&mut self, vectors: &[V]) -> Result<(), FourierError> {
+    pub fn analyse_vectors<V: Copy + Into<[f64; 2]>>(&mut self, vectors: &[V]) -> Result<(), InputError> {
         self.analyse(vectors.iter().map(|&vector| {
             let [x, y] = vector.into();
             Complex64::new(x, y)
@@ -112,12 +112,33 @@ impl PeriodicSeries {
     ///
     /// # Errors
     /// Another number of vectors than N; they are then left as they were.
-    pub fn write_vectors<V: From<[f64; 2]>>(&mut self, vectors: &mut [V]) -> Result<(), FourierError> {
-        same_length("the vectors", vectors.len(), self.len())?;
+    pub fn write_vectors<V: From<[f64; 2]>>(&mut self, vectors: &mut [V]) -> Result<(), InputError> {
+        same_length("the vectors", self.len(), vectors.len())?;
         for (vector, value) in vectors.iter_mut().zip(self.values()) {
             *vector = [value.re, value.im].into();
         }
         Ok(())
+    }
+
+    /// Truncates `vectors` to the wave numbers |m| <= (modes - 1)/2, in place: all of them stay as they are where there
+    /// are no more samples than `modes`, at least the mean is kept.
+    ///
+    /// Where the flow is resolved by fewer modes than a body has markers, the body passes the velocities of its markers
+    /// through this, so that nothing moves in a way that the flow does not see.
+    ///
+    /// # Errors
+    /// Another number of vectors than N; they are then left as they were.
+    pub fn truncate_vectors<V>(&mut self, vectors: &mut [V], modes: usize) -> Result<(), InputError>
+    where
+        V: Copy + Into<[f64; 2]> + From<[f64; 2]>,
+    {
+        self.analyse_vectors(vectors)?;
+        if modes >= self.len() {
+            return Ok(());
+        }
+        let largest = spectrum::largest_wave(modes);
+        self.scale(|m| if m <= largest { 1.0 } else { 0.0 });
+        self.write_vectors(vectors)
     }
 }
 

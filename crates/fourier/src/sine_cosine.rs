@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
+use input_checks::{InputError, same_length};
 use num_complex::Complex64;
 
-use crate::error::same_length;
-use crate::{ComplexTransform, FourierError};
+use crate::ComplexTransform;
 
 /// A plan for sine and cosine transforms across an interval of N cells, of complex values in the middle of cells or on
 /// the N - 1 inner nodes:
@@ -48,7 +48,7 @@ impl SineCosine {
     ///
     /// # Errors
     /// Another number of values than N.
-    pub fn analyse_sines(&mut self, values: &mut [Complex64]) -> Result<(), FourierError> {
+    pub fn analyse_sines(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         // sin(pi (N - n) (j + 1/2) / N) = (-1)^j cos(pi n (j + 1/2) / N)
         alternate(values);
         self.analyse_cosines(values)?;
@@ -60,7 +60,7 @@ impl SineCosine {
     ///
     /// # Errors
     /// Another number of values than N.
-    pub fn synthesise_sines(&mut self, values: &mut [Complex64]) -> Result<(), FourierError> {
+    pub fn synthesise_sines(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         values.reverse();
         self.synthesise_cosines(values)?;
         alternate(values);
@@ -71,9 +71,9 @@ impl SineCosine {
     ///
     /// # Errors
     /// Another number of values than N.
-    pub fn analyse_cosines(&mut self, values: &mut [Complex64]) -> Result<(), FourierError> {
+    pub fn analyse_cosines(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         let cells = self.cells();
-        same_length("the values in cells", values.len(), cells)?;
+        same_length("the values in cells", cells, values.len())?;
         let work = &mut self.work[..cells];
         for (j, value) in values.iter().enumerate() {
             work[place(j, cells)] = *value;
@@ -94,9 +94,9 @@ impl SineCosine {
     ///
     /// # Errors
     /// Another number of values than N.
-    pub fn synthesise_cosines(&mut self, values: &mut [Complex64]) -> Result<(), FourierError> {
+    pub fn synthesise_cosines(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         let cells = self.cells();
-        same_length("the values in cells", values.len(), cells)?;
+        same_length("the values in cells", cells, values.len())?;
         let work = &mut self.work[..cells];
         for (n, (out, turn)) in work.iter_mut().zip(&self.turns).enumerate() {
             *out = if n == 0 {
@@ -117,7 +117,7 @@ impl SineCosine {
     ///
     /// # Errors
     /// Another number of values than N - 1.
-    pub fn analyse_node_sines(&mut self, values: &mut [Complex64]) -> Result<(), FourierError> {
+    pub fn analyse_node_sines(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         self.node_sines(values, 2.0 / self.cells() as f64)
     }
 
@@ -125,14 +125,14 @@ impl SineCosine {
     ///
     /// # Errors
     /// Another number of values than N - 1.
-    pub fn synthesise_node_sines(&mut self, values: &mut [Complex64]) -> Result<(), FourierError> {
+    pub fn synthesise_node_sines(&mut self, values: &mut [Complex64]) -> Result<(), InputError> {
         self.node_sines(values, 1.0)
     }
 
     /// `scale` times the sums over the sines, from the transform of the odd continuation to 2 N numbers.
-    fn node_sines(&mut self, values: &mut [Complex64], scale: f64) -> Result<(), FourierError> {
+    fn node_sines(&mut self, values: &mut [Complex64], scale: f64) -> Result<(), InputError> {
         let cells = self.cells();
-        same_length("the values on nodes", values.len(), cells.saturating_sub(1))?;
+        same_length("the values on nodes", cells.saturating_sub(1), values.len())?;
         self.work.fill(Complex64::ZERO);
         for (j, value) in values.iter().enumerate() {
             self.work[j + 1] = *value;

@@ -7,6 +7,7 @@ mod rigid;
 
 use std::ops::Range;
 
+use input_checks::{InputError, positive};
 use stokes_layers::Geometry;
 use stokes_layers::dense::{DoubleLayerMatrix, NodeCurve};
 pub(crate) use stokes_layers::gmres::Outcome;
@@ -82,17 +83,13 @@ pub(crate) struct Droplet {
 ///
 /// # Errors
 /// A viscosity that is not positive and finite.
-pub(crate) fn other_viscosity(kind: &MarkerKind, surroundings: f64) -> Result<Option<f64>, FlowError> {
+pub(crate) fn other_viscosity(kind: &MarkerKind, surroundings: f64) -> Result<Option<f64>, InputError> {
     let (MarkerKind::Interface { viscosity_inside: Some(value) }
     | MarkerKind::UnevenInterface { viscosity_inside: Some(value) }) = *kind
     else {
         return Ok(None);
     };
-    if !(value.is_finite() && value > 0.0) {
-        let remedy = "give a positive finite viscosity, or none for that of the surroundings";
-        return Err(FlowError::Parameter { name: "the viscosity inside an interface", value, remedy });
-    }
-    Ok((value != surroundings).then_some(value))
+    Ok((positive("the viscosity inside an interface", value)? != surroundings).then_some(value))
 }
 
 impl Contrast {

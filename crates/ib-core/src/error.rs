@@ -1,5 +1,6 @@
 //! What can go wrong in a scene.
 
+use input_checks::InputError;
 use stokes_grid::StokesError;
 
 use crate::checkpoint::CheckpointError;
@@ -11,9 +12,9 @@ pub enum FlowError {
     /// The grid solver refused.
     #[error(transparent)]
     Stokes(#[from] StokesError),
-    /// A transform of another length than planned for.
+    /// A number or list that cannot be used.
     #[error(transparent)]
-    Transform(#[from] fourier::FourierError),
+    Input(#[from] InputError),
     /// The layer potentials refused.
     #[error(transparent)]
     Layers(stokes_layers::LayerError),
@@ -62,16 +63,6 @@ pub enum FlowError {
         /// Residual asked for.
         tolerance: f64,
     },
-    /// A parameter out of its range.
-    #[error("{name} is {value}: {remedy}")]
-    Parameter {
-        /// The parameter.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// What to give instead.
-        remedy: &'static str,
-    },
     /// The method cannot do what the scene asks.
     #[error("{what} is not possible here: {remedy}")]
     Unsupported {
@@ -79,16 +70,6 @@ pub enum FlowError {
         what: &'static str,
         /// What to do instead.
         remedy: &'static str,
-    },
-    /// Slices of different length.
-    #[error("{name} has {found} entries where {expected} are needed")]
-    WrongLength {
-        /// The slice.
-        name: &'static str,
-        /// Entries needed.
-        expected: usize,
-        /// Entries given.
-        found: usize,
     },
 }
 

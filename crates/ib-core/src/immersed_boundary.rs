@@ -8,6 +8,7 @@ pub use smeared_contrast::SmearedContrast;
 
 use std::sync::Arc;
 
+use input_checks::same_length;
 use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
 
 use crate::contrast::other_viscosity;
@@ -265,10 +266,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
     }
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
-        if points.len() != out.len() {
-            let (expected, found) = (points.len(), out.len());
-            return Err(FlowError::WrongLength { name: "the samples", expected, found });
-        }
+        same_length("the samples", points.len(), out.len())?;
         self.check(markers)?;
         if self.has_contrast(markers)? {
             return self.contrast_sample(markers, points, out);

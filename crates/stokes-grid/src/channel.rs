@@ -6,9 +6,10 @@ mod mean_flow;
 mod modes;
 mod walls;
 
+use input_checks::positive;
 use num_complex::Complex64;
 
-use crate::error::checks::{check_grids, check_viscosity, not_finite};
+use crate::error::checks::{check_grids, not_finite};
 use crate::field::sum;
 use crate::transform::RowTransform;
 use crate::{CentreField, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, Work, stencil};
@@ -60,7 +61,7 @@ impl ChannelStokes {
     /// # Errors
     /// A periodic grid, or a viscosity that is not positive and finite.
     pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
-        check_viscosity(viscosity)?;
+        positive("viscosity", viscosity)?;
         if !grid.has_walls() {
             return Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" });
         }

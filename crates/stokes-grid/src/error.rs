@@ -2,10 +2,15 @@
 
 pub(crate) mod checks;
 
+use input_checks::InputError;
+
 /// An error of this crate, with the offending values and the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StokesError {
+    /// A number or list that cannot be used.
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// A grid with too few cells in one direction.
     #[error("a grid of {nx} x {ny} cells is too small: use at least {minimum} cells in each direction")]
     GridTooSmall {
@@ -24,40 +29,11 @@ pub enum StokesError {
         /// Cells in y.
         ny: usize,
     },
-    /// A quantity that must be positive and finite is not.
-    #[error("{name} is {value}: give a positive finite number")]
-    NotPositive {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// A quantity that must be finite is not.
-    #[error("{name} is {value}: give a finite number")]
-    NotFinite {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
     /// A field made for another grid than the solver's.
     #[error("{name} lives on another grid than the solver: make both from the same grid")]
     GridMismatch {
         /// The field.
         name: &'static str,
-    },
-    /// A transform of another length than planned for.
-    #[error(transparent)]
-    Transform(#[from] fourier::FourierError),
-    /// A slice of the wrong length.
-    #[error("{name} has {found} values where {expected} are needed")]
-    WrongLength {
-        /// The quantity.
-        name: &'static str,
-        /// Values needed.
-        expected: usize,
-        /// Values given.
-        found: usize,
     },
     /// A periodic box where walls are needed, or the other way round.
     #[error("this needs {needed}: build the grid with {remedy}")]

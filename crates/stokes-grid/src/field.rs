@@ -2,6 +2,8 @@
 
 mod sum;
 
+use input_checks::same_length;
+
 use crate::{Grid, StokesError};
 pub(crate) use sum::sum;
 
@@ -26,10 +28,7 @@ macro_rules! scalar_field {
             /// # Errors
             /// The wrong number of values.
             pub fn from_values(grid: Grid, values: Vec<f64>) -> Result<Self, StokesError> {
-                let expected = grid.nx() * grid.$rows();
-                if values.len() != expected {
-                    return Err(StokesError::WrongLength { name: $what, expected, found: values.len() });
-                }
+                same_length($what, grid.nx() * grid.$rows(), values.len())?;
                 Ok(Self { grid, values })
             }
 
@@ -89,11 +88,8 @@ impl StaggeredField {
     /// The wrong number of values in a component.
     pub fn from_components(grid: Grid, x: Vec<f64>, y: Vec<f64>) -> Result<Self, StokesError> {
         let (nx, ny) = (grid.nx() * grid.centre_rows(), grid.nx() * grid.node_rows());
-        for (name, expected, found) in [("an x component", nx, x.len()), ("a y component", ny, y.len())] {
-            if expected != found {
-                return Err(StokesError::WrongLength { name, expected, found });
-            }
-        }
+        same_length("an x component", nx, x.len())?;
+        same_length("a y component", ny, y.len())?;
         Ok(Self { grid, x, y })
     }
 

@@ -1,5 +1,7 @@
 //! Rectangular grids of square cells.
 
+use input_checks::{finite, positive};
+
 use crate::StokesError;
 
 /// A rectangle of `nx` x `ny` square cells of width `h`, periodic in x, and in y either periodic or bounded by two
@@ -50,9 +52,7 @@ impl Grid {
         if nx < Self::MINIMUM_CELLS || ny < Self::MINIMUM_CELLS {
             return Err(StokesError::GridTooSmall { nx, ny, minimum: Self::MINIMUM_CELLS });
         }
-        if !(h.is_finite() && h > 0.0) {
-            return Err(StokesError::NotPositive { name: "grid spacing", value: h });
-        }
+        positive("grid spacing", h)?;
         let points = ny.checked_add(1).and_then(|rows| rows.checked_mul(nx));
         if points.is_none_or(|n| n > isize::MAX as usize / 64) {
             return Err(StokesError::GridTooLarge { nx, ny });
@@ -66,12 +66,7 @@ impl Grid {
     /// # Errors
     /// A coordinate that is not finite.
     pub fn with_origin(mut self, origin: [f64; 2]) -> Result<Self, StokesError> {
-        for value in origin {
-            if !value.is_finite() {
-                return Err(StokesError::NotFinite { name: "grid origin", value });
-            }
-        }
-        self.origin = origin;
+        self.origin = [finite("grid origin", origin[0])?, finite("grid origin", origin[1])?];
         Ok(self)
     }
 

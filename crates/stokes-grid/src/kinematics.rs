@@ -2,6 +2,8 @@
 //!
 //! Each function checks that its fields share a grid and then writes `out`; nothing is allocated.
 
+use input_checks::same_length;
+
 use crate::error::checks::check_grids;
 use crate::field::sum;
 use crate::stencil::{self, left, right};
@@ -168,9 +170,7 @@ pub fn wall_shear_stress(
     }
     walls.check(&grid)?;
     let (nx, h) = (grid.nx(), grid.spacing());
-    if out.len() != nx {
-        return Err(StokesError::WrongLength { name: "the wall shear stress", expected: nx, found: out.len() });
-    }
+    same_length("the wall shear stress", nx, out.len())?;
     let (row, sign) = match wall {
         Wall::Bottom => (0, 1.0),
         Wall::Top => (grid.ny() - 1, -1.0),

@@ -91,6 +91,7 @@ pub use channel::{ChannelStokes, Drive, Wall, WallMotion};
 pub use error::StokesError;
 pub use field::{CentreField, NodeField, StaggeredField};
 pub use grid::Grid;
+pub use input_checks::InputError;
 pub use kinematics::{
     divergence, flux, normal_strain_rates, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
 };

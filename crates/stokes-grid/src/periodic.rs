@@ -3,7 +3,9 @@
 #[cfg(feature = "rayon")]
 mod parallel;
 
-use crate::error::checks::{check_finite, check_grids, check_viscosity, not_finite};
+use input_checks::{finite, positive};
+
+use crate::error::checks::{check_grids, not_finite};
 use crate::field::sum;
 use crate::{
     CentreField, Grid, RealFft2, SolveReport, StaggeredField, StokesError, StokesSolver, Symbol, Work, stencil,
@@ -44,7 +46,7 @@ impl PeriodicStokes {
     /// # Errors
     /// A grid with walls, or a viscosity that is not positive and finite.
     pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
-        check_viscosity(viscosity)?;
+        positive("viscosity", viscosity)?;
         if grid.has_walls() {
             return Err(StokesError::WrongBoundary { needed: "a periodic box", remedy: "Grid::periodic" });
         }
@@ -71,8 +73,7 @@ impl PeriodicStokes {
     /// # Errors
     /// A component that is not finite.
     pub fn set_mean_velocity(&mut self, mean: [f64; 2]) -> Result<(), StokesError> {
-        mean.into_iter().try_for_each(|value| check_finite("mean velocity", value))?;
-        self.mean_velocity = mean;
+        self.mean_velocity = [finite("mean velocity", mean[0])?, finite("mean velocity", mean[1])?];
         Ok(())
     }
 

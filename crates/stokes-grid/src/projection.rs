@@ -3,7 +3,9 @@
 mod channel;
 mod periodic;
 
-use crate::error::checks::{check_grids, check_viscosity, not_finite};
+use input_checks::positive;
+
+use crate::error::checks::{check_grids, not_finite};
 use crate::field::sum;
 use crate::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
 use channel::ChannelProjection;
@@ -49,7 +51,7 @@ impl ProjectionStokes {
     /// # Errors
     /// A viscosity that is not positive and finite.
     pub fn new(grid: Grid, viscosity: f64) -> Result<Self, StokesError> {
-        check_viscosity(viscosity)?;
+        positive("viscosity", viscosity)?;
         let region = if grid.has_walls() {
             Region::Channel(Box::new(ChannelProjection::new(grid, viscosity)?))
         } else {

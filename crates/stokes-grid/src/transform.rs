@@ -4,6 +4,7 @@ mod columns;
 mod rows;
 mod symbol;
 
+use input_checks::same_length;
 use num_complex::Complex64;
 
 use crate::StokesError;
@@ -116,16 +117,8 @@ impl RealFft2 {
     }
 
     fn check(&self, space: usize, spectrum: usize) -> Result<(), StokesError> {
-        let sizes = [
-            ("a field to transform", self.nx * self.ny, space),
-            ("a spectrum", self.spectrum_width() * self.ny, spectrum),
-        ];
-        for (name, expected, found) in sizes {
-            if expected != found {
-                return Err(StokesError::WrongLength { name, expected, found });
-            }
-        }
-        Ok(())
+        same_length("a field to transform", self.nx * self.ny, space)?;
+        Ok(same_length("a spectrum", self.spectrum_width() * self.ny, spectrum)?)
     }
 }
 

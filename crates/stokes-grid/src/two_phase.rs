@@ -2,7 +2,9 @@
 
 mod viscous_force;
 
-use crate::error::checks::{check_grids, check_viscosity};
+use input_checks::positive;
+
+use crate::error::checks::check_grids;
 use crate::{CentreField, Drive, NodeField, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
 use viscous_force::ViscousForce;
 
@@ -104,10 +106,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// # Errors
     /// A tolerance that is not positive and finite.
     pub fn with_tolerance(mut self, tolerance: f64) -> Result<Self, StokesError> {
-        if !(tolerance.is_finite() && tolerance > 0.0) {
-            return Err(StokesError::NotPositive { name: "the tolerance", value: tolerance });
-        }
-        self.tolerance = tolerance;
+        self.tolerance = positive("the tolerance", tolerance)?;
         Ok(self)
     }
 
@@ -188,7 +187,9 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     pub fn set_viscosity_fields(&mut self, centres: &CentreField, nodes: &NodeField) -> Result<(), StokesError> {
         let fields = [("the viscosity at the centres", centres.grid()), ("the viscosity at the nodes", nodes.grid())];
         check_grids(self.solver.grid(), &fields)?;
-        centres.values().iter().chain(nodes.values()).try_for_each(|&value| check_viscosity(value))?;
+        for &value in centres.values().iter().chain(nodes.values()) {
+            positive("viscosity", value)?;
+        }
         let (at_centres, at_nodes) = self.force.viscosity_mut();
         at_centres.copy_from_slice(centres.values());
         at_nodes.copy_from_slice(nodes.values());

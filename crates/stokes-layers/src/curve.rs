@@ -6,12 +6,10 @@ mod transform;
 use std::f64::consts::TAU;
 
 use fourier::spectrum::{copy_band, differentiate, largest_wave};
+use input_checks::{same_length, within};
 use num_complex::Complex64;
 
-use crate::{
-    LayerError, Vec2,
-    error::{same_length, within},
-};
+use crate::{LayerError, Vec2};
 pub use calculus::{PeriodicCalculus, TensionPlacement};
 pub(crate) use transform::Transform;
 
@@ -205,7 +203,7 @@ impl Curve {
         [positions, forces]: [&[Vec2]; 2],
         curve: usize,
     ) -> Result<(), LayerError> {
-        same_length("the forces on a curve", forces.len(), positions.len())?;
+        same_length("the forces on a curve", positions.len(), forces.len())?;
         within("the number of points of a curve", positions.len() as f64, self.len() as f64, MOST_POINTS)?;
         for (what, values) in [("the position", positions), ("the force", forces)] {
             if let Some(point) = values.iter().position(|value| !(value.x.is_finite() && value.y.is_finite())) {

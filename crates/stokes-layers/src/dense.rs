@@ -6,9 +6,10 @@
 mod curve;
 mod walls;
 
+use input_checks::within;
 use num_complex::Complex64;
 
-use crate::{Forcing, Geometry, LayerError, Vec2, error::within, geometry::Images, gmres::dot, greens::StressKernel};
+use crate::{Forcing, Geometry, LayerError, Vec2, geometry::Images, gmres::dot, greens::StressKernel};
 pub use curve::{Foot, NodeCurve};
 use walls::DenseWalls;
 

@@ -1,11 +1,7 @@
 //! The geometries with known Green's functions.
 
+use input_checks::{InputError, finite, positive};
 use num_complex::Complex64;
-
-use crate::{
-    LayerError,
-    error::{finite, positive},
-};
 
 /// What is held fixed along a channel, beside the forces in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,19 +42,20 @@ pub enum Geometry {
 
 impl Geometry {
     /// Refuses lengths that are not positive and finite and a forcing that is not finite.
-    pub(crate) fn check(&self) -> Result<(), LayerError> {
+    pub(crate) fn check(&self) -> Result<(), InputError> {
         match *self {
-            Self::Plane => Ok(()),
+            Self::Plane => {}
             Self::Box { lengths: [lx, ly] } => {
                 positive("the period in x", lx)?;
-                positive("the period in y", ly)
+                positive("the period in y", ly)?;
             }
             Self::Channel { length, width, forcing: Forcing::Gradient(value) | Forcing::Flux(value) } => {
                 positive("the period of the channel", length)?;
                 positive("the width of the channel", width)?;
-                finite("the forcing of the channel", value)
+                finite("the forcing of the channel", value)?;
             }
         }
+        Ok(())
     }
 
     pub(crate) fn images(&self) -> Images {

@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
+use input_checks::{positive, same_length, within};
 use num_complex::Complex64;
 
 use crate::{
     Geometry, LayerError, Settings, Vec2,
-    error::{positive, same_length, within},
     gmres::{Gmres, Outcome},
     greens::{Flow, Vectors},
     layer::{Density, Layers},
@@ -265,8 +265,8 @@ impl InterfaceFlow {
     pub fn velocities(&mut self, interface: usize, out: &mut [Vec2]) -> Result<(), LayerError> {
         let nodes = self.settings.nodes;
         let expected = self.layers.curves.get(interface).map_or(0, |curve| curve.points);
-        same_length("the velocities of an interface", out.len(), expected)?;
-        same_length("the solution", self.velocities.len(), 2 * nodes * self.len())?;
+        same_length("the velocities of an interface", expected, out.len())?;
+        same_length("the solution", 2 * nodes * self.len(), self.velocities.len())?;
         self.layers.transforms.at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out);
         finite_vectors("the velocity", interface, out)
     }
@@ -278,7 +278,7 @@ impl InterfaceFlow {
     pub fn set_velocities(&mut self, interface: usize, values: &[Vec2]) -> Result<(), LayerError> {
         let nodes = self.settings.nodes;
         let expected = self.layers.curves.get(interface).map_or(0, |curve| curve.points);
-        same_length("the velocities of an interface", values.len(), expected)?;
+        same_length("the velocities of an interface", expected, values.len())?;
         finite_vectors("the velocity", interface, values)?;
         self.velocities.resize(2 * nodes * self.len(), 0.0);
         self.layers.transforms.at_nodes(values, &mut self.velocities[2 * nodes * interface..][..2 * nodes]);
@@ -291,9 +291,9 @@ impl InterfaceFlow {
     /// # Errors
     /// Points that are not finite, slices of different length, no solution.
     pub fn sample(&mut self, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), LayerError> {
-        same_length("out", out.len(), points.len())?;
+        same_length("out", points.len(), out.len())?;
         finite_vectors("the position", 0, points)?;
-        same_length("the solution", self.velocities.len(), 2 * self.settings.nodes * self.len())?;
+        same_length("the solution", 2 * self.settings.nodes * self.len(), self.velocities.len())?;
         let Self { layers, viscosities, contrasts, velocities, .. } = self;
         let density = Density { values: velocities, contrasts };
         let points = points.iter().map(|point| Complex64::new(point.x, point.y));

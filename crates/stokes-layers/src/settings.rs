@@ -1,6 +1,6 @@
 //! How finely and how exactly layers are computed.
 
-use crate::{LayerError, error::within};
+use input_checks::{InputError, within};
 
 /// Resolution and accuracy of [`crate::InterfaceFlow`].
 ///
@@ -31,9 +31,9 @@ impl Default for Settings {
 }
 
 impl Settings {
-    pub(crate) fn check(&self) -> Result<(), LayerError> {
+    pub(crate) fn check(&self) -> Result<(), InputError> {
         within("the number of nodes", self.nodes as f64, 16.0, 4096.0)?;
         within("the tolerance", self.tolerance, 1e-15, 1e-3)?;
-        within("the largest number of iterations", self.most_iterations as f64, 1.0, 1e6)
+        within("the largest number of iterations", self.most_iterations as f64, 1.0, 1e6).map(drop)
     }
 }

@@ -116,9 +116,9 @@ impl Body for ActiveDroplet {
                 self.slip.fill(0.0);
             }
         }
-        if let Some(band) = self.band.as_mut() {
+        if let Some((series, modes)) = &mut self.band {
             // As long as the droplet since `fit`.
-            let _ = band.apply(&mut self.motions);
+            let _ = series.truncate_vectors(&mut self.motions, *modes);
         }
         let (positions, numbers) = rate.split_at_mut(2 * count);
         for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {

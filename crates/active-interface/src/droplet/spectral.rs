@@ -18,15 +18,13 @@ pub(crate) struct SpectralCurve {
     numbers: PeriodicSeries,
 }
 
-fn complex(v: Vec2) -> Complex64 {
-    Complex64::new(v.x, v.y)
-}
-
 fn vector(z: Complex64) -> Vec2 {
     Vec2::new(z.re, z.im)
 }
 
-/// Takes the series through samples, of which there are as many as markers, so that the call cannot fail.
+// A series takes and gives as many samples as there are markers, so that its calls cannot fail.
+
+/// Takes the series through samples.
 fn analyse(series: &mut PeriodicSeries, samples: impl ExactSizeIterator<Item = Complex64>) {
     let _ = series.analyse(samples);
 }
@@ -47,7 +45,7 @@ impl SpectralCurve {
         geometry.stretch.resize(self.len(), 0.0);
         let spacing = TAU / self.len() as f64;
         // Relative to one marker, so that droplets that have travelled far lose no digits.
-        analyse(&mut self.vectors, markers.iter().map(|marker| complex(marker - markers[0])));
+        analyse(&mut self.vectors, markers.iter().map(|x| Complex64::new(x.x - markers[0].x, x.y - markers[0].y)));
         self.vectors.differentiate();
         for (k, &tangent) in self.vectors.values().iter().enumerate() {
             let stretch = tangent.norm();
@@ -78,15 +76,13 @@ impl SpectralCurve {
     /// Turns forces that are integrals of a density from the middle of one segment to that of the next into the density
     /// at the marker times the spacing; their sum stays zero.
     pub(crate) fn sharpen(&mut self, forces: &mut [Vec2]) {
-        analyse(&mut self.vectors, forces.iter().map(|&force| complex(force)));
+        let _ = self.vectors.analyse_vectors(forces);
         let half = PI / self.len() as f64;
         self.vectors.multiply(|wave| {
             let x = wave * half;
             (if x == 0.0 { 1.0 } else { x / x.sin() }).into()
         });
-        for (force, value) in forces.iter_mut().zip(self.vectors.values()) {
-            *force = vector(*value);
-        }
+        let _ = self.vectors.write_vectors(forces);
     }
 
     /// As [`super::geometry::equidistribute`], with derivatives and integrals along the smooth curve.
@@ -110,7 +106,7 @@ impl SpectralCurve {
             let normal = outward(*tau);
             *out = (u.dot(normal) - mean_normal) * normal;
         }
-        analyse(&mut self.vectors, motion.iter().map(|&normal| complex(normal)));
+        let _ = self.vectors.analyse_vectors(motion);
         self.vectors.differentiate();
         // dW/dalpha up to its mean, which the integration leaves out.
         let slopes = self.vectors.values().iter().zip(&geometry.tangents).zip(&geometry.stretch);

@@ -31,7 +31,7 @@ fn a_transform_is_the_sum_it_says_and_the_inverse_undoes_it() {
 fn wrong_lengths_are_errors_and_no_values_are_none() {
     let mut transform = ComplexTransform::new(6);
     let mut seven = values(7);
-    let expected = Err(FourierError::WrongLength { name: "the complex numbers", expected: 6, found: 7 });
+    let expected = Err(InputError::WrongLength { name: "the complex numbers", expected: 6, found: 7 });
     assert_eq!(transform.forward(&mut seven), expected);
     assert_eq!(transform.inverse(&mut seven), expected);
     assert_eq!(seven, values(7));

@@ -31,10 +31,10 @@ fn a_transform_is_the_sum_it_says_and_the_inverse_undoes_it() {
 fn wrong_lengths_are_errors() {
     let mut transform = RealTransform::new(6);
     let (mut six, mut four) = (values(6), vec![Complex64::ZERO; 4]);
-    let expected = Err(FourierError::WrongLength { name: "the spectrum", expected: 4, found: 3 });
+    let expected = Err(InputError::WrongLength { name: "the spectrum", expected: 4, found: 3 });
     assert_eq!(transform.forward(&mut six, &mut four[..3]), expected);
     assert_eq!(transform.inverse(&mut four[..3], &mut six), expected);
-    let expected = Err(FourierError::WrongLength { name: "the real numbers", expected: 6, found: 5 });
+    let expected = Err(InputError::WrongLength { name: "the real numbers", expected: 6, found: 5 });
     assert_eq!(transform.forward(&mut six[..5], &mut four), expected);
     assert_eq!(transform.inverse(&mut four, &mut six[..5]), expected);
     assert_eq!(six, values(6));

@@ -79,10 +79,10 @@ fn wrong_lengths_are_errors_and_nothing_is_allocated() {
     let mut series = PeriodicSeries::new(6);
     series.analyse_vectors(&samples(1, 6)).unwrap();
     let before = series.coefficients().to_vec();
-    let expected = Err(FourierError::WrongLength { name: "the samples", expected: 6, found: 7 });
+    let expected = Err(InputError::WrongLength { name: "the samples", expected: 6, found: 7 });
     assert_eq!(series.analyse_vectors(&samples(1, 7)), expected);
     assert_eq!(series.coefficients(), before);
-    let expected = Err(FourierError::WrongLength { name: "the vectors", expected: 6, found: 5 });
+    let expected = Err(InputError::WrongLength { name: "the vectors", expected: 6, found: 5 });
     assert_eq!(series.write_vectors(&mut samples(1, 5)), expected);
 
     let mut vectors = samples(2, 6);
@@ -92,4 +92,36 @@ fn wrong_lengths_are_errors_and_nothing_is_allocated() {
         series.write_vectors(&mut vectors).unwrap();
     });
     assert_eq!(info.count_total, 0);
+}
+
+fn wave(m: usize, len: usize) -> Vec<[f64; 2]> {
+    let angle = |k: usize| TAU * (m * k) as f64 / len as f64 + 0.4;
+    (0..len).map(|k| [angle(k).cos(), 2.0 * angle(k).sin()]).collect()
+}
+
+#[test]
+fn low_modes_stay_and_high_ones_go() {
+    for (len, modes) in [(30, 7), (65, 32), (64, 1), (33, 0)] {
+        let mut series = PeriodicSeries::new(len);
+        for m in 0..=len / 2 {
+            let mut values = wave(m, len);
+            series.truncate_vectors(&mut values, modes).unwrap();
+            let kept = if 2 * m < modes.max(1) { 1.0 } else { 0.0 };
+            for (value, wave) in values.iter().zip(wave(m, len)) {
+                let error = (value[0] - kept * wave[0]).hypot(value[1] - kept * wave[1]);
+                assert!(error < 1e-13, "mode {m}, {modes} of {len}: {value:?} and {wave:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn as_many_modes_as_samples_leave_them_bitwise_and_wrong_lengths_are_errors() {
+    let mut values = wave(5, 10);
+    PeriodicSeries::new(10).truncate_vectors(&mut values, 10).unwrap();
+    assert_eq!(values, wave(5, 10));
+    let expected = Err(InputError::WrongLength { name: "the samples", expected: 12, found: 10 });
+    assert_eq!(PeriodicSeries::new(12).truncate_vectors(&mut values, 4), expected);
+    assert_eq!(PeriodicSeries::new(12).truncate_vectors(&mut values, 40), expected);
+    assert_eq!(values, wave(5, 10));
 }

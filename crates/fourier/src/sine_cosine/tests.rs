@@ -47,12 +47,12 @@ fn synthesis_is_the_sum_it_says_and_analysis_undoes_it() {
 fn wrong_lengths_are_errors() {
     let mut transform = SineCosine::new(6);
     let mut values = column(7);
-    let expected = Err(FourierError::WrongLength { name: "the values in cells", expected: 6, found: 7 });
+    let expected = Err(InputError::WrongLength { name: "the values in cells", expected: 6, found: 7 });
     assert_eq!(transform.analyse_cosines(&mut values), expected);
     assert_eq!(transform.synthesise_cosines(&mut values), expected);
     assert_eq!(transform.analyse_sines(&mut values), expected);
     assert_eq!(transform.synthesise_sines(&mut values), expected);
-    let expected = Err(FourierError::WrongLength { name: "the values on nodes", expected: 5, found: 7 });
+    let expected = Err(InputError::WrongLength { name: "the values on nodes", expected: 5, found: 7 });
     assert_eq!(transform.analyse_node_sines(&mut values), expected);
     assert_eq!(transform.synthesise_node_sines(&mut values), expected);
 }

@@ -16,7 +16,7 @@ impl From<LayerError> for FlowError {
             LayerError::NoConvergence { iterations, residual, tolerance } => {
                 Self::NoConvergence { what: "the solution for a viscosity contrast", iterations, residual, tolerance }
             }
-            LayerError::WrongLength { name, expected, found } => Self::WrongLength { name, expected, found },
+            LayerError::Input(error) => Self::Input(error),
             LayerError::Clockwise { .. } => Self::Unsupported {
                 what: "an interface whose markers run clockwise or that crosses itself",
                 remedy: "give its markers in counter-clockwise order",

@@ -1,7 +1,9 @@
 //! A short-range repulsion between interfaces.
 
+use input_checks::{InputError, positive};
+
 use super::boundary::nearest;
-use crate::{FlowError, MarkerKind, Markers};
+use crate::{MarkerKind, Markers};
 
 /// A repulsion between different interfaces that come close, an option for scenes of several droplets whose films the
 /// grid does not resolve; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of
@@ -23,17 +25,11 @@ impl Repulsion {
     ///
     /// # Errors
     /// Values that are not positive and finite.
-    pub fn new(strength: f64, range: f64) -> Result<Self, FlowError> {
-        for (name, value) in [("the strength of the repulsion", strength), ("the range of the repulsion", range)] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(FlowError::Parameter {
-                    name,
-                    value,
-                    remedy: "give a positive finite number, or no repulsion",
-                });
-            }
-        }
-        Ok(Self { strength, range })
+    pub fn new(strength: f64, range: f64) -> Result<Self, InputError> {
+        Ok(Self {
+            strength: positive("the strength of the repulsion", strength)?,
+            range: positive("the range of the repulsion", range)?,
+        })
     }
 
     /// Its strength (force per length squared).

@@ -55,7 +55,7 @@ impl Setup {
         self.check_overlap(&droplets, &solids)?;
         let mut scene = Scene::new(self.flow()?).with_step_size(self.step);
         if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
-            scene = scene.with_repulsion(ib_core::Repulsion::new(strength, range)?);
+            scene = scene.with_repulsion(ib_core::Repulsion::new(strength, range).map_err(ib_core::FlowError::from)?);
         }
         let droplets = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
         let solids = solids.into_iter().map(|solid| scene.add(solid)).collect();

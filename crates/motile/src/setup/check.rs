@@ -29,24 +29,20 @@ impl Checked<'_> {
         Err(SetupError::Value { key, value: value.to_string(), remedy: remedy.into() })
     }
 
+    fn require(&self, holds: bool, key: &str, value: f64, remedy: &str) -> Result<(), SetupError> {
+        if holds { Ok(()) } else { self.refuse(key, &value, remedy) }
+    }
+
     fn positive(&self, key: &str, value: f64) -> Result<(), SetupError> {
-        if value.is_finite() && value > 0.0 {
-            Ok(())
-        } else {
-            self.refuse(key, &value, "give a positive finite number")
-        }
+        self.require(value.is_finite() && value > 0.0, key, value, "give a positive finite number")
     }
 
     fn not_negative(&self, key: &str, value: f64) -> Result<(), SetupError> {
-        if value.is_finite() && value >= 0.0 {
-            Ok(())
-        } else {
-            self.refuse(key, &value, "give a finite number that is not negative")
-        }
+        self.require(value.is_finite() && value >= 0.0, key, value, "give a finite number that is not negative")
     }
 
     fn finite(&self, key: &str, value: f64) -> Result<(), SetupError> {
-        if value.is_finite() { Ok(()) } else { self.refuse(key, &value, "give a finite number") }
+        self.require(value.is_finite(), key, value, "give a finite number")
     }
 
     fn all_finite(&self, key: &str, values: &[f64]) -> Result<(), SetupError> {
@@ -82,23 +78,21 @@ impl Setup {
         }
         match self.step {
             StepSize::Fixed(dt) => top.positive("step.fixed", dt)?,
-            StepSize::OfLimit(part) if !(part > 0.0 && part <= 1.0) => {
-                top.refuse("step.of-limit", &part, "give a number above 0 and at most 1")?;
+            StepSize::OfLimit(part) => {
+                let holds = part > 0.0 && part <= 1.0;
+                top.require(holds, "step.of-limit", part, "give a number above 0 and at most 1")?;
             }
-            StepSize::Adaptive { tolerance } if !(tolerance > 0.0 && tolerance < 1.0) => {
-                top.refuse("step.adaptive.tolerance", &tolerance, "give a number above 0 and below 1")?;
+            StepSize::Adaptive { tolerance } => {
+                let holds = tolerance > 0.0 && tolerance < 1.0;
+                top.require(holds, "step.adaptive.tolerance", tolerance, "give a number above 0 and below 1")?;
             }
-            StepSize::OfLimit(_) | StepSize::Adaptive { .. } => {}
         }
         if let Some(repulsion) = self.repulsion {
             top.positive("repulsion.strength", repulsion.strength)?;
             top.positive("repulsion.range", repulsion.range)?;
             if self.droplets.len() < 2 {
-                top.refuse(
-                    "repulsion",
-                    &format!("{repulsion:?}"),
-                    "it acts between droplets: give two, or leave it out",
-                )?;
+                let remedy = "it acts between droplets: give two, or leave it out";
+                top.refuse("repulsion", &format!("{repulsion:?}"), remedy)?;
             }
         }
         for (number, droplet) in self.droplets.iter().enumerate() {
@@ -117,11 +111,8 @@ impl Setup {
             checked.refuse("nodes", &nodes, format!("give a number from {least} to {most}"))?;
         }
         if cells < nodes || cells as f64 > MARKERS[1] {
-            checked.refuse(
-                "cells",
-                &cells,
-                format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]),
-            )?;
+            let remedy = format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]);
+            checked.refuse("cells", &cells, remedy)?;
         }
         if !self.solids.is_empty() {
             return Err(SetupError::needs_a_grid("solids"));
@@ -136,15 +127,6 @@ impl Setup {
             checked.positive("marker-spacing", spacing)?;
         }
         self.cells(grid, self.region.lengths())?;
-        let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
-        for (number, droplet) in self.droplets.iter().enumerate() {
-            // An estimate for shapes that are not known yet.
-            let perimeter = std::f64::consts::TAU * droplet.shape.size();
-            if perimeter.is_finite() && perimeter / spacing > MARKERS[1] {
-                let remedy = format!("droplets[{number}] would have more than {} markers: give more", MARKERS[1]);
-                checked.refuse("marker-spacing", &spacing, remedy)?;
-            }
-        }
         let (with_fluid, equal): (Vec<_>, Vec<_>) =
             self.droplets.iter().partition(|droplet| droplet.motion == MarkerMotion::WithFluid);
         if !with_fluid.is_empty() && equal.is_empty() {
@@ -193,25 +175,14 @@ impl Setup {
 }
 
 impl DropletShape {
-    /// About how large it is (length).
-    fn size(&self) -> f64 {
-        match self {
-            Self::Round { radius } | Self::Modes { radius, .. } | Self::Squeezed { radius, .. } => *radius,
-            Self::Ellipse { half_axes } => half_axes[0].max(half_axes[1]),
-            Self::Points(points) => points.iter().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max),
-        }
-    }
-
     fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
         match self {
             Self::Round { radius } => checked.positive("shape.round.radius", *radius),
             Self::Squeezed { radius, half_height, .. } => {
                 checked.positive("shape.squeezed.radius", *radius)?;
                 checked.positive("shape.squeezed.half-height", *half_height)?;
-                if half_height > radius {
-                    checked.refuse("shape.squeezed.half-height", &half_height, "give less than the radius")?;
-                }
-                Ok(())
+                let (key, remedy) = ("shape.squeezed.half-height", "give less than the radius");
+                checked.require(half_height <= radius, key, *half_height, remedy)
             }
             Self::Ellipse { half_axes } => {
                 half_axes.iter().try_for_each(|&axis| checked.positive("shape.ellipse.half-axes", axis))
@@ -252,12 +223,9 @@ impl DropletSetup {
         if let Exclusion::Step(strength) | Exclusion::Quadratic(strength) = particles.excluded_volume {
             checked.not_negative("particles.excluded-volume", strength)?;
         }
-        if let Start::Perturbed { amplitude, .. } = particles.start
-            && !(0.0..1.0).contains(&amplitude)
-        {
-            checked.refuse("particles.start.perturbed.amplitude", &amplitude, "give a number from 0 to below 1")?;
-        }
-        Ok(())
+        let Start::Perturbed { amplitude, .. } = particles.start else { return Ok(()) };
+        let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));
+        checked.require(holds, key, amplitude, "give a number from 0 to below 1")
     }
 }
 
@@ -270,12 +238,8 @@ impl SolidSetup {
         }
         let spacing = self.mesh_spacing.unwrap_or(grid.spacing);
         let across = |key: &str, length: f64| {
-            if length / spacing > MOST_ACROSS {
-                let remedy = format!("with points {spacing} apart it would have too many of them: give less");
-                checked.refuse(key, &length, remedy)
-            } else {
-                Ok(())
-            }
+            let remedy = format!("with points {spacing} apart it would have too many of them: give less");
+            checked.require(length / spacing <= MOST_ACROSS, key, length, &remedy)
         };
         match &self.outline {
             SolidOutline::WallBelow(shape)
@@ -287,11 +251,8 @@ impl SolidSetup {
                 let (width, height) = (shape.width(), setup.region.lengths()[1]);
                 checked.positive("outline.width", width)?;
                 across("outline.width", height.max(setup.region.lengths()[0]))?;
-                if self.outline_is_wall() && width >= height {
-                    let remedy =
-                        format!("give less than {height}, the width of the region, so that the walls have room");
-                    checked.refuse("outline.width", &width, remedy)?;
-                }
+                let remedy = format!("give less than {height}, the width of the region, so that the walls have room");
+                checked.require(self.side().is_none() || width < height, "outline.width", width, &remedy)?;
             }
             SolidOutline::Disc { centre, radius } => {
                 checked.all_finite("outline.disc.centre", centre)?;
@@ -313,7 +274,7 @@ impl SolidSetup {
                 }
             }
         }
-        if self.hold == Hold::Pinned && !self.outline_is_wall() {
+        if self.hold == Hold::Pinned && self.side().is_none() {
             let remedy = "only walls reach the rigid walls of the region: give tethered or free";
             checked.refuse("hold", &"pinned", remedy)?;
         }
@@ -332,10 +293,6 @@ impl SolidSetup {
         }
         self.material.check(&checked)
     }
-
-    fn outline_is_wall(&self) -> bool {
-        self.side().is_some()
-    }
 }
 
 impl super::Material {
@@ -348,11 +305,8 @@ impl super::Material {
             }
             Self::MooneyRivlin { bulk, fraction, .. } => {
                 checked.positive("material.bulk", bulk)?;
-                if (0.0..=1.0).contains(&fraction) {
-                    Ok(())
-                } else {
-                    checked.refuse("material.fraction", &fraction, "give a number from 0 to 1")
-                }
+                let holds = (0.0..=1.0).contains(&fraction);
+                checked.require(holds, "material.fraction", fraction, "give a number from 0 to 1")
             }
         }
     }

@@ -1,7 +1,6 @@
 //! What drives the flow along a channel.
 
-use crate::StokesError;
-use crate::error::checks::check_finite;
+use input_checks::{InputError, finite};
 
 /// What is held fixed along a channel, beside the forces and the walls' motion: the mean pressure gradient or the flux.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,11 +18,11 @@ pub enum Drive {
 }
 
 impl Drive {
-    pub(crate) fn check(self) -> Result<(), StokesError> {
+    pub(crate) fn check(self) -> Result<(), InputError> {
         match self {
             Self::ZeroGradient | Self::ZeroFlux => Ok(()),
-            Self::Gradient(value) => check_finite("imposed pressure gradient", value),
-            Self::Flux(value) => check_finite("imposed flux", value),
+            Self::Gradient(value) => finite("imposed pressure gradient", value).map(drop),
+            Self::Flux(value) => finite("imposed flux", value).map(drop),
         }
     }
 }

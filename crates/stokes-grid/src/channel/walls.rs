@@ -1,8 +1,8 @@
 //! How the walls of a channel move.
 
+use input_checks::{all_finite, same_length};
 use num_complex::Complex64;
 
-use crate::error::checks::check_finite;
 use crate::field::sum;
 use crate::transform::RowTransform;
 use crate::{Grid, StokesError};
@@ -50,8 +50,8 @@ impl WallMotion {
         let x = |i: usize| grid.origin()[0] + i as f64 * grid.spacing();
         let bottom: Vec<f64> = (0..grid.nx()).map(|i| bottom(x(i))).collect();
         let top: Vec<f64> = (0..grid.nx()).map(|i| top(x(i))).collect();
-        bottom.iter().try_for_each(|&value| check_finite("velocity of the bottom wall", value))?;
-        top.iter().try_for_each(|&value| check_finite("velocity of the top wall", value))?;
+        all_finite("the velocity of the bottom wall", &bottom)?;
+        all_finite("the velocity of the top wall", &top)?;
         Ok(Self { bottom, top })
     }
 
@@ -93,12 +93,10 @@ impl WallMotion {
         let found = self.bottom.len();
         if found == 0 {
             Ok(())
-        } else if !grid.has_walls() {
-            Err(StokesError::WrongBoundary { needed: "walls to move", remedy: "Grid::channel" })
-        } else if found != grid.nx() {
-            Err(StokesError::WrongLength { name: "the wall motion", expected: grid.nx(), found })
+        } else if grid.has_walls() {
+            Ok(same_length("the wall motion", grid.nx(), found)?)
         } else {
-            Ok(())
+            Err(StokesError::WrongBoundary { needed: "walls to move", remedy: "Grid::channel" })
         }
     }
 }

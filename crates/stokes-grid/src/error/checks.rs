@@ -1,10 +1,8 @@
-//! What is checked before any work.
+//! Checks of grids and of results.
+
+use input_checks::finite;
 
 use crate::{Grid, StokesError};
-
-pub(crate) fn check_viscosity(value: f64) -> Result<(), StokesError> {
-    if value.is_finite() && value > 0.0 { Ok(()) } else { Err(StokesError::NotPositive { name: "viscosity", value }) }
-}
 
 /// An error that names the first of `fields` that lives on another grid.
 pub(crate) fn check_grids(own: &Grid, fields: &[(&'static str, &Grid)]) -> Result<(), StokesError> {
@@ -14,16 +12,8 @@ pub(crate) fn check_grids(own: &Grid, fields: &[(&'static str, &Grid)]) -> Resul
     }
 }
 
-pub(crate) fn check_finite(name: &'static str, value: f64) -> Result<(), StokesError> {
-    if value.is_finite() { Ok(()) } else { Err(StokesError::NotFinite { name, value }) }
-}
-
 /// Why `result` is not finite: something given that is not, or else an overflow.
 pub(crate) fn not_finite(result: &'static str, given: &[(&'static str, &[f64])]) -> StokesError {
-    for (name, values) in given {
-        if let Some(&value) = values.iter().find(|value| !value.is_finite()) {
-            return StokesError::NotFinite { name, value };
-        }
-    }
-    StokesError::Overflow { name: result }
+    let found = given.iter().find_map(|&(name, values)| values.iter().find_map(|&value| finite(name, value).err()));
+    found.map_or(StokesError::Overflow { name: result }, StokesError::Input)
 }

@@ -1,6 +1,7 @@
 use std::f64::consts::PI;
 
 use super::*;
+use crate::InputError;
 
 const SIZES: [(usize, usize); 10] =
     [(1, 1), (1, 6), (6, 1), (2, 2), (16, 8), (15, 9), (7, 13), (20, 17), (17, 20), (37, 24)];
@@ -67,8 +68,11 @@ fn wrong_lengths_are_errors() {
     let mut transform = RealFft2::new(6, 4).unwrap();
     let mut spectrum = vec![Complex64::ZERO; 16];
     let found = transform.forward(&[0.0; 23], &mut spectrum);
-    assert_eq!(found, Err(StokesError::WrongLength { name: "a field to transform", expected: 24, found: 23 }));
+    assert_eq!(
+        found,
+        Err(StokesError::Input(InputError::WrongLength { name: "a field to transform", expected: 24, found: 23 }))
+    );
     let found = transform.inverse(&spectrum[..15], &mut [0.0; 24]);
-    assert_eq!(found, Err(StokesError::WrongLength { name: "a spectrum", expected: 16, found: 15 }));
+    assert_eq!(found, Err(StokesError::Input(InputError::WrongLength { name: "a spectrum", expected: 16, found: 15 })));
     assert!(matches!(RealFft2::new(0, 4), Err(StokesError::GridTooSmall { .. })));
 }

@@ -5,8 +5,8 @@ use crate::common::{distance, largest, random_force, relative_distance, residual
 use crate::dense;
 use approx::assert_abs_diff_eq;
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, ProjectionStokes, SolveReport, StaggeredField, StokesError, StokesSolver,
-    Wall, WallMotion, flux, wall_shear_stress,
+    CentreField, ChannelStokes, Drive, Grid, InputError, ProjectionStokes, SolveReport, StaggeredField, StokesError,
+    StokesSolver, Wall, WallMotion, flux, wall_shear_stress,
 };
 
 const DRIVES: [Drive; 4] = [Drive::ZeroGradient, Drive::Gradient(0.7), Drive::ZeroFlux, Drive::Flux(-0.4)];
@@ -205,13 +205,19 @@ fn bad_input_ends_in_an_error_that_names_it() {
     let other = Grid::channel(12, 8, 0.1).unwrap();
     let periodic = Grid::periodic(12, 9, 0.1).unwrap();
     assert!(matches!(ChannelStokes::new(periodic, 1.0), Err(StokesError::WrongBoundary { .. })));
-    assert!(matches!(ChannelStokes::new(grid, f64::NAN), Err(StokesError::NotPositive { name: "viscosity", .. })));
+    assert!(matches!(
+        ChannelStokes::new(grid, f64::NAN),
+        Err(StokesError::Input(InputError::NotPositive { name: "viscosity", .. }))
+    ));
     assert!(matches!(WallMotion::uniform(&periodic, 0.0, 1.0), Err(StokesError::WrongBoundary { .. })));
-    assert!(matches!(WallMotion::uniform(&grid, 0.0, f64::INFINITY), Err(StokesError::NotFinite { .. })));
+    assert!(matches!(
+        WallMotion::uniform(&grid, 0.0, f64::INFINITY),
+        Err(StokesError::Input(InputError::EntryNotFinite { .. }))
+    ));
     let mut solver = ChannelStokes::new(grid, 1.0).unwrap();
-    assert!(matches!(solver.set_drive(Drive::Flux(f64::NAN)), Err(StokesError::NotFinite { .. })));
+    assert!(matches!(solver.set_drive(Drive::Flux(f64::NAN)), Err(StokesError::Input(InputError::NotFinite { .. }))));
     let walls = WallMotion::uniform(&Grid::channel(13, 9, 0.1).unwrap(), 0.0, 1.0).unwrap();
-    let expected = StokesError::WrongLength { name: "the wall motion", expected: 12, found: 13 };
+    let expected = StokesError::Input(InputError::WrongLength { name: "the wall motion", expected: 12, found: 13 });
     assert_eq!(solver.set_walls(walls), Err(expected));
     let mut velocity = StaggeredField::zeros(grid);
     let wrong = solver.solve(&StaggeredField::zeros(other), &mut velocity);
@@ -219,11 +225,17 @@ fn bad_input_ends_in_an_error_that_names_it() {
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         let mut force = random_force(grid, 1);
         force.components_mut().0[17] = bad;
-        assert!(matches!(solver.solve(&force, &mut velocity), Err(StokesError::NotFinite { name: "the force", .. })));
+        assert!(matches!(
+            solver.solve(&force, &mut velocity),
+            Err(StokesError::Input(InputError::NotFinite { name: "the force", .. }))
+        ));
         let in_pressure = solver.pressure(&force, &velocity, &mut CentreField::zeros(grid));
-        assert!(matches!(in_pressure, Err(StokesError::NotFinite { name: "the force", .. })));
+        assert!(matches!(in_pressure, Err(StokesError::Input(InputError::NotFinite { name: "the force", .. }))));
         let mut projection = ProjectionStokes::new(grid, 1.0).unwrap();
-        assert!(matches!(projection.solve(&force, &mut velocity), Err(StokesError::NotFinite { .. })));
+        assert!(matches!(
+            projection.solve(&force, &mut velocity),
+            Err(StokesError::Input(InputError::NotFinite { .. }))
+        ));
         assert_eq!(velocity, StaggeredField::zeros(grid));
     }
     let mut projection = ProjectionStokes::new(periodic, 1.0).unwrap();

@@ -2,8 +2,8 @@
 
 use approx::assert_abs_diff_eq;
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, NodeField, PeriodicStokes, StaggeredField, StokesError, StokesSolver,
-    Wall, WallMotion, divergence, flux, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
+    CentreField, ChannelStokes, Drive, Grid, InputError, NodeField, PeriodicStokes, StaggeredField, StokesError,
+    StokesSolver, Wall, WallMotion, divergence, flux, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
 };
 
 use crate::common::{largest, random, random_force};
@@ -108,5 +108,5 @@ fn fields_that_do_not_belong_together_are_errors() {
     assert!(matches!(stress, Err(StokesError::WrongBoundary { .. })));
     let velocity = StaggeredField::zeros(channel);
     let stress = wall_shear_stress(&velocity, 1.0, &WallMotion::AT_REST, Wall::Top, &mut [0.0; 7]);
-    assert!(matches!(stress, Err(StokesError::WrongLength { expected: 8, found: 7, .. })));
+    assert!(matches!(stress, Err(StokesError::Input(InputError::WrongLength { expected: 8, found: 7, .. }))));
 }

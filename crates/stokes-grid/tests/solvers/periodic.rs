@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use crate::common::{distance, largest, random_force, relative_distance, residuals};
 use approx::assert_abs_diff_eq;
 use stokes_grid::{
-    CentreField, Grid, PeriodicStokes, ProjectionStokes, StaggeredField, StokesError, StokesSolver, divergence,
+    CentreField, Grid, InputError, PeriodicStokes, ProjectionStokes, StaggeredField, StokesError, StokesSolver,
+    divergence,
 };
 
 #[test]
@@ -112,22 +113,31 @@ fn work_is_one_transform_each_way_and_three_with_projection() {
 fn bad_input_ends_in_an_error_that_names_it() {
     let grid = Grid::periodic(12, 9, 0.1).unwrap();
     for eta in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(PeriodicStokes::new(grid, eta), Err(StokesError::NotPositive { name: "viscosity", .. })));
-        assert!(matches!(ProjectionStokes::new(grid, eta), Err(StokesError::NotPositive { name: "viscosity", .. })));
+        assert!(matches!(
+            PeriodicStokes::new(grid, eta),
+            Err(StokesError::Input(InputError::NotPositive { name: "viscosity", .. }))
+        ));
+        assert!(matches!(
+            ProjectionStokes::new(grid, eta),
+            Err(StokesError::Input(InputError::NotPositive { name: "viscosity", .. }))
+        ));
     }
     let channel = Grid::channel(12, 9, 0.1).unwrap();
     assert!(matches!(PeriodicStokes::new(channel, 1.0), Err(StokesError::WrongBoundary { .. })));
     let mut solver = PeriodicStokes::new(grid, 1.0).unwrap();
-    assert!(matches!(solver.set_mean_velocity([0.0, f64::NAN]), Err(StokesError::NotFinite { .. })));
+    assert!(matches!(solver.set_mean_velocity([0.0, f64::NAN]), Err(StokesError::Input(InputError::NotFinite { .. }))));
     let mut velocity = StaggeredField::zeros(grid);
     let expected = Err(StokesError::GridMismatch { name: "the force" });
     assert_eq!(solver.solve(&StaggeredField::zeros(channel), &mut velocity), expected);
     for bad in [f64::NAN, f64::INFINITY] {
         let mut force = random_force(grid, 1);
         force.components_mut().1[17] = bad;
-        assert!(matches!(solver.solve(&force, &mut velocity), Err(StokesError::NotFinite { name: "the force", .. })));
+        assert!(matches!(
+            solver.solve(&force, &mut velocity),
+            Err(StokesError::Input(InputError::NotFinite { name: "the force", .. }))
+        ));
         let in_pressure = solver.pressure(&force, &velocity, &mut CentreField::zeros(grid));
-        assert!(matches!(in_pressure, Err(StokesError::NotFinite { name: "the force", .. })));
+        assert!(matches!(in_pressure, Err(StokesError::Input(InputError::NotFinite { name: "the force", .. }))));
         assert_eq!(velocity, StaggeredField::zeros(grid));
     }
     let mut force = random_force(grid, 1);

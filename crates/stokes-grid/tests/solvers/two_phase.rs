@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, NodeField, PeriodicStokes, ProjectionStokes, StaggeredField, StokesError,
-    StokesSolver, TwoPhaseStokes, WallMotion, divergence,
+    CentreField, ChannelStokes, Drive, Grid, InputError, NodeField, PeriodicStokes, ProjectionStokes, StaggeredField,
+    StokesError, StokesSolver, TwoPhaseStokes, WallMotion, divergence,
 };
 
 const SPACINGS: [usize; 3] = [32, 64, 128];
@@ -250,7 +250,7 @@ fn what_is_wrong_is_said() {
     let solver = || PeriodicStokes::new(grid, 1.0).unwrap();
     let mut flow = TwoPhaseStokes::new(solver()).unwrap();
     for value in [0.0, -2.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(flow.set_viscosity(|_, _| value), Err(StokesError::NotPositive { .. })));
+        assert!(matches!(flow.set_viscosity(|_, _| value), Err(StokesError::Input(InputError::NotPositive { .. }))));
         assert!(TwoPhaseStokes::new(solver()).unwrap().with_tolerance(value.min(0.0)).is_err());
     }
     assert_eq!(flow.viscosity_fields().0.values()[3], 1.0);
@@ -259,7 +259,7 @@ fn what_is_wrong_is_said() {
     let mut velocity = StaggeredField::zeros(grid);
     let mut force = StaggeredField::zeros(grid);
     force.components_mut().0[5] = f64::NAN;
-    assert!(matches!(flow.solve(&force, &mut velocity), Err(StokesError::NotFinite { .. })));
+    assert!(matches!(flow.solve(&force, &mut velocity), Err(StokesError::Input(InputError::NotFinite { .. }))));
     force.components_mut().0[5] = 1.0;
     let mut flow = flow.with_most_iterations(3);
     flow.set_viscosity(|x, _| if x < 0.0 { 1.0 } else { 1e4 }).unwrap();

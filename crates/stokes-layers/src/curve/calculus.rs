@@ -3,12 +3,10 @@
 use std::f64::consts::TAU;
 
 use fourier::PeriodicSeries;
+use input_checks::{InputError, same_length, within};
 
 use super::MOST_POINTS;
-use crate::{
-    LayerError, Vec2,
-    error::{same_length, within},
-};
+use crate::{LayerError, Vec2};
 
 /// Where on the curve the tension of [`PeriodicCalculus::tension_forces`] is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,7 +78,7 @@ impl PeriodicCalculus {
         forces: &mut [Vec2],
     ) -> Result<(), LayerError> {
         self.check(positions.len(), forces.len())?;
-        same_length("tension", tension.len(), self.len())?;
+        same_length("tension", self.len(), tension.len())?;
         let len = self.len();
         let shift = match placement {
             TensionPlacement::Points => 0.0,
@@ -97,8 +95,8 @@ impl PeriodicCalculus {
         Ok(self.forces.write_vectors(forces)?)
     }
 
-    fn check(&self, values: usize, out: usize) -> Result<(), LayerError> {
-        same_length("values", values, self.len())?;
-        same_length("out", out, self.len())
+    fn check(&self, values: usize, out: usize) -> Result<(), InputError> {
+        same_length("values", self.len(), values)?;
+        same_length("out", self.len(), out)
     }
 }

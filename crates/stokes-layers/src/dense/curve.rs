@@ -1,6 +1,8 @@
 //! Closed curves given node by node.
 
-use crate::{LayerError, Vec2, error::within, greens::Sources};
+use input_checks::within;
+
+use crate::{LayerError, Vec2, greens::Sources};
 
 use super::{DoubleLayerMatrix, MOST_NODES};
 

@@ -1,4 +1,5 @@
 use super::*;
+use crate::InputError;
 
 fn curves(layer: &DoubleLayerMatrix) -> Vec<NodeCurve> {
     let mut first = 0;
@@ -76,10 +77,10 @@ fn what_cannot_be_is_refused_before_memory_is_taken() {
     let mut layer = layers()[0].clone();
     let mut curve = NodeCurve::default();
     let error = curve.load(&layer, 0, 1.0, &[Vec2::ZERO; 7]).unwrap_err();
-    assert!(matches!(error, LayerError::OutOfRange { value: 7.0, least: 8.0, .. }), "{error}");
+    assert!(matches!(error, LayerError::Input(InputError::OutOfRange { value: 7.0, minimum: 8.0, .. })), "{error}");
     let circle = |k: usize| 1e-3 * std::f64::consts::TAU * k as f64;
     let positions: Vec<Vec2> = (0..1000).map(|k| Vec2::new(circle(k).cos(), circle(k).sin())).collect();
     curve.load(&layer, 0, 1.0, &positions).unwrap();
     let error = layer.build(&vec![curve; 11]).unwrap_err();
-    assert!(matches!(error, LayerError::OutOfRange { value: 11_000.0, .. }), "{error}");
+    assert!(matches!(error, LayerError::Input(InputError::OutOfRange { value: 11_000.0, .. })), "{error}");
 }

@@ -1,14 +1,14 @@
 //! Checks of the numbers and lists that constructors are given.
 //!
 //! ```
-//! use ib_core::input::{InputError, positive};
+//! use input_checks::{InputError, positive};
 //!
 //! assert_eq!(positive("the radius", 2.0), Ok(2.0));
 //! let error = positive("the radius", -1.0).unwrap_err();
 //! assert_eq!(error.to_string(), "the radius is -1: give a positive finite number");
 //! ```
 
-use crate::Vec2;
+use glam::DVec2 as Vec2;
 
 /// A number or list that cannot be used, with the remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
