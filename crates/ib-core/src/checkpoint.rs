@@ -164,7 +164,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             time: system.time(),
             steps: system.steps() as u64,
             minimum_wall_gap: system.minimum_wall_gap(),
-            minimum_gap: system.minimum_gap(),
+            minimum_gap: system.narrowest_so_far(),
             region: system.hydrodynamics().medium().domain.into(),
             properties: system.properties(),
             bodies: system.all_bodies().map(|(_, body)| Part::of(body)).collect(),

@@ -207,18 +207,16 @@ pub enum SceneError {
         /// Viscosity of the exterior fluid (stress times time).
         exterior: f64,
     },
-    /// Two interfaces, or one and its own image in a periodic domain, have come to overlap.
+    /// An interface and another body, or its own image in a periodic domain, have come to overlap.
     #[error(
-        "at time {time} marker {marker} of {body} at ({x:.4}, {y:.4}) has crossed {other} by {depth:.3e}, more than {allowed:.3e}: use a \
-         smaller time step, a finer grid or a repulsion between the interfaces"
+        "at time {time} {body} has crossed {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: use a smaller time \
+         step, a finer grid or a repulsion between the interfaces"
     )]
     Crossing {
         /// Time at the start of the step.
         time: f64,
-        /// The body whose marker it is.
+        /// The body whose marker or corner it is.
         body: String,
-        /// Number of the marker in the body.
-        marker: usize,
         /// Its x coordinate (length).
         x: f64,
         /// Its y coordinate (length).

@@ -100,9 +100,7 @@ impl<H: Hydrodynamics> System<H> {
         self.steps += 1;
         self.bodies.iter_mut().for_each(|body| body.keep_step());
         self.record_wall_gap();
-        if let Some(Gap { width, .. }) = self.narrowest {
-            self.minimum_gap = Some(self.minimum_gap.map_or(width, |least| least.min(width)));
-        }
+        self.record_gap();
     }
 
     /// What computes the flow.
