@@ -16,9 +16,11 @@ use crate::{
 
 /// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
 ///
-/// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. Time step, integrator,
-/// observers and resolution of the grid may be others then; what the scene is must be the same: the domain, what
-/// drives the fluid along it, the viscosities, the bodies and what they are made of ([`crate::Body::properties`]).
+/// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. What the scene is must be
+/// the same: the domain, what drives the fluid along it, the viscosities, the bodies and what they are made of
+/// ([`crate::Body::properties`], with the numbers of markers and points that they started with). How it is computed may
+/// be another then: time step, integrator and observers, grid spacing (with markers and meshes as before), kernel,
+/// corrections, transport of particles. The flow of the state is then computed anew.
 ///
 /// ```
 /// use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
@@ -77,6 +79,8 @@ struct Found {
     iterations: u64,
     residual: f64,
     mean_pressure_gradient: [f64; 2],
+    /// Of the grid, if there was one.
+    spacing: Option<f64>,
 }
 
 /// A named state.
@@ -158,6 +162,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             iterations: report.iterations as u64,
             residual: report.residual,
             mean_pressure_gradient: report.mean_pressure_gradient,
+            spacing: system.hydrodynamics().medium().spacing,
         };
         Checkpoint {
             description: description.into(),
@@ -237,9 +242,10 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             })?;
         }
         self.report = checkpoint.report.clone();
-        if let Some((velocities, found)) = &checkpoint.known {
+        let spacing = self.system().hydrodynamics().medium().spacing;
+        if let Some((velocities, found)) = checkpoint.known.as_ref().filter(|(_, found)| found.spacing == spacing) {
             let velocities = velocities.iter().map(|&[x, y]| Vec2::new(x, y));
-            let Found { iterations, residual, mean_pressure_gradient } = *found;
+            let Found { iterations, residual, mean_pressure_gradient, .. } = *found;
             let report = FlowReport { iterations: iterations as usize, residual, mean_pressure_gradient };
             self.system_mut().take_flow(&checkpoint.flow, velocities, report)?;
         }

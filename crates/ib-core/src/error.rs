@@ -33,8 +33,8 @@ pub enum FlowError {
     },
     /// A marker lies beyond a wall.
     #[error(
-        "marker {marker} of body {body} at ({x}, {y}) is {depth} beyond the wall, more than {allowed}: \
-         use a smaller time step or a finer grid"
+        "marker {marker} of body {body} at ({x:.4}, {y:.4}) is {depth:.3e} beyond the wall, more than {allowed:.3e}: \
+         move it, or use a smaller time step or a finer grid"
     )]
     BeyondWall {
         /// Number of the body.
@@ -51,7 +51,9 @@ pub enum FlowError {
         allowed: f64,
     },
     /// An iteration did not converge.
-    #[error("{what} stopped at a relative residual of {residual:e} after {iterations} iterations, above {tolerance:e}")]
+    #[error(
+        "{what} stopped at a relative residual of {residual:.1e} after {iterations} iterations, above {tolerance:e}"
+    )]
     NoConvergence {
         /// The iteration.
         what: &'static str,
@@ -122,7 +124,7 @@ pub enum BodyError {
         second: usize,
     },
     /// A bound on a conserved quantity was exceeded.
-    #[error("{what} has changed by {change:e} of its value, more than {bound:e}: use a smaller time step or spacing")]
+    #[error("{what} has changed by {change:.1e} of its value, more than {bound:e}: use a smaller time step or spacing")]
     NotConserved {
         /// The quantity.
         what: &'static str,

@@ -206,8 +206,8 @@ impl Boundary {
         self.sides.iter().map(|[start, end]| (end - start).length()).fold(0.0, f64::max)
     }
 
-    /// Where the sides start: the corners of closed polygons.
-    pub(crate) fn corners(&self) -> impl Iterator<Item = Vec2> {
+    /// Where the sides start (length): the corners of closed polygons.
+    pub fn corners(&self) -> impl Iterator<Item = Vec2> {
         self.sides.iter().map(|[start, _]| *start)
     }
 

@@ -95,9 +95,8 @@ impl Gaps {
         let exterior = medium.viscosity;
         self.kinds.iter().enumerate().find_map(|(outer, kind)| {
             let interior = kind.viscosity_inside().filter(|interior| *interior != exterior)?;
-            let inside = |inner: &usize| {
-                self.kinds[*inner].is_interface() && self.lies_in(*inner, outer, medium.domain.periods)
-            };
+            let inside =
+                |inner: &usize| self.kinds[*inner].is_interface() && self.lies_in(*inner, outer, medium.domain.periods);
             (0..self.kinds.len()).find(inside).map(|inner| Conflict::Nested { inner, outer, interior, exterior })
         })
     }

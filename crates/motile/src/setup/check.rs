@@ -4,8 +4,8 @@ use ib_core::StepSize;
 use stokes_grid::Drive;
 
 use super::{
-    Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion, Method,
-    Region, Setup, SolidOutline, SolidSetup, Start,
+    ChannelShape, Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
+    MarkerMotion, Method, Region, Setup, SolidOutline, SolidSetup, Start,
 };
 use crate::SetupError;
 
@@ -66,13 +66,16 @@ impl Setup {
         match self.region {
             Region::Plane => {}
             Region::Box { lengths } => {
-                lengths.into_iter().try_for_each(|length| top.positive("region.box.lengths", length))?;
+                top.positive("region.box.lengths[0]", lengths[0])?;
+                top.positive("region.box.lengths[1]", lengths[1])?;
             }
             Region::Channel { length, width, drive } => {
                 top.positive("region.channel.length", length)?;
                 top.positive("region.channel.width", width)?;
-                if let Drive::Gradient(value) | Drive::Flux(value) = drive {
-                    top.finite("region.channel.drive", value)?;
+                match drive {
+                    Drive::Gradient(value) => top.finite("region.channel.drive.gradient", value)?,
+                    Drive::Flux(value) => top.finite("region.channel.drive.flux", value)?,
+                    Drive::ZeroGradient | Drive::ZeroFlux => {}
                 }
             }
         }
@@ -249,8 +252,10 @@ impl DropletSetup {
         checked.finite("particles.activity", particles.activity)?;
         checked.not_negative("particles.diffusion", particles.diffusion)?;
         checked.positive("particles.concentration", particles.concentration)?;
-        if let Exclusion::Step(strength) | Exclusion::Quadratic(strength) = particles.excluded_volume {
-            checked.not_negative("particles.excluded-volume", strength)?;
+        match particles.excluded_volume {
+            Exclusion::None => {}
+            Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
+            Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
         }
         if let Start::Perturbed { amplitude, .. } = particles.start
             && !(0.0..1.0).contains(&amplitude)
@@ -281,16 +286,29 @@ impl SolidSetup {
             SolidOutline::WallBelow(shape)
             | SolidOutline::WallAbove(shape)
             | SolidOutline::Island { of: shape, .. } => {
+                let outline = match &self.outline {
+                    SolidOutline::WallBelow(_) => "outline.wall-below".to_owned(),
+                    SolidOutline::WallAbove(_) => "outline.wall-above".to_owned(),
+                    _ => "outline.island.of".to_owned(),
+                };
                 if !matches!(setup.region, Region::Channel { .. }) {
                     checked.refuse("outline", &"a wall or an island", "give a region that is a channel")?;
                 }
                 let (width, height) = (shape.width(), setup.region.lengths()[1]);
-                checked.positive("outline.width", width)?;
-                across("outline.width", height.max(setup.region.lengths()[0]))?;
+                let key = format!("{outline}.{}.width", shape.name());
+                checked.positive(&key, width)?;
+                across(&key, height.max(setup.region.lengths()[0]))?;
                 if self.outline_is_wall() && width >= height {
                     let remedy =
                         format!("give less than {height}, the width of the region, so that the walls have room");
-                    checked.refuse("outline.width", &width, remedy)?;
+                    checked.refuse(&key, &width, remedy)?;
+                }
+                let islands = usize::from(matches!(shape, ChannelShape::Branching { .. }));
+                if let SolidOutline::Island { number, .. } = self.outline
+                    && number >= islands
+                {
+                    let remedy = format!("a {} channel has {islands}, counted from 0", shape.name());
+                    checked.refuse("outline.island.number", &number, remedy)?;
                 }
             }
             SolidOutline::Disc { centre, radius } => {
@@ -340,20 +358,20 @@ impl SolidSetup {
 
 impl super::Material {
     fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
-        checked.positive("material.shear", self.shear())?;
+        let (name, bulk) = match *self {
+            Self::Springs { .. } => ("springs", None),
+            Self::NeoHookean { bulk, .. } => ("neo-hookean", Some(bulk)),
+            Self::SaintVenantKirchhoff { bulk, .. } => ("saint-venant-kirchhoff", Some(bulk)),
+            Self::MooneyRivlin { bulk, .. } => ("mooney-rivlin", Some(bulk)),
+        };
+        let key = |entry: &str| format!("material.{name}.{entry}");
+        checked.positive(&key("shear"), self.shear())?;
+        bulk.map_or(Ok(()), |bulk| checked.positive(&key("bulk"), bulk))?;
         match *self {
-            Self::Springs { .. } => Ok(()),
-            Self::NeoHookean { bulk, .. } | Self::SaintVenantKirchhoff { bulk, .. } => {
-                checked.positive("material.bulk", bulk)
+            Self::MooneyRivlin { fraction, .. } if !(0.0..=1.0).contains(&fraction) => {
+                checked.refuse(&key("fraction"), &fraction, "give a number from 0 to 1")
             }
-            Self::MooneyRivlin { bulk, fraction, .. } => {
-                checked.positive("material.bulk", bulk)?;
-                if (0.0..=1.0).contains(&fraction) {
-                    Ok(())
-                } else {
-                    checked.refuse("material.fraction", &fraction, "give a number from 0 to 1")
-                }
-            }
+            _ => Ok(()),
         }
     }
 }

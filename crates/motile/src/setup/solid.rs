@@ -66,13 +66,13 @@ pub struct SolidSetup {
 
 #[cfg(feature = "serde")]
 fn solid_name() -> String {
-    "solid".to_owned()
+    SolidSetup::NAME.to_owned()
 }
 
 /// Outlines of solids, in their reference state.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
 pub enum SolidOutline {
     /// The wall from the lower rigid wall of the region up to the lower side of a channel.
     WallBelow(ChannelShape),
@@ -112,7 +112,7 @@ pub enum SolidOutline {
 /// Channels between two walls, centred on the origin, with the period of the region.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
 pub enum ChannelShape {
     /// Between two straight walls.
     Straight {
@@ -129,7 +129,8 @@ pub enum ChannelShape {
         throat_length: f64,
         /// Length of each ramp (length).
         ramp: f64,
-        /// Middle of the passage in x (length).
+        /// Middle of the passage in x (length); 0 in a file that gives none.
+        #[cfg_attr(feature = "serde", serde(default))]
         centre: f64,
     },
     /// With two triangular teeth that almost meet ([`Valve`]).
@@ -140,9 +141,11 @@ pub enum ChannelShape {
         gap: f64,
         /// Width of the base of a tooth (length).
         base: f64,
-        /// Radius by which the tips and feet are rounded (length); 0 for sharp ones.
+        /// Radius by which the tips and feet are rounded (length); 0 for sharp ones, as in a file that gives none.
+        #[cfg_attr(feature = "serde", serde(default))]
         radius: f64,
-        /// Tips in x (length).
+        /// Tips in x (length); 0 in a file that gives none.
+        #[cfg_attr(feature = "serde", serde(default))]
         centre: f64,
     },
     /// Of asymmetric teeth ([`Ratchet`]).
@@ -155,7 +158,8 @@ pub enum ChannelShape {
         teeth: usize,
         /// Part of a tooth over which the channel narrows, going to larger x (0 to 1, both excluded).
         rise: f64,
-        /// Straight flanks with sharp edges instead of cosine ramps.
+        /// Straight flanks with sharp edges instead of cosine ramps, as in a file only where it says so.
+        #[cfg_attr(feature = "serde", serde(default))]
         sharp: bool,
     },
     /// With sinusoidal sides ([`SinusoidalChannel`]).
@@ -166,7 +170,8 @@ pub enum ChannelShape {
         amplitude: f64,
         /// Number of waves in a period.
         waves: usize,
-        /// Phase of the upper side against the lower one (radians).
+        /// Phase of the upper side against the lower one (radians); 0 in a file that gives none.
+        #[cfg_attr(feature = "serde", serde(default))]
         phase: f64,
     },
     /// That splits in two around an island and joins again ([`BranchingChannel`]).
@@ -307,7 +312,7 @@ impl SolidSetup {
     #[must_use]
     pub fn new(outline: SolidOutline, material: Material) -> Self {
         Self {
-            name: "solid".to_owned(),
+            name: Self::NAME.to_owned(),
             mesh: MeshKind::default(),
             mesh_spacing: None,
             surface: Surface::default(),
@@ -385,32 +390,37 @@ impl SolidSetup {
 }
 
 impl SolidSetup {
+    /// Its name unless it has one of its own.
+    pub(super) const NAME: &str = "solid";
+
     /// The solid of this description in a scene.
     pub(super) fn build(&self, setup: &Setup) -> Result<Solid, SetupError> {
         let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
-        let [period, height] = setup.region.lengths();
-        let mesher = self.mesher(grid)?;
-        let closed = |outline: Outline| mesher.mesh(&Enclosed::new([outline])?);
+        let enclosed = self.enclosed(&setup.region, self.set_back(grid))?;
+        self.on_mesh(self.mesher(grid)?.mesh(&enclosed)?, &setup.region)
+    }
+
+    /// What it fills, a wall set back by that much (length); islands are as they are.
+    pub(super) fn enclosed(&self, region: &Region, set_back: f64) -> Result<Enclosed, SetupError> {
+        let [period, height] = region.lengths();
         let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
-        let set_back = self.set_back(grid);
-        // Islands are meshed as they are.
         let channel = |shape: &ChannelShape| {
             let channel = shape.channel(period)?;
             if set_back > 0.0 { channel.widened(2.0 * set_back) } else { Ok(channel) }
         };
-        let mesh = match &self.outline {
-            SolidOutline::WallBelow(shape) => channel(shape)?.lower_wall(-0.5 * height, &mesher)?,
-            SolidOutline::WallAbove(shape) => channel(shape)?.upper_wall(0.5 * height, &mesher)?,
-            SolidOutline::Island { of, number } => of.channel(period)?.island(*number, &mesher)?,
-            &SolidOutline::Disc { centre, radius } => closed(Outline::circle(vector(centre), radius)?)?,
-            &SolidOutline::Ellipse { centre, half_axes } => closed(Outline::ellipse(vector(centre), half_axes)?)?,
+        let closed = match &self.outline {
+            SolidOutline::WallBelow(shape) => return Ok(channel(shape)?.below(-0.5 * height)?),
+            SolidOutline::WallAbove(shape) => return Ok(channel(shape)?.above(0.5 * height)?),
+            SolidOutline::Island { of, number } => of.channel(period)?.island(*number)?.clone(),
+            &SolidOutline::Disc { centre, radius } => Outline::circle(vector(centre), radius)?,
+            &SolidOutline::Ellipse { centre, half_axes } => Outline::ellipse(vector(centre), half_axes)?,
             SolidOutline::Polygon { corners, fillet } => {
                 let corners: Vec<Vec2> = corners.iter().copied().map(vector).collect();
                 let outline = Outline::polygon(&corners)?;
-                closed(if *fillet > 0.0 { outline.filleted(*fillet)? } else { outline })?
+                if *fillet > 0.0 { outline.filleted(*fillet)? } else { outline }
             }
         };
-        self.on_mesh(mesh, &setup.region)
+        Ok(Enclosed::new([closed])?)
     }
 
     /// The solid on a mesh, at rest and not held.
@@ -469,6 +479,18 @@ impl Grading {
 }
 
 impl ChannelShape {
+    /// As it stands in a file.
+    pub(super) fn name(&self) -> &'static str {
+        match self {
+            Self::Straight { .. } => "straight",
+            Self::Constriction { .. } => "constriction",
+            Self::Valve { .. } => "valve",
+            Self::Ratchet { .. } => "ratchet",
+            Self::Sinusoidal { .. } => "sinusoidal",
+            Self::Branching { .. } => "branching",
+        }
+    }
+
     /// Its width away from whatever narrows or widens it (length).
     #[must_use]
     pub fn width(&self) -> f64 {
