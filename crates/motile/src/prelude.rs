@@ -7,5 +7,5 @@ pub use crate::{
 };
 pub use active_interface::{ActiveDroplet, Curve, Flux};
 pub use elastic_solids::Solid;
-pub use ib_core::{AnyKernel, Checkpoint, Every, Handle, Hydrodynamics, Scene, StepSize, System, Vec2};
+pub use ib_core::{AnyKernel, Checkpoint, Every, Handle, Hydrodynamics, Scene, SceneError, StepSize, System, Vec2};
 pub use stokes_grid::Drive;

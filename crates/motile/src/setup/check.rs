@@ -5,7 +5,7 @@ use stokes_grid::Drive;
 
 use super::{
     ChannelShape, Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
-    MarkerMotion, Method, Region, Setup, SolidOutline, SolidSetup, Start,
+    MarkerMotion, Method, Region, Setup, SolidOutline, SolidSetup, Start, Surface,
 };
 use crate::SetupError;
 
@@ -334,6 +334,9 @@ impl SolidSetup {
         if self.hold == Hold::Pinned && !self.outline_is_wall() {
             let remedy = "only walls reach the rigid walls of the region: give tethered or free";
             checked.refuse("hold", &"pinned", remedy)?;
+        }
+        if self.surface == Surface::SetBack && !self.outline_is_wall() {
+            checked.refuse("surface", &"set-back", "only walls are set back: give corrected or plain")?;
         }
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;

@@ -12,7 +12,6 @@ use crate::SetupError;
 ///
 /// ```
 /// use motile::prelude::*;
-/// use motile::{Axis, Grading};
 ///
 /// // A soft channel of width 2, stiffening along x, in a region of 12 x 5 whose rigid walls hold the outermost rows.
 /// let material = Material::NeoHookean { shear: 200.0, bulk: 400.0 };
@@ -274,7 +273,7 @@ pub enum Surface {
     /// start in touch with the walls starts squeezed a little, beside a film.
     #[default]
     Corrected,
-    /// Walls are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first order, of a few tenths of
+    /// Walls, and only they, are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first order, of a few tenths of
     /// a grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for long, such as
     /// the mouth of a constriction, where in time they enter corrected surfaces or invert a triangle of springs.
     SetBack,

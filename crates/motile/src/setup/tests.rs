@@ -91,6 +91,7 @@ fn what_makes_no_scene_is_refused_with_its_key() {
 fn solids_that_make_no_scene_are_refused() {
     let base = elastic(3.0, Surface::Corrected);
     let wall = base.solids[0].clone();
+    let set_back = SolidSetup { surface: Surface::SetBack, ..disc(0.0, 0.0, 0.3) };
     let disc = SolidOutline::Disc { centre: [0.0, 0.0], radius: 0.3 };
     let along = |factors: Vec<[f64; 2]>| Grading::Along { axis: Axis::X, factors };
     let cases = [
@@ -106,6 +107,7 @@ fn solids_that_make_no_scene_are_refused() {
         ("solids[0].outline.wall-below.straight.width = 5", {
             SolidSetup { outline: SolidOutline::WallBelow(ChannelShape::Straight { width: 5.0 }), ..wall.clone() }
         }),
+        ("solids[0].surface = set-back: only walls are set back", set_back),
         ("solids[0].hold = pinned", SolidSetup { outline: disc, ..wall.clone() }),
         (
             "solids[0].hold.tethered.stiffness = 0",
@@ -184,7 +186,11 @@ fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
 fn messages_name_the_entry_and_short_numbers() {
     let modes = DropletShape::Modes { radius: 1.0, cosines: vec![0.0, 1.25], sines: Vec::new() };
     let bent = Setup { droplets: vec![DropletSetup { shape: modes, ..DropletSetup::default() }], ..Setup::default() };
-    assert!(refused(&bent).starts_with("droplets[0]: the radius is -2"), "{}", refused(&bent));
+    assert!(
+        refused(&bent).starts_with("droplets[0]: the radius is -5.721e-4 at the polar angle"),
+        "{}",
+        refused(&bent)
+    );
     let base = elastic(3.0, Surface::Plain);
     let island = SolidOutline::Island { of: ChannelShape::Straight { width: 3.0 }, number: 3 };
     let crossing =
