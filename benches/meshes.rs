@@ -3,16 +3,16 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use motile::elastic_solids::{Mesher, Outline, Region, SolidError};
+use motile::elastic_solids::{Interior, Mesher, Outline, SolidError};
 use motile::ib_core::Vec2;
 
-fn wall() -> Result<Region, SolidError> {
+fn wall() -> Result<Interior, SolidError> {
     let wave = |x: f64| -1.0 + 0.4 * (std::f64::consts::PI * x / 3.0).cos();
-    Region::new([Outline::flat(-6.0, 12.0, -2.5)?, Outline::profile(-6.0, 12.0, wave)?])
+    Interior::new([Outline::flat(-6.0, 12.0, -2.5)?, Outline::profile(-6.0, 12.0, wave)?])
 }
 
 fn meshes(c: &mut Criterion) {
-    let disc = Outline::circle(Vec2::ZERO, 1.0).and_then(|outline| Region::new([outline]));
+    let disc = Outline::circle(Vec2::ZERO, 1.0).and_then(|outline| Interior::new([outline]));
     for (name, region, spacing) in [("wavy wall", wall(), 0.046), ("disc", disc, 0.1)] {
         let region = region.expect("good outlines");
         let mesher = Mesher::new(spacing).expect("a good spacing");

@@ -1,6 +1,7 @@
-//! Scenes as a user meets them: hard cases, checkpoints, odd parameters, programs that are killed.
+//! Scenes as a user meets them: hard cases, checkpoints, copies, odd parameters, programs that are killed.
 
 mod checkpoints;
+mod copies;
 mod killed;
 mod parameters;
 mod suite;

@@ -6,10 +6,9 @@ use motile::active_interface::{
     observables::Frame,
     theory::{LinearTheory, RoundDroplet, SquirmerFlow},
 };
-use motile::boundary_integral::{BoundaryIntegral, Forcing, Region as Domain, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Forcing, Geometry, Settings};
 use motile::elastic_solids::{
     Mesher, Moduli, NeoHookean, Outline, Solid,
-    channel::{Constriction, SinusoidalChannel, StraightChannel, Valve},
     material::{MooneyRivlin, SaintVenantKirchhoff},
     mesh::{equilateral_block, equilateral_strip, fitted_strip},
 };
@@ -211,15 +210,15 @@ fn makers() -> Vec<Maker> {
             .is_ok()
         }),
         maker("Region::Box", &[4.0, 4.0], "++", |v| {
-            BoundaryIntegral::new(Domain::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
+            BoundaryIntegral::new(Geometry::Box { lengths: [v[0], v[1]] }, 1.0, settings()).is_ok()
         }),
         maker("Region::Channel", &[4.0, 4.0, 0.1], "++-", |v| {
-            let region = Domain::Channel { length: v[0], width: v[1], forcing: Forcing::Flux(v[2]) };
+            let region = Geometry::Channel { length: v[0], width: v[1], forcing: Forcing::Flux(v[2]) };
             BoundaryIntegral::new(region, 1.0, settings()).is_ok()
         }),
         maker("BoundaryIntegral", &[1.0, 1e-8, 6.0], "+++", |v| {
             let settings = Settings { tolerance: v[1], ..settings() };
-            let flow = BoundaryIntegral::new(Domain::Plane, v[0], settings);
+            let flow = BoundaryIntegral::new(Geometry::Plane, v[0], settings);
             flow.and_then(|flow| flow.with_reference_perimeter(v[2])).is_ok()
         }),
         maker("Moduli", &[1.0, 2.0], "++", |v| Moduli::new(v[0], v[1]).is_ok()),
@@ -241,19 +240,17 @@ fn makers() -> Vec<Maker> {
         maker("fitted_strip", &[2.0, 1.0], "++", |v| fitted_strip(Vec2::ZERO, [v[0], v[1]], 0.5).is_ok()),
         maker("Mesher", &[0.1], "+", |v| Mesher::new(v[0]).is_ok()),
         maker("Outline::circle", &[0.0, 0.0, 1.0], "--+", |v| Outline::circle(Vec2::new(v[0], v[1]), v[2]).is_ok()),
-        maker("StraightChannel", &[6.0, 2.0], "++", |v| {
-            StraightChannel { period: v[0], width: v[1] }.channel().is_ok()
-        }),
+        maker("StraightChannel", &[6.0, 2.0], "++", |v| ChannelShape::Straight { width: v[1] }.channel(v[0]).is_ok()),
         maker("SinusoidalChannel", &[6.0, 2.0, 0.3, 0.1], "++--", |v| {
-            SinusoidalChannel { period: v[0], width: v[1], amplitude: v[2], phase: v[3], waves: 2 }.channel().is_ok()
+            ChannelShape::Sinusoidal { width: v[1], amplitude: v[2], phase: v[3], waves: 2 }.channel(v[0]).is_ok()
         }),
         maker("Constriction", &[8.0, 2.0, 1.0, 1.0, 1.0, 0.0], "++++0-", |v| {
-            Constriction { period: v[0], width: v[1], throat: v[2], throat_length: v[3], ramp: v[4], centre: v[5] }
-                .channel()
+            ChannelShape::Constriction { width: v[1], throat: v[2], throat_length: v[3], ramp: v[4], centre: v[5] }
+                .channel(v[0])
                 .is_ok()
         }),
         maker("Valve", &[8.0, 3.0, 1.0, 2.0, 0.1, 0.0], "++++0-", |v| {
-            Valve { period: v[0], width: v[1], gap: v[2], base: v[3], radius: v[4], centre: v[5] }.channel().is_ok()
+            ChannelShape::Valve { width: v[1], gap: v[2], base: v[3], radius: v[4], centre: v[5] }.channel(v[0]).is_ok()
         }),
         maker("Setup viscosity", &[100.0], "+", |v| builds(&Setup { viscosity: v[0], ..coarse() })),
         maker("Setup step.fixed", &[1e-3], "+", |v| builds(&Setup { step: StepSize::Fixed(v[0]), ..coarse() })),

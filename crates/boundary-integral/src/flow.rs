@@ -7,7 +7,7 @@ use ib_core::{
 };
 use ib_core::{Vec2, hydrodynamics::MarkerGroup};
 use stokes_grid::Drive;
-use stokes_layers::{Forcing, Interface, InterfaceFlow, LayerError, Region, Settings, Solution, WarmStart};
+use stokes_layers::{Forcing, Geometry, Interface, InterfaceFlow, LayerError, Settings, Solution, WarmStart};
 
 /// Stokes flow of closed fluid interfaces in the plane, a periodic box or a channel, without a grid:
 /// [`stokes_layers::InterfaceFlow`], which has the equations, for the markers of bodies.
@@ -28,8 +28,8 @@ impl BoundaryIntegral {
     ///
     /// # Errors
     /// A viscosity that is not positive and finite, or a region or settings out of their range.
-    pub fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
-        let flow = InterfaceFlow::new(region, viscosity, settings)?;
+    pub fn new(geometry: Geometry, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
+        let flow = InterfaceFlow::new(geometry, viscosity, settings)?;
         let stiffness = stiffness(settings.nodes, std::f64::consts::TAU);
         Ok(Self { flow, stiffness, work: FlowWork::default() })
     }
@@ -46,10 +46,10 @@ impl BoundaryIntegral {
         Ok(Self { stiffness: stiffness(self.settings().nodes, perimeter), ..self })
     }
 
-    /// The region.
+    /// The geometry.
     #[must_use]
-    pub fn region(&self) -> &Region {
-        self.flow.region()
+    pub fn geometry(&self) -> &Geometry {
+        self.flow.geometry()
     }
 
     /// Resolution and accuracy.
@@ -82,7 +82,7 @@ impl Hydrodynamics for BoundaryIntegral {
     /// interfaces of the last evaluation; before the first one `q/4` with the reference perimeter.
     fn medium(&self) -> Medium {
         Medium {
-            domain: domain(self.region()),
+            domain: domain(self.geometry()),
             viscosity: self.flow.viscosity(),
             spacing: None,
             shape_modes: Some(self.settings().nodes),
@@ -92,7 +92,7 @@ impl Hydrodynamics for BoundaryIntegral {
     }
 
     fn drive(&self) -> Option<Drive> {
-        let Region::Channel { forcing, .. } = *self.region() else { return None };
+        let Geometry::Channel { forcing, .. } = *self.geometry() else { return None };
         Some(match forcing {
             Forcing::Gradient(gradient) => Drive::Gradient(gradient),
             Forcing::Flux(flux) => Drive::Flux(flux),
@@ -149,17 +149,17 @@ impl Hydrodynamics for BoundaryIntegral {
 }
 
 /// A region as bodies see it, with its middle at the origin.
-fn domain(region: &Region) -> Domain {
+fn domain(geometry: &Geometry) -> Domain {
     let unbounded = Domain { origin: [0.0; 2], periods: [None; 2], walls: None };
-    match *region {
-        Region::Box { lengths } => {
+    match *geometry {
+        Geometry::Box { lengths } => {
             Domain { origin: lengths.map(|length| -0.5 * length), periods: lengths.map(Some), ..unbounded }
         }
-        Region::Channel { length, width, .. } => {
+        Geometry::Channel { length, width, .. } => {
             let (origin, walls) = ([-0.5 * length, -0.5 * width], Some([-0.5 * width, 0.5 * width]));
             Domain { origin, periods: [Some(length), None], walls }
         }
-        Region::Plane => unbounded,
+        Geometry::Plane => unbounded,
     }
 }
 

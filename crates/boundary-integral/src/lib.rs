@@ -2,7 +2,7 @@
 //!
 //! In two-dimensional Stokes flow a scene of droplets has all its forces on curves, so the flow needs to be known on
 //! these curves alone. [`BoundaryIntegral`] computes it to spectral accuracy in the plane, a periodic box or a channel
-//! ([`Region`]), for any viscosity inside and outside, and implements [`ib_core::Hydrodynamics`], so that a body does
+//! ([`Geometry`]), for any viscosity inside and outside, and implements [`ib_core::Hydrodynamics`], so that a body does
 //! not notice which method moves it. Flow, gradient and pressure are available at any point, at any distance from an
 //! interface. The mathematics is in [`stokes_layers`].
 //!
@@ -12,7 +12,7 @@
 //! its tip moves inward.
 //!
 //! ```
-//! use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Region, Settings, TensionPlacement};
+//! use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Geometry, Settings, TensionPlacement};
 //! use ib_core::{Hydrodynamics, MarkerKind, Markers, Vec2};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -27,7 +27,7 @@
 //! let tension = vec![1.0; count];
 //! calculus.tension_forces(&markers.positions, &tension, TensionPlacement::Points, &mut markers.forces)?;
 //!
-//! let mut flow = BoundaryIntegral::new(Region::Plane, 1.0, Settings::default())?;
+//! let mut flow = BoundaryIntegral::new(Geometry::Plane, 1.0, Settings::default())?;
 //! let report = flow.velocities(&mut markers)?;
 //! assert!((markers.velocities[0].x + 0.029_016_190).abs() < 1e-8);
 //! assert!(report.iterations < 10);
@@ -41,7 +41,7 @@
 mod flow;
 
 pub use flow::BoundaryIntegral;
-pub use stokes_layers::{Forcing, LayerError, PeriodicCalculus, Region, Settings, TensionPlacement};
+pub use stokes_layers::{Forcing, Geometry, LayerError, PeriodicCalculus, Settings, TensionPlacement};
 
 /// The forcing of a channel as the solvers on grids have it.
 #[must_use]

@@ -2,7 +2,7 @@
 
 mod scenes;
 
-use boundary_integral::{BoundaryIntegral, Forcing, Region, Settings, forcing};
+use boundary_integral::{BoundaryIntegral, Forcing, Geometry, Settings, forcing};
 use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2, hydrodynamics::FlowReport};
 use scenes::{Ellipse, markers};
 use stokes_grid::Drive;
@@ -18,9 +18,9 @@ struct Solved {
 }
 
 fn solve(period: f64, width: f64, drive: Drive, ellipses: &[Ellipse]) -> Solved {
-    let region = Region::Channel { length: period, width, forcing: forcing(drive) };
+    let geometry = Geometry::Channel { length: period, width, forcing: forcing(drive) };
     let settings = Settings { nodes: 128, tolerance: 1e-14, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(geometry, 1.0, settings).expect("a valid scene");
     let mut markers = markers(ellipses, COUNT);
     let report = solver.velocities(&mut markers).expect("a valid scene");
     Solved { lengths: [period, width], solver, markers, report }
@@ -131,7 +131,7 @@ fn a_thin_film_converges() {
     let run = |nodes: usize| {
         let settings = Settings { nodes, tolerance: 1e-12, ..Settings::default() };
         let mut solver = BoundaryIntegral::new(
-            Region::Channel { length: 8.0, width: 3.0, forcing: Forcing::default() },
+            Geometry::Channel { length: 8.0, width: 3.0, forcing: Forcing::default() },
             1.0,
             settings,
         )

@@ -4,7 +4,7 @@ mod reference;
 
 use std::f64::consts::TAU;
 
-use boundary_integral::{BoundaryIntegral, PeriodicCalculus, Region, Settings, TensionPlacement, forcing};
+use boundary_integral::{BoundaryIntegral, Geometry, PeriodicCalculus, Settings, TensionPlacement, forcing};
 use ib_core::{FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 use reference::Table;
 use stokes_grid::Drive;
@@ -27,9 +27,9 @@ fn markers(table: &Table, count: usize) -> Markers {
 }
 
 /// Largest errors at the interface and at the other points.
-fn errors(region: Region, table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
+fn errors(geometry: Geometry, table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
     let settings = Settings { nodes, tolerance, ..Settings::default() };
-    let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
+    let mut solver = BoundaryIntegral::new(geometry, 1.0, settings).expect("a valid scene");
     // A multiple of eight, so that the points of the reference are markers.
     let count = nodes.next_multiple_of(8) * 2;
     let mut markers = markers(table, count);
@@ -45,9 +45,9 @@ fn errors(region: Region, table: &Table, nodes: usize, tolerance: f64) -> [f64; 
 
 fn errors_unbounded(table: &Table, nodes: usize, tolerance: f64) -> [f64; 2] {
     if table.period.is_finite() {
-        errors(Region::Box { lengths: [table.period, table.period] }, table, nodes, tolerance)
+        errors(Geometry::Box { lengths: [table.period, table.period] }, table, nodes, tolerance)
     } else {
-        errors(Region::Plane, table, nodes, tolerance)
+        errors(Geometry::Plane, table, nodes, tolerance)
     }
 }
 
@@ -73,8 +73,8 @@ fn ten_times_the_viscosity_inside() {
 fn channel() {
     for table in &reference::CHANNEL {
         let drive = if table.zero_flux { Drive::ZeroFlux } else { Drive::ZeroGradient };
-        let region = Region::Channel { length: table.period, width: 3.0, forcing: forcing(drive) };
-        let found = errors(region, table, 128, 1e-13);
+        let geometry = Geometry::Channel { length: table.period, width: 3.0, forcing: forcing(drive) };
+        let found = errors(geometry, table, 128, 1e-13);
         println!("ellipse {} zero flux {}: {found:?}", table.ellipse, table.zero_flux);
         assert!(found[0] < 1e-11 && found[1] < 1e-11, "{found:?}");
     }

@@ -7,9 +7,9 @@ use ib_core::Vec2;
 use ib_core::input::{finite, within};
 
 use crate::mesher::segments::Segments;
-use crate::{Mesher, Outline, Region, SolidError, TriangleMesh};
+use crate::{Interior, Mesher, Outline, SolidError, TriangleMesh};
 
-pub use shapes::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, StraightChannel, Valve};
+pub use shapes::ChannelShape;
 pub use width::{Width, width_between};
 
 /// A channel along x, periodic: the lines that bound it below and above, and islands between them.
@@ -175,7 +175,7 @@ impl Channel {
             islands: self
                 .islands
                 .iter()
-                .map(|island| mesher.mesh(&Region::new([island.clone()])?))
+                .map(|island| mesher.mesh(&Interior::new([island.clone()])?))
                 .collect::<Result<_, _>>()?,
         })
     }
@@ -208,16 +208,16 @@ impl Channel {
     ///
     /// # Errors
     /// A height that is not finite.
-    pub fn below(&self, bottom: f64) -> Result<Region, SolidError> {
-        Region::new([self.level(&self.lower, bottom)?, self.lower.clone()])
+    pub fn below(&self, bottom: f64) -> Result<Interior, SolidError> {
+        Interior::new([self.level(&self.lower, bottom)?, self.lower.clone()])
     }
 
     /// The wall from the upper line up to y = `top` (length).
     ///
     /// # Errors
     /// A height that is not finite.
-    pub fn above(&self, top: f64) -> Result<Region, SolidError> {
-        Region::new([self.upper.clone(), self.level(&self.upper, top)?])
+    pub fn above(&self, top: f64) -> Result<Interior, SolidError> {
+        Interior::new([self.upper.clone(), self.level(&self.upper, top)?])
     }
 
     /// The flat outer surface of the wall at a side of the channel.

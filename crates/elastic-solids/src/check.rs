@@ -77,8 +77,7 @@ pub fn patch_residual(mesh: &TriangleMesh, law: &dyn ElasticForces, deformation:
     all_points_finite("the deformed points", &positions)?;
     let mut forces = vec![Vec2::ZERO; positions.len()];
     law.add_forces(&positions, &mut forces)?;
-    let mut inside = vec![true; positions.len()];
-    mesh.boundary_loops().iter().flat_map(|boundary| &boundary.points).for_each(|&point| inside[point] = false);
+    let inside = mesh.inner_points();
     let largest = |wanted: bool| {
         let chosen = forces.iter().zip(&inside).filter(|(_, inside)| **inside == wanted);
         chosen.map(|(force, _)| force.length()).fold(0.0, f64::max)

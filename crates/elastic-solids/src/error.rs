@@ -151,8 +151,8 @@ pub enum SolidError {
         /// Another (length).
         second: f64,
     },
-    /// A region without an end.
-    #[error("the region has {lines} periodic outlines: give an even number, the two surfaces of each wall")]
+    /// An interior without an end.
+    #[error("there are {lines} periodic outlines: give an even number, the two surfaces of each wall")]
     OpenRegion {
         /// How many there are.
         lines: usize,

@@ -8,11 +8,11 @@
 //!
 //! The lower wall of the thesis' constriction, stiffer to the right, held by its lowest row and squeezed by a twentieth:
 //! ```
-//! use elastic_solids::channel::Constriction;
+//! use elastic_solids::channel::ChannelShape;
 //! use elastic_solids::{Mesher, Moduli, NeoHookean, Solid, SolidError};
 //! use ib_core::Vec2;
 //!
-//! let mesh = Constriction::thesis().channel()?.lower_wall(-2.5, &Mesher::new(0.1)?)?;
+//! let mesh = ChannelShape::THESIS.channel(12.0)?.lower_wall(-2.5, &Mesher::new(0.1)?)?;
 //! println!("{}", mesh.quality());
 //!
 //! // Shear and bulk modulus as a function of place: five times as stiff at x = 6 as at -6.
@@ -31,9 +31,9 @@
 //!
 //! Each is usable by itself:
 //!
-//! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with fillets; [`Region`] for what
+//! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with fillets; [`Interior`] for what
 //!   lies between them; [`Channel`] for two walls with islands between them, and ready ones in [`channel`].
-//! * **Meshes**: [`Mesher`] for any region, lattices and Gmsh files in [`mesh`]; [`TriangleMesh::quality`] says how even
+//! * **Meshes**: [`Mesher`] for any interior, lattices and Gmsh files in [`mesh`]; [`TriangleMesh::quality`] says how even
 //!   they are.
 //! * **Materials**: [`NeoHookean`] (the thesis'), others in [`material`], or an [`EnergyDensity`] of your own; [`Moduli`]
 //!   converts between constants, the thesis' spring constant among them.
@@ -64,5 +64,5 @@ pub use forces::ElasticForces;
 pub use material::{EnergyDensity, Moduli, NeoHookean};
 pub use mesh::TriangleMesh;
 pub use mesher::Mesher;
-pub use outline::{Outline, Region};
+pub use outline::{Interior, Outline};
 pub use solid::Solid;

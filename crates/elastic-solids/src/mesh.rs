@@ -170,6 +170,13 @@ impl TriangleMesh {
         areas
     }
 
+    /// Which points are not on the boundary.
+    pub(crate) fn inner_points(&self) -> Vec<bool> {
+        let mut inner = vec![true; self.points.len()];
+        self.loops.iter().flat_map(|boundary| &boundary.points).for_each(|&point| inner[point] = false);
+        inner
+    }
+
     /// The corners of a triangle when the points are at `positions` (length, one a point of the mesh): one continuous
     /// triangle, also across the seam of a periodic mesh.
     ///

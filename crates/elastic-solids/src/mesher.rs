@@ -1,4 +1,4 @@
-//! Uniform meshes of any region.
+//! Uniform meshes of what lies between outlines.
 
 mod boundary;
 mod point_set;
@@ -10,7 +10,7 @@ mod triangulation;
 use ib_core::input::finite;
 
 use crate::error::length;
-use crate::{Region, SolidError, TriangleMesh};
+use crate::{Interior, SolidError, TriangleMesh};
 use boundary::Boundary;
 use point_set::PointSet;
 use relaxation::relax;
@@ -22,7 +22,7 @@ use seeds::{Fit, Lay};
 /// triangles, no closer to the boundary than 0.4 spacings; the constrained Delaunay triangulation of all these points
 /// is relaxed, sweep after sweep, until the edges have about equal length. In this the boundary points slide along the
 /// exact outlines, from corner to corner. Where a mesh has less than 6,000 points several lattices are tried, and the
-/// mesh whose edge lengths deviate least is returned; the same region always gives the same mesh.
+/// mesh whose edge lengths deviate least is returned; the same outlines always gives the same mesh.
 ///
 /// The two ends of a periodic wall share their points, and its spacing is changed by up to 5 per cent so that the
 /// lattice fits its height: a lattice stretched across the wall would be anisotropic, for springs by as much as the
@@ -81,27 +81,27 @@ impl Mesher {
         Ok(self)
     }
 
-    /// Meshes a region.
+    /// Meshes the inside of outlines.
     ///
     /// # Errors
     /// Outlines that cross or touch; a hole or part narrower than the spacing; a wall thinner than the spacing; a
     /// period shorter than six spacings; more than 1e6 points; a triangulation that failed.
-    pub fn mesh(&self, region: &Region) -> Result<TriangleMesh, SolidError> {
-        self.mesh_counting(region).map(|(mesh, _)| mesh)
+    pub fn mesh(&self, interior: &Interior) -> Result<TriangleMesh, SolidError> {
+        self.mesh_counting(interior).map(|(mesh, _)| mesh)
     }
 
     /// The mesh, and how often a point was moved for it.
-    fn mesh_counting(&self, region: &Region) -> Result<(TriangleMesh, usize), SolidError> {
-        let boundary = Boundary::new(region, self.spacing, self.angle == 0.0)?;
-        most_even(&boundary, &self.ways(region), self.sweeps)
+    fn mesh_counting(&self, interior: &Interior) -> Result<(TriangleMesh, usize), SolidError> {
+        let boundary = Boundary::new(interior, self.spacing, self.angle == 0.0)?;
+        most_even(&boundary, &self.ways(interior), self.sweeps)
     }
 
     /// Ways to lay the seeds.
-    fn ways(&self, region: &Region) -> Vec<Lay> {
+    fn ways(&self, interior: &Interior) -> Vec<Lay> {
         let angle = self.angle;
         let lay = |fit, offset, margin| Lay { fit, angle, offset, margin };
         let still = [0.0, 0.0];
-        match region.period() {
+        match interior.period() {
             _ if angle != 0.0 => vec![lay(Fit::Equilateral, still, MARGIN)],
             // Flat sides continue the lattice as it is.
             Some(_) => [MARGIN, 0.45, 0.35, 0.55].map(|margin| lay(Fit::ToBox, still, margin)).to_vec(),

@@ -10,20 +10,20 @@ use crate::SolidError;
 use crate::error::{MOST_POINTS, length};
 
 mod fillet;
+mod interior;
 mod piece;
-mod region;
 mod track;
 
 use piece::{Piece, is_corner};
 
-pub use region::Region;
+pub use interior::Interior;
 pub(crate) use track::{Place, Track};
 
 /// A line that bounds a solid: closed, or repeating itself in x with a period (the surface of a channel wall).
 ///
 /// It is made of smooth pieces that join at corners. Meshing keeps the corners and puts points at equal spacing on the
 /// exact curve between them. The direction does not matter: what is solid follows from the number of outlines around a
-/// point ([`Region`](crate::Region)).
+/// point ([`Interior`](crate::Interior)).
 ///
 /// ```
 /// use elastic_solids::{Outline, SolidError};
@@ -80,50 +80,12 @@ impl Outline {
         })
     }
 
-    /// A post: a rectangle of `width` with a round tip, `height` high in all, standing on the middle of its foot
-    /// (length).
-    ///
-    /// # Errors
-    /// Sizes that are not positive, a foot that is not finite, a height that is not above half the width.
-    pub fn post(foot: Vec2, width: f64, height: f64) -> Result<Self, SolidError> {
-        positive("the width of the post", width)?;
-        let radius = 0.5 * width;
-        positive("the height of the post above half its width", height - radius)?;
-        all_points_finite("the foot of the post", &[foot])?;
-        let at = move |x: f64, y: f64| foot + Vec2::new(x, y);
-        let tip = move |t: f64| {
-            let (sine, cosine) = (0.5 * TAU * t).sin_cos();
-            at(radius * cosine, height - radius + radius * sine)
-        };
-        Self::from_pieces(
-            vec![
-                Piece::line(at(-radius, 0.0), at(radius, 0.0))?,
-                Piece::line(at(radius, 0.0), at(radius, height - radius))?,
-                Piece::curve(Arc::new(tip), [0.0, 1.0])?,
-                Piece::line(at(-radius, height - radius), at(-radius, 0.0))?,
-            ],
-            None,
-        )
-    }
-
     /// The closed curve `curve(t)` (length), t from 0 to 1, smooth everywhere.
     ///
     /// # Errors
     /// A curve that is not finite, has no length, or does not close.
     pub fn closed(curve: impl Fn(f64) -> Vec2 + Send + Sync + 'static) -> Result<Self, SolidError> {
         Self::from_pieces(vec![Piece::curve(Arc::new(curve), [0.0, 1.0])?], None)
-    }
-
-    /// The closed curve `curve(t)` (length), t from 0 to 1, with corners at t = 0 and at the increasing parameters
-    /// `corners` between 0 and 1.
-    ///
-    /// # Errors
-    /// As [`Outline::closed`]; parameters that do not increase from above 0 to below 1.
-    pub fn closed_with_corners(
-        curve: impl Fn(f64) -> Vec2 + Send + Sync + 'static,
-        corners: &[f64],
-    ) -> Result<Self, SolidError> {
-        Self::from_pieces(Piece::split(&(Arc::new(curve) as _), [0.0, 1.0], corners)?, None)
     }
 
     /// The level line y = `height` (length) with the period `period` (length) from x = `start`: the flat surface of a

@@ -24,12 +24,12 @@ pub use observables::Observables;
 /// the reference state.
 ///
 /// ```
-/// use elastic_solids::channel::StraightChannel;
+/// use elastic_solids::channel::ChannelShape;
 /// use elastic_solids::{Mesher, NeoHookean, Solid, SolidError};
 /// use ib_core::Vec2;
 ///
 /// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest row pinned.
-/// let channel = StraightChannel { period: 12.0, width: 2.0 }.channel()?;
+/// let channel = ChannelShape::Straight { width: 2.0 }.channel(12.0)?;
 /// let mesh = channel.lower_wall(-2.5, &Mesher::new(0.1)?)?;
 /// let shear = |s: Vec2| if s.x < 0.0 { 100.0 } else { 1000.0 };
 /// let wall = Solid::hyperelastic_graded(mesh, |s| NeoHookean::new(shear(s), 2.0 * shear(s)))?

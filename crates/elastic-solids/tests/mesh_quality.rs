@@ -1,10 +1,6 @@
 //! How even the meshes of the ready shapes are.
 
-use elastic_solids::{
-    Channel, Mesher, Outline, TriangleMesh,
-    channel::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, Valve},
-    mesh::MeshQuality,
-};
+use elastic_solids::{Channel, Mesher, Outline, TriangleMesh, channel::ChannelShape, mesh::MeshQuality};
 use ib_core::Vec2;
 
 const PERIOD: f64 = 12.0;
@@ -21,9 +17,9 @@ fn meshed(name: &str, shape: &Channel, spacing: f64, half: f64) -> (Vec<MeshQual
     (quality("wall", &[walls.lower, walls.upper]), quality("island", &walls.islands))
 }
 
-fn branch() -> BranchingChannel {
-    let (branches, island_length) = ([1.6, 1.6], 5.0);
-    BranchingChannel { period: PERIOD, width: WIDTH, branches, island_length, island_thickness: 1.0, ramp: 1.5 }
+fn branch(branches: [f64; 2], island_length: f64, island_thickness: f64) -> Channel {
+    let shape = ChannelShape::Branching { width: WIDTH, branches, island_length, island_thickness, ramp: 1.5 };
+    shape.channel(PERIOD).expect("a channel")
 }
 
 fn assert_even(name: &str, shape: &Channel, spacing: f64, half: f64, deviation: f64) {
@@ -39,11 +35,23 @@ fn assert_even(name: &str, shape: &Channel, spacing: f64, half: f64, deviation: 
 fn walls_are_even() {
     let (period, width) = (PERIOD, WIDTH);
     let shapes = [
-        ("constriction", Constriction::thesis().channel().unwrap(), 2.5),
-        ("ratchet", Ratchet { period, width, throat: 1.3, teeth: 3, rise: 0.7, sharp: false }.channel().unwrap(), 2.5),
-        ("sine", SinusoidalChannel { period, width, amplitude: 0.3, waves: 2, phase: 0.0 }.channel().unwrap(), 2.5),
-        ("valve", Valve { period, width, gap: 1.0, base: 1.0, radius: 0.2, centre: 0.0 }.channel().unwrap(), 2.5),
-        ("branch", branch().channel().unwrap(), 4.0),
+        ("constriction", ChannelShape::THESIS.channel(12.0).unwrap(), 2.5),
+        (
+            "ratchet",
+            ChannelShape::Ratchet { width, throat: 1.3, teeth: 3, rise: 0.7, sharp: false }.channel(period).unwrap(),
+            2.5,
+        ),
+        (
+            "sine",
+            ChannelShape::Sinusoidal { width, amplitude: 0.3, waves: 2, phase: 0.0 }.channel(period).unwrap(),
+            2.5,
+        ),
+        (
+            "valve",
+            ChannelShape::Valve { width, gap: 1.0, base: 1.0, radius: 0.2, centre: 0.0 }.channel(period).unwrap(),
+            2.5,
+        ),
+        ("branch", branch([1.6; 2], 5.0, 1.0), 4.0),
     ];
     for (name, shape, half) in shapes {
         for spacing in [0.1, 0.07, 0.05] {
@@ -56,19 +64,18 @@ fn walls_are_even() {
 #[test]
 fn walls_of_other_parameters_are_even() {
     let (period, width) = (PERIOD, WIDTH);
-    let narrow = Constriction { throat: 0.7, throat_length: 2.0, ramp: 2.0, ..Constriction::thesis() };
-    let teeth = Ratchet { period, width, throat: 1.0, teeth: 4, rise: 0.8, sharp: false };
-    let sharp = Ratchet { period, width, throat: 1.3, teeth: 3, rise: 0.7, sharp: true };
-    let waves = SinusoidalChannel { period, width, amplitude: 0.2, waves: 4, phase: 1.0 };
-    let valve = Valve { period, width, gap: 0.5, base: 1.5, radius: 0.0, centre: 0.0 };
-    let unequal = BranchingChannel { branches: [1.0, 1.5], island_length: 4.0, island_thickness: 1.4, ..branch() };
+    let narrow = ChannelShape::Constriction { width, throat: 0.7, throat_length: 2.0, ramp: 2.0, centre: 0.0 };
+    let teeth = ChannelShape::Ratchet { width, throat: 1.0, teeth: 4, rise: 0.8, sharp: false };
+    let sharp = ChannelShape::Ratchet { width, throat: 1.3, teeth: 3, rise: 0.7, sharp: true };
+    let waves = ChannelShape::Sinusoidal { width, amplitude: 0.2, waves: 4, phase: 1.0 };
+    let valve = ChannelShape::Valve { width, gap: 0.5, base: 1.5, radius: 0.0, centre: 0.0 };
     let shapes = [
-        ("narrow constriction", narrow.channel().unwrap(), 2.5),
-        ("ratchet of four teeth", teeth.channel().unwrap(), 2.5),
-        ("sharp ratchet", sharp.channel().unwrap(), 2.5),
-        ("four waves", waves.channel().unwrap(), 2.5),
-        ("sharp valve", valve.channel().unwrap(), 2.5),
-        ("unequal branches", unequal.channel().unwrap(), 4.0),
+        ("narrow constriction", narrow.channel(period).unwrap(), 2.5),
+        ("ratchet of four teeth", teeth.channel(period).unwrap(), 2.5),
+        ("sharp ratchet", sharp.channel(period).unwrap(), 2.5),
+        ("four waves", waves.channel(period).unwrap(), 2.5),
+        ("sharp valve", valve.channel(period).unwrap(), 2.5),
+        ("unequal branches", branch([1.0, 1.5], 4.0, 1.4), 4.0),
     ];
     for (name, shape, half) in shapes {
         for spacing in [0.1, 0.08] {
@@ -83,7 +90,7 @@ fn walls_of_other_parameters_are_even() {
 /// a dislocation, so the deviation falls as the root of the spacing: from 4.3 to 3 per cent.
 #[test]
 fn an_island_is_even_as_far_as_it_can_be() {
-    let channel = branch().channel().unwrap();
+    let channel = branch([1.6; 2], 5.0, 1.0);
     let mut deviations = Vec::new();
     for (spacing, bound) in [(0.1, 0.043), (0.07, 0.036), (0.05, 0.03)] {
         let (_, islands) = meshed("branch", &channel, spacing, 4.0);
@@ -99,7 +106,7 @@ fn an_island_is_even_as_far_as_it_can_be() {
 fn turned_seeds_are_even() {
     for (spacing, bound) in [(0.1, 0.045), (0.05, 0.03)] {
         let mesher = Mesher::new(spacing).unwrap().turned(0.2).unwrap();
-        let walls = Constriction::thesis().channel().unwrap().walls(-2.5, 2.5, &mesher).unwrap();
+        let walls = ChannelShape::THESIS.channel(12.0).unwrap().walls(-2.5, 2.5, &mesher).unwrap();
         let quality = walls.lower.quality();
         println!("constriction, turned seeds, spacing {spacing}: {quality}");
         assert!(quality.edge_deviation <= bound && quality.smallest_angle > 35.0, "{quality}");
@@ -110,8 +117,8 @@ fn turned_seeds_are_even() {
 /// not six neighbours (four on the boundary). And there is about one dislocation for every row that ends.
 #[test]
 fn what_is_left_is_at_dislocations() {
-    let waves = SinusoidalChannel { period: PERIOD, width: WIDTH, amplitude: 0.3, waves: 2, phase: 0.0 };
-    let wall = waves.channel().unwrap().walls(-2.5, 2.5, &Mesher::new(0.1).unwrap()).unwrap().lower;
+    let waves = ChannelShape::Sinusoidal { width: WIDTH, amplitude: 0.3, waves: 2, phase: 0.0 };
+    let wall = waves.channel(PERIOD).unwrap().walls(-2.5, 2.5, &Mesher::new(0.1).unwrap()).unwrap().lower;
     let mut neighbours = vec![0_usize; wall.points().len()];
     let mut regular = vec![6; wall.points().len()];
     wall.boundary_loops().iter().flat_map(|line| &line.points).for_each(|&point| regular[point] = 4);

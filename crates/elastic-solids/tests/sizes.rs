@@ -1,9 +1,9 @@
 //! Numbers without measure: every constructor ends in a typed error or in something of bounded size.
 
 use allocation_counter::measure;
-use elastic_solids::channel::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, StraightChannel, Valve};
+use elastic_solids::channel::ChannelShape;
 use elastic_solids::mesh::{equilateral_block, equilateral_strip, fitted_strip};
-use elastic_solids::{Channel, Mesher, Outline, Region, SolidError};
+use elastic_solids::{Channel, Interior, Mesher, Outline, SolidError};
 use ib_core::Vec2;
 
 /// Numbers that a length or a count times one may be. Below 1e-154 squares vanish, above 1e154 they are infinite.
@@ -32,24 +32,34 @@ fn channels_of_any_lengths() {
     for length in LENGTHS {
         for (period, width) in [(length, 2.0), (6.0, length), (length, length)] {
             let name = format!("period {period:e}, width {width:e}");
-            bounded(&name, || StraightChannel { period, width }.channel());
-            bounded(&name, || SinusoidalChannel { period, width, amplitude: 0.3, waves: 2, phase: 0.1 }.channel());
-            bounded(&name, || Constriction { period, width, ..Constriction::thesis() }.channel());
-            bounded(&name, || Valve { period, width, gap: 0.2, base: 1.0, radius: 0.0, centre: 0.0 }.channel());
+            bounded(&name, || ChannelShape::Straight { width }.channel(period));
+            bounded(&name, || ChannelShape::Sinusoidal { width, amplitude: 0.3, waves: 2, phase: 0.1 }.channel(period));
+            bounded(&name, || {
+                ChannelShape::Constriction { width, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 0.0 }
+                    .channel(period)
+            });
+            bounded(&name, || {
+                ChannelShape::Valve { width, gap: 0.2, base: 1.0, radius: 0.0, centre: 0.0 }.channel(period)
+            });
             let (throat, teeth) = (1.0, 2);
             for sharp in [false, true] {
-                bounded(&name, || Ratchet { period, width, throat, teeth, rise: 0.5, sharp }.channel());
+                bounded(&name, || ChannelShape::Ratchet { width, throat, teeth, rise: 0.5, sharp }.channel(period));
             }
             let (branches, ramp) = ([1.0, 1.0], 1.0);
             bounded(&name, || {
-                BranchingChannel { period, width, branches, island_length: 2.0, island_thickness: 1.0, ramp }.channel()
+                ChannelShape::Branching { width, branches, island_length: 2.0, island_thickness: 1.0, ramp }
+                    .channel(period)
             });
         }
         let (period, width) = (6.0, 2.0);
         let name = format!("{length:e}");
-        bounded(&name, || SinusoidalChannel { period, width, amplitude: length, waves: 2, phase: 0.0 }.channel());
-        bounded(&name, || Valve { period, width, gap: 0.2, base: length, radius: length, centre: length }.channel());
-        bounded(&name, || Ratchet { period, width, throat: length, teeth: 3, rise: 0.5, sharp: true }.channel());
+        bounded(&name, || ChannelShape::Sinusoidal { width, amplitude: length, waves: 2, phase: 0.0 }.channel(period));
+        bounded(&name, || {
+            ChannelShape::Valve { width, gap: 0.2, base: length, radius: length, centre: length }.channel(period)
+        });
+        bounded(&name, || {
+            ChannelShape::Ratchet { width, throat: length, teeth: 3, rise: 0.5, sharp: true }.channel(period)
+        });
         bounded(&name, || Channel::between(length, 6.0, |_| -1.0, |_| 1.0));
         bounded(&name, || {
             let far = Outline::polyline(&[Vec2::new(0.0, 1.0), Vec2::new(length, length)], 1.0)?;
@@ -61,11 +71,11 @@ fn channels_of_any_lengths() {
 #[test]
 fn channels_of_any_number_of_waves_and_teeth() {
     for count in COUNTS {
-        let wavy = SinusoidalChannel { period: 6.0, width: 2.0, amplitude: 0.1, waves: count, phase: 0.0 };
-        refused(&format!("{count} waves"), || wavy.channel());
+        let wavy = ChannelShape::Sinusoidal { width: 2.0, amplitude: 0.1, waves: count, phase: 0.0 };
+        refused(&format!("{count} waves"), || wavy.channel(6.0));
         for sharp in [false, true] {
-            let ratchet = Ratchet { period: 6.0, width: 2.0, throat: 1.0, teeth: count, rise: 0.5, sharp };
-            refused(&format!("{count} teeth"), || ratchet.channel());
+            let ratchet = ChannelShape::Ratchet { width: 2.0, throat: 1.0, teeth: count, rise: 0.5, sharp };
+            refused(&format!("{count} teeth"), || ratchet.channel(6.0));
         }
     }
 }
@@ -99,7 +109,7 @@ fn outlines_and_meshes_of_any_spacing() {
         bounded(&name, || Outline::rectangle(Vec2::ZERO, Vec2::new(length, 1.0))?.mesh(0.2));
         bounded(&name, || disc()?.mesh(length));
         for (period, height, spacing) in [(length, 1.0, 0.2), (2.0, length, 0.2), (2.0, 1.0, length)] {
-            let wall = || Region::new([Outline::flat(0.0, period, 0.0)?, Outline::flat(0.0, period, height)?]);
+            let wall = || Interior::new([Outline::flat(0.0, period, 0.0)?, Outline::flat(0.0, period, height)?]);
             for angle in [0.0, 0.2] {
                 let name = format!("a wall of {period:e} by {height:e} at {spacing:e}, turned by {angle}");
                 bounded(&name, || Mesher::new(spacing)?.turned(angle)?.mesh(&wall()?));
@@ -110,7 +120,7 @@ fn outlines_and_meshes_of_any_spacing() {
     refused("a large disc", || Outline::circle(Vec2::ZERO, 1000.0)?.mesh(0.1));
     // The turned seeds of a long wall are a square about it.
     refused("a long wall", || {
-        let wall = Region::new([Outline::flat(0.0, 4e4, 0.0)?, Outline::flat(0.0, 4e4, 1.0)?])?;
+        let wall = Interior::new([Outline::flat(0.0, 4e4, 0.0)?, Outline::flat(0.0, 4e4, 1.0)?])?;
         Mesher::new(1.0)?.turned(0.2)?.mesh(&wall)
     });
 }

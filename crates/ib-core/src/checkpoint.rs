@@ -50,37 +50,19 @@ pub struct Checkpoint {
     steps: u64,
     minimum_wall_gap: Option<f64>,
     minimum_gap: Option<f64>,
-    region: Region,
+    domain: Domain,
+    /// Of the grid, if there was one (length).
+    spacing: Option<f64>,
     properties: Vec<(String, f64)>,
     bodies: Vec<Part>,
     flow: SavedState,
     /// The flow at the markers, where it was known: x and y of all velocities, and what its evaluation found.
-    known: Option<(Vec<[f64; 2]>, Found)>,
+    known: Option<(Vec<[f64; 2]>, FlowReport)>,
     /// Its name and what it keeps.
     integrator: String,
     kept: SavedState,
     control: SavedState,
     report: StepReport,
-}
-
-/// A domain as it stands in a file: origin, periods, walls.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Region([f64; 2], [Option<f64>; 2], Option<[f64; 2]>);
-
-impl From<Domain> for Region {
-    fn from(domain: Domain) -> Self {
-        Self(domain.origin, domain.periods, domain.walls)
-    }
-}
-
-/// What an evaluation of the flow found.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Found {
-    iterations: u64,
-    residual: f64,
-    mean_pressure_gradient: [f64; 2],
-    /// Of the grid, if there was one.
-    spacing: Option<f64>,
 }
 
 /// A named state.
@@ -157,26 +139,19 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         integrator.save(&mut kept);
         let mut control = SavedState::default();
         self.control.save(&mut control);
-        let report = system.report();
-        let found = Found {
-            iterations: report.iterations as u64,
-            residual: report.residual,
-            mean_pressure_gradient: report.mean_pressure_gradient,
-            spacing: system.hydrodynamics().medium().spacing,
-        };
+        let velocities = system.markers().velocities.iter().map(Vec2::to_array);
         Checkpoint {
             description: description.into(),
             time: system.time(),
             steps: system.steps() as u64,
             minimum_wall_gap: system.minimum_wall_gap(),
             minimum_gap: system.narrowest_so_far(),
-            region: system.hydrodynamics().medium().domain.into(),
+            domain: system.hydrodynamics().medium().domain,
+            spacing: system.hydrodynamics().medium().spacing,
             properties: system.properties(),
             bodies: system.all_bodies().map(|(_, body)| Part::of(body)).collect(),
             flow: system.hydrodynamics().save(),
-            known: system
-                .is_evaluated()
-                .then(|| (system.markers().velocities.iter().map(|v| [v.x, v.y]).collect(), found)),
+            known: system.is_evaluated().then(|| (velocities.collect(), *system.report())),
             integrator: integrator.name().to_owned(),
             kept,
             control,
@@ -203,12 +178,12 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     fn compare(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         let system = self.system();
         let foreign = |problem: String| Err(SceneError::ForeignCheckpoint { problem });
-        let region: Region = system.hydrodynamics().medium().domain.into();
-        if region != checkpoint.region {
-            let describe = |Region(origin, periods, walls): Region| {
+        let domain = system.hydrodynamics().medium().domain;
+        if domain != checkpoint.domain {
+            let describe = |Domain { origin, periods, walls }: Domain| {
                 format!("origin {origin:?}, periods {periods:?}, walls {walls:?}")
             };
-            return foreign(format!("its domain has {}, this one {}", describe(checkpoint.region), describe(region)));
+            return foreign(format!("its domain has {}, this one {}", describe(checkpoint.domain), describe(domain)));
         }
         compare_properties("the scene", &system.properties(), &checkpoint.properties)?;
         let (expected, found) = (system.all_bodies().len(), checkpoint.bodies.len());
@@ -242,12 +217,10 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             })?;
         }
         self.report = checkpoint.report.clone();
-        let spacing = self.system().hydrodynamics().medium().spacing;
-        if let Some((velocities, found)) = checkpoint.known.as_ref().filter(|(_, found)| found.spacing == spacing) {
-            let velocities = velocities.iter().map(|&[x, y]| Vec2::new(x, y));
-            let Found { iterations, residual, mean_pressure_gradient, .. } = *found;
-            let report = FlowReport { iterations: iterations as usize, residual, mean_pressure_gradient };
-            self.system_mut().take_flow(&checkpoint.flow, velocities, report)?;
+        let same = self.system().hydrodynamics().medium().spacing == checkpoint.spacing;
+        if let Some((velocities, report)) = checkpoint.known.as_ref().filter(|_| same) {
+            let velocities = velocities.iter().copied().map(Vec2::from_array);
+            self.system_mut().take_flow(&checkpoint.flow, velocities, *report)?;
         }
         Ok(())
     }

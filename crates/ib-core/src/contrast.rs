@@ -7,7 +7,7 @@ mod rigid;
 
 use std::ops::Range;
 
-use stokes_layers::Region;
+use stokes_layers::Geometry;
 use stokes_layers::dense::{DoubleLayerMatrix, NodeCurve};
 pub(crate) use stokes_layers::gmres::Outcome;
 use stokes_layers::gmres::{Gmres, dot};
@@ -48,7 +48,7 @@ pub(crate) struct Effort {
 /// droplet. What the flow of F - R F has there is the grid's error; it is divided by the mean viscosity, as the rest of
 /// that flow is, where that is the larger one. So errors do not grow with the ratio and are continuous where it passes
 /// through one.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Contrast {
     matrix: DoubleLayerMatrix,
     viscosity: f64,
@@ -71,7 +71,7 @@ pub(crate) struct Contrast {
 }
 
 /// Which markers a droplet has.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Droplet {
     pub(crate) markers: Range<usize>,
     /// Whether its markers are equally spaced.
@@ -98,9 +98,9 @@ pub(crate) fn other_viscosity(kind: &MarkerKind, surroundings: f64) -> Result<Op
 impl Contrast {
     /// For exterior fluid of the given viscosity in a box or a channel, whose `middle` is at that height; nodes closer
     /// to a wall than `least_gap` count as that far away.
-    pub(crate) fn new(region: Region, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, FlowError> {
+    pub(crate) fn new(geometry: Geometry, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, FlowError> {
         Ok(Self {
-            matrix: DoubleLayerMatrix::new(region, middle, viscosity, least_gap)?,
+            matrix: DoubleLayerMatrix::new(geometry, middle, viscosity, least_gap)?,
             viscosity,
             droplets: Vec::new(),
             curves: Vec::new(),

@@ -14,10 +14,7 @@ pub use repulsion::Repulsion;
 pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use wall_gap::wall_gap;
 
-use crate::{Body, Domain, Handle, MarkerKind, Markers, Medium, Vec2};
-
-/// A gap (length) and the body on its other side.
-pub type Neighbour = (f64, Handle<dyn Body>);
+use crate::{Body, Domain, MarkerKind, Markers, Medium, Vec2};
 
 /// How far boundaries are looked for during steps, in units of what a contact is measured in.
 const REACH: f64 = 4.0;

@@ -6,13 +6,14 @@ pub use markers::{MarkerGroup, MarkerKind, Markers};
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
 use stokes_grid::Drive;
 pub use stokes_layers::{FlowSample, Vec2};
 
 use crate::{FlowError, MobilityDeficit, checkpoint::SavedState};
 
 /// The region that the fluid fills.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Domain {
     /// Lower left corner (length).
     pub origin: [f64; 2],
@@ -43,7 +44,7 @@ pub struct Medium {
 }
 
 /// What one evaluation of the flow needed and found.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct FlowReport {
     /// Iterations of iterative solvers (0 where none ran).
     pub iterations: usize,

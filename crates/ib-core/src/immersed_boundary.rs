@@ -43,7 +43,7 @@ const WALL_TOLERANCE: f64 = 0.25;
 /// These forces take a few solves on the grid, starting from the last ones. Samples are interpolated cubically, and
 /// next to such an interface along its normal, so that velocities are of second order there too. Without such groups
 /// none of this costs anything.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct ImmersedBoundary<S, K> {
     solver: S,
     transfer: Transfer<K>,
@@ -123,24 +123,12 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.transfer.kernel()
     }
 
-    /// Whether the mobility correction is on.
-    #[must_use]
-    pub fn is_corrected(&self) -> bool {
-        self.correction.is_some()
-    }
-
     /// The velocity on the grid (length per time) of the last evaluation or sampling. Where viscosities differ and
     /// there are no markers but those of interfaces, an evaluation leaves that of a fluid of one viscosity under the
     /// same forces.
     #[must_use]
     pub fn velocity_field(&self) -> &StaggeredField {
         &self.velocity
-    }
-
-    /// The force density on the grid (force per volume) of the last evaluation or sampling.
-    #[must_use]
-    pub fn force_field(&self) -> &StaggeredField {
-        &self.density
     }
 
     /// The pressure at the cell centres for the last evaluation or sampling (force per length; periodic part, mean
@@ -167,13 +155,6 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.solve_density(forces.len())
     }
 
-    /// The same for the positions that `transfer` has.
-    fn solve_on(&mut self, transfer: &Transfer<K>, forces: &[Vec2]) -> Result<SolveReport, FlowError> {
-        self.density.fill(0.0);
-        transfer.spread(forces, &mut self.density);
-        self.solve_density(forces.len())
-    }
-
     fn solve_density(&mut self, markers: usize) -> Result<SolveReport, FlowError> {
         let before = self.solver.work();
         let report = self.solver.solve(&self.density, &mut self.velocity)?;
@@ -189,17 +170,15 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     }
 
     /// Adds the mobility correction of a group to its velocities.
-    fn correct(&mut self, group: usize, markers: &mut Markers) -> Result<(), FlowError> {
-        let setting = self.setting();
-        let (spacing, period) = (self.grid().spacing(), self.grid().lengths()[0]);
-        let group_index = group;
-        let group = &markers.groups()[group];
+    fn correct(&mut self, index: usize, markers: &mut Markers) -> Result<(), FlowError> {
+        let (setting, period) = (self.setting(), self.grid().lengths()[0]);
+        let group = &markers.groups()[index];
         if let Some(correction) = self.correction.as_mut()
             && matches!(group.kind, MarkerKind::Interface { .. })
         {
             let range = group.range.clone();
             let (positions, forces) = (&markers.positions[range.clone()], &markers.forces[range.clone()]);
-            let gaps = self.clearance.gaps(markers, group_index, spacing, period);
+            let gaps = self.clearance.gaps(markers, index, setting.spacing, period);
             correction.apply(&setting, gaps, positions, forces, &mut markers.velocities[range])?;
             self.work.corrections += 1;
         }
@@ -316,13 +295,5 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             flow.restore(saved.clone());
             self.contrast = Some(flow);
         }
-    }
-}
-
-/// `target += factor * term`.
-fn add(target: &mut StaggeredField, term: &StaggeredField, factor: f64) {
-    let (x, y) = target.components_mut();
-    for (target, term) in x.iter_mut().zip(term.x()).chain(y.iter_mut().zip(term.y())) {
-        *target += factor * term;
     }
 }

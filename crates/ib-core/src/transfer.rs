@@ -1,21 +1,21 @@
 //! Spreading forces to the grid and interpolating velocities from it.
 
-mod anywhere;
 #[cfg(feature = "rayon")]
 mod bands;
-mod inside;
+mod general;
 mod lanes;
-mod spots;
-mod visits;
+mod locations;
+mod order;
+mod polynomial;
 
 use stokes_grid::{Grid, StaggeredField};
 
-use crate::kernel::CUBIC_QUADRATIC;
+use crate::kernel::{CUBIC_QUADRATIC, Pieces};
 use crate::{Kernel, Vec2};
-use anywhere::Anywhere;
-use inside::{CubicQuadratics, Interpolation, Spreading};
-use spots::{Spot, Spots};
-use visits::STRIDE;
+use general::GeneralTransfer;
+use locations::{Location, Locations};
+use order::STRIDE;
+use polynomial::{CubicQuadratics, Interpolation, Spreading};
 
 /// Transfer between markers and a staggered grid, the adjoint pair of the immersed boundary method (thesis (2.33),
 /// (2.34)):
@@ -35,7 +35,7 @@ use visits::STRIDE;
 pub struct Transfer<K> {
     kernel: K,
     grid: Grid,
-    spots: Spots,
+    locations: Locations,
     #[cfg(feature = "rayon")]
     bands: bands::Bands,
 }
@@ -47,7 +47,7 @@ impl<K: Kernel> Transfer<K> {
         Self {
             kernel,
             grid,
-            spots: Spots::new(&grid),
+            locations: Locations::new(grid),
             #[cfg(feature = "rayon")]
             bands: bands::Bands::default(),
         }
@@ -59,56 +59,54 @@ impl<K: Kernel> Transfer<K> {
         &self.kernel
     }
 
+    fn general(&self) -> GeneralTransfer<'_, K> {
+        GeneralTransfer { kernel: &self.kernel, grid: &self.grid }
+    }
+
     /// Takes the `positions` of markers (length, not wrapped). They must be finite: what is not lands somewhere in
     /// the box ([`crate::ImmersedBoundary`] refuses it).
     pub fn locate(&mut self, positions: &[Vec2]) {
-        self.spots.find(self.kernel.pieces(), positions);
+        self.locations.find(self.kernel.pieces(), positions);
         #[cfg(feature = "rayon")]
-        self.bands.find(Anywhere::new(&self.kernel, &self.grid), &self.spots);
+        self.bands.find(GeneralTransfer { kernel: &self.kernel, grid: &self.grid }, &self.locations);
     }
 
     /// Adds the force density of the located markers to `density` (force per volume), thesis (2.33). `forces` (force)
     /// has an entry for each of them.
     pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) {
-        let scale = 1.0 / (self.grid.spacing() * self.grid.spacing());
-        let anywhere = Anywhere::new(&self.kernel, &self.grid);
+        let (general, scale) = (self.general(), 1.0 / (self.grid.spacing() * self.grid.spacing()));
         let (fx, fy) = density.components_mut();
         #[cfg(feature = "rayon")]
         if self.bands.are_used() {
-            self.bands.spread(anywhere, &self.spots, forces, scale, [fx, fy]);
+            self.bands.spread(general, &self.locations, forces, scale, [fx, fy]);
             return;
         }
-        let markers = Markers {
-            spots: self.spots.all(),
-            forces,
-            stride: stride(&self.kernel),
-            elsewhere: self.spots.elsewhere(),
-        };
-        spread(anywhere, scale, markers, Band { first_row: 0, fx, fy });
+        let Locations { all: locations, irregular, .. } = &self.locations;
+        let markers = Markers { locations, forces, stride: stride(&self.kernel), irregular };
+        spread(general, scale, markers, Band { first_row: 0, fx, fy });
     }
 
     /// The velocities at the located markers (length per time), thesis (2.34). `velocities` has an entry for each of
     /// them.
     pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) {
-        let anywhere = Anywhere::new(&self.kernel, &self.grid);
-        let elsewhere = self.spots.elsewhere();
+        let (general, Locations { all: locations, irregular, .. }) = (self.general(), &self.locations);
         #[cfg(feature = "rayon")]
         if self.bands.are_used() {
-            bands::interpolate(anywhere, self.spots.all(), elsewhere, velocity, velocities);
+            bands::interpolate(general, locations, irregular, velocity, velocities);
             return;
         }
-        interpolate(anywhere, self.spots.all(), elsewhere, velocity, velocities);
+        interpolate(general, locations, irregular, velocity, velocities);
     }
 }
 
 /// Markers to be spread.
 #[derive(Debug)]
 struct Markers<'a> {
-    spots: &'a [Spot],
+    locations: &'a [Location],
     forces: &'a [Vec2],
     /// Distance within a block from one marker to that which is added next.
     stride: usize,
-    elsewhere: &'a [[f64; 2]],
+    irregular: &'a [[f64; 2]],
 }
 
 /// Some rows of both components.
@@ -125,42 +123,32 @@ fn stride<K: Kernel>(kernel: &K) -> usize {
     if kernel.pieces().is_some() { STRIDE } else { 1 }
 }
 
-fn spread<K: Kernel>(anywhere: Anywhere<'_, K>, scale: f64, markers: Markers<'_>, band: Band<'_>) {
-    if let Some(pieces) = anywhere.kernel().pieces() {
-        if *pieces == CUBIC_QUADRATIC {
-            lanes::dispatch(Spreading { anywhere, pieces: CubicQuadratics, scale, markers, band });
-        } else {
-            lanes::dispatch(Spreading { anywhere, pieces, scale, markers, band });
-        }
-    } else {
-        for (spot, force) in markers.spots.iter().zip(markers.forces) {
-            if let Some(place) = markers.elsewhere.get(spot.kind as usize) {
-                anywhere.add(*place, (scale * force).into(), band.first_row, band.fx, band.fy);
-            }
-        }
+/// The polynomials of a kernel unless they are those of the default one, which are constants. Where a kernel has none
+/// all locations are irregular, for which none are needed.
+fn other_pieces<K: Kernel>(kernel: &K) -> Option<&'static Pieces> {
+    kernel.pieces().filter(|pieces| **pieces != CUBIC_QUADRATIC)
+}
+
+fn spread<K: Kernel>(general: GeneralTransfer<'_, K>, scale: f64, markers: Markers<'_>, band: Band<'_>) {
+    match other_pieces(general.kernel) {
+        Some(pieces) => lanes::dispatch(Spreading { general, pieces, scale, markers, band }),
+        None => lanes::dispatch(Spreading { general, pieces: CubicQuadratics, scale, markers, band }),
     }
 }
 
 fn interpolate<K: Kernel>(
-    anywhere: Anywhere<'_, K>,
-    spots: &[Spot],
-    elsewhere: &[[f64; 2]],
+    general: GeneralTransfer<'_, K>,
+    locations: &[Location],
+    irregular: &[[f64; 2]],
     velocity: &StaggeredField,
     velocities: &mut [Vec2],
 ) {
     let (u, v) = (velocity.x(), velocity.y());
-    if let Some(pieces) = anywhere.kernel().pieces() {
-        if *pieces == CUBIC_QUADRATIC {
+    match other_pieces(general.kernel) {
+        Some(pieces) => lanes::dispatch(Interpolation { general, pieces, locations, irregular, u, v, velocities }),
+        None => {
             let pieces = CubicQuadratics;
-            lanes::dispatch(Interpolation { anywhere, pieces, spots, elsewhere, u, v, velocities });
-        } else {
-            lanes::dispatch(Interpolation { anywhere, pieces, spots, elsewhere, u, v, velocities });
-        }
-    } else {
-        for (spot, out) in spots.iter().zip(velocities) {
-            if let Some(place) = elsewhere.get(spot.kind as usize) {
-                *out = anywhere.gather(*place, u, v).into();
-            }
+            lanes::dispatch(Interpolation { general, pieces, locations, irregular, u, v, velocities });
         }
     }
 }

@@ -31,7 +31,7 @@ const UNCHANGED: u8 = 255;
 /// # std::fs::remove_file(&path)?;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Film {
     look: Look,
     raster: Raster,

@@ -41,7 +41,7 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
 }
 
 /// Measures the solids of a system, for rows of a table.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SolidMeter {
     gap: SolidGap,
     set_back: f64,

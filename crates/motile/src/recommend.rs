@@ -1,6 +1,6 @@
 //! Settings for an error that is asked for.
 
-use ib_core::{AnyKernel, StepSize};
+use ib_core::StepSize;
 
 use crate::SetupError;
 use crate::{GridMethod, IntegralMethod, Method, MethodKind};
@@ -16,20 +16,6 @@ pub enum SceneKind {
     Channel,
 }
 
-/// What was measured: the largest error of the speed and the settings that have it.
-struct Entry {
-    error: f64,
-    settings: Settings,
-}
-
-#[derive(Clone, Copy)]
-enum Settings {
-    /// Shape nodes and cells of the concentration.
-    Integrals(usize, usize),
-    /// Spacing of the grid over the radius, with markers half of that apart, and kernel.
-    Grid(f64, AnyKernel),
-}
-
 /// Part of the stability limit that a step takes: below it the errors of time are far below those of space.
 const OF_LIMIT: f64 = 0.9;
 /// In a channel films drain and the limit falls on the way.
@@ -38,31 +24,24 @@ const OF_LIMIT_IN_CHANNELS: f64 = 0.5;
 /// The largest error over the scenes of docs/speed-against-error.md of that kind, of these settings and of all finer
 /// ones of the same kind; in boxes also at activity -4 at 0.2, 0.4 and 0.6 radians from the axes to t = 80, in a
 /// channel of width two also, by boundary integrals, at activity -4. From coarse to fine.
-fn measured(scene: SceneKind, method: MethodKind) -> &'static [Entry] {
-    use AnyKernel::BSpline4;
-    use Settings::{Grid, Integrals};
-    const fn entry(error: f64, settings: Settings) -> Entry {
-        Entry { error, settings }
-    }
-    const BOX: [Entry; 3] =
-        [entry(0.0085, Integrals(24, 96)), entry(0.0012, Integrals(64, 192)), entry(0.0007, Integrals(64, 256))];
-    const BOX_GRID: [Entry; 2] = [entry(0.0040, Grid(0.075, BSpline4)), entry(0.0010, Grid(0.05, BSpline4))];
-    const CONTRAST: [Entry; 2] = [entry(0.0052, Integrals(24, 48)), entry(0.0009, Integrals(48, 192))];
-    const CONTRAST_GRID: [Entry; 2] = [entry(0.0060, Grid(0.15, BSpline4)), entry(0.0012, Grid(0.1, BSpline4))];
-    const CHANNEL: [Entry; 4] = [
-        entry(0.0080, Integrals(48, 192)),
-        entry(0.0040, Integrals(64, 192)),
-        entry(0.0013, Integrals(80, 320)),
-        entry(0.0008, Integrals(96, 384)),
-    ];
-    const CHANNEL_GRID: [Entry; 2] = [entry(0.0045, Grid(0.08, BSpline4)), entry(0.0028, Grid(0.05, BSpline4))];
-    match (scene, method) {
-        (SceneKind::Box, MethodKind::Integral) => &BOX,
-        (SceneKind::Box, MethodKind::Grid) => &BOX_GRID,
-        (SceneKind::ViscosityContrast, MethodKind::Integral) => &CONTRAST,
-        (SceneKind::ViscosityContrast, MethodKind::Grid) => &CONTRAST_GRID,
-        (SceneKind::Channel, MethodKind::Integral) => &CHANNEL,
-        (SceneKind::Channel, MethodKind::Grid) => &CHANNEL_GRID,
+fn measured(scene: SceneKind, method: MethodKind) -> Vec<(f64, Method)> {
+    // Error, nodes of the shape, cells of the concentration.
+    let integrals: &[(f64, usize, usize)] = match scene {
+        SceneKind::Box => &[(0.0085, 24, 96), (0.0012, 64, 192), (0.0007, 64, 256)],
+        SceneKind::ViscosityContrast => &[(0.0052, 24, 48), (0.0009, 48, 192)],
+        SceneKind::Channel => &[(0.0080, 48, 192), (0.0040, 64, 192), (0.0013, 80, 320), (0.0008, 96, 384)],
+    };
+    // Error, spacing of the grid over the radius, for the default kernel and markers half of that apart.
+    let grids: &[(f64, f64)] = match scene {
+        SceneKind::Box => &[(0.0040, 0.075), (0.0010, 0.05)],
+        SceneKind::ViscosityContrast => &[(0.0060, 0.15), (0.0012, 0.1)],
+        SceneKind::Channel => &[(0.0045, 0.08), (0.0028, 0.05)],
+    };
+    let integral = |&(error, nodes, cells): &_| (error, Method::Integral(IntegralMethod { nodes, cells }));
+    let grid = |&(error, spacing): &_| (error, Method::Grid(GridMethod::of_spacing(spacing)));
+    match method {
+        MethodKind::Integral => integrals.iter().map(integral).collect(),
+        MethodKind::Grid => grids.iter().map(grid).collect(),
     }
 }
 
@@ -101,15 +80,11 @@ pub struct Recommendation {
 pub fn recommend(scene: SceneKind, method: MethodKind, target_error: f64) -> Result<Recommendation, SetupError> {
     const LARGEST: f64 = 0.05;
     let entries = measured(scene, method);
-    let found = entries.iter().find(|entry| entry.error <= target_error).filter(|_| target_error <= LARGEST);
-    let Some(entry) = found else {
-        let smallest = entries.iter().map(|entry| entry.error).fold(f64::INFINITY, f64::min);
+    let found = entries.iter().find(|(error, _)| *error <= target_error).filter(|_| target_error <= LARGEST);
+    let Some(&(_, method)) = found else {
+        let smallest = entries.iter().map(|(error, _)| *error).fold(f64::INFINITY, f64::min);
         return Err(SetupError::TargetError { target: target_error, smallest, largest: LARGEST });
     };
     let fraction = if scene == SceneKind::Channel { OF_LIMIT_IN_CHANNELS } else { OF_LIMIT };
-    let method = match entry.settings {
-        Settings::Integrals(nodes, cells) => Method::Integral(IntegralMethod { nodes, cells }),
-        Settings::Grid(spacing, kernel) => Method::Grid(GridMethod { kernel, ..GridMethod::of_spacing(spacing) }),
-    };
     Ok(Recommendation { method, step: StepSize::OfLimit(fraction) })
 }

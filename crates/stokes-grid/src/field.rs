@@ -125,4 +125,18 @@ impl StaggeredField {
         self.x.fill(value);
         self.y.fill(value);
     }
+
+    /// Becomes a copy of `source`, without an allocation where both have as many values.
+    pub fn copy_from(&mut self, source: &Self) {
+        self.grid = source.grid;
+        self.x.clone_from(&source.x);
+        self.y.clone_from(&source.y);
+    }
+
+    /// `self = keep * self + factor * term` for a field of the same grid.
+    pub fn combine(&mut self, keep: f64, factor: f64, term: &Self) {
+        for (values, terms) in [(&mut self.x, &term.x), (&mut self.y, &term.y)] {
+            values.iter_mut().zip(terms).for_each(|(value, term)| *value = keep * *value + factor * term);
+        }
+    }
 }

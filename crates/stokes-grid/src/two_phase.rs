@@ -136,7 +136,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
         self.known = 0;
         for (own, solution) in self.previous.iter_mut().zip(solutions) {
             check_grids(self.solver.grid(), &[("a solution", solution.grid())])?;
-            copy(own, solution);
+            own.copy_from(solution);
             self.known += 1;
         }
         Ok(())
@@ -203,7 +203,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// The preconditioner: `self.preconditioned` from `self.residual`, and the product of both.
     fn precondition(&mut self) -> Result<(f64, [f64; 2]), StokesError> {
         let report = self.solver.solve(&self.residual, &mut self.preconditioned)?;
-        combine(&mut self.preconditioned, 1.0, -1.0, &self.imposed);
+        self.preconditioned.combine(1.0, -1.0, &self.imposed);
         Ok((dot(&self.residual, &self.preconditioned), report.mean_pressure_gradient))
     }
 
@@ -219,7 +219,7 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
     /// Conjugate gradients from `self.solution`, whose residual is `square`, until it is below `goal`; iterations done.
     fn iterate(&mut self, mut square: f64, goal: f64, scale: f64, mut left: usize) -> Result<usize, StokesError> {
         let mut done = 0;
-        copy(&mut self.direction, &self.preconditioned);
+        self.direction.copy_from(&self.preconditioned);
         while square > goal && left > 0 {
             self.force.add(&self.direction, &WallMotion::AT_REST, -1.0, None, &mut self.image);
             let curvature = dot(&self.direction, &self.image);
@@ -227,10 +227,10 @@ impl<S: StokesSolver> TwoPhaseStokes<S> {
                 break;
             }
             let step = square / curvature;
-            combine(&mut self.solution, 1.0, step, &self.direction);
-            combine(&mut self.residual, 1.0, -step, &self.image);
+            self.solution.combine(1.0, step, &self.direction);
+            self.residual.combine(1.0, -step, &self.image);
             let (next, _) = self.precondition()?;
-            combine(&mut self.direction, next / square, 1.0, &self.preconditioned);
+            self.direction.combine(next / square, 1.0, &self.preconditioned);
             square = next;
             self.history.push((square.max(0.0) / scale).sqrt());
             done += 1;
@@ -260,7 +260,7 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
     fn solve(&mut self, force: &StaggeredField, velocity: &mut StaggeredField) -> Result<SolveReport, StokesError> {
         check_grids(self.solver.grid(), &[("the force", force.grid()), ("the velocity", velocity.grid())])?;
         self.history.clear();
-        copy(&mut self.solution, &self.imposed);
+        self.solution.copy_from(&self.imposed);
         self.fill_residual(force);
         let (scale, mut gradient) = self.precondition()?;
         let mut square = scale;
@@ -268,9 +268,9 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
         let mut residual = 0.0;
         if scale > 0.0 {
             if self.known > 0 {
-                copy(&mut self.solution, &self.previous[0]);
+                self.solution.copy_from(&self.previous[0]);
                 if self.known > 1 {
-                    combine(&mut self.solution, 2.0, -1.0, &self.previous[1]);
+                    self.solution.combine(2.0, -1.0, &self.previous[1]);
                 }
                 self.fill_residual(force);
                 (square, gradient) = self.precondition()?;
@@ -297,9 +297,9 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
         }
         self.work.solves += 1;
         self.previous.swap(0, 1);
-        copy(&mut self.previous[0], &self.solution);
+        self.previous[0].copy_from(&self.solution);
         self.known = (self.known + 1).min(2);
-        copy(velocity, &self.solution);
+        velocity.copy_from(&self.solution);
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: gradient })
     }
 
@@ -313,7 +313,7 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
         let fields =
             [("the force", force.grid()), ("the velocity", velocity.grid()), ("the pressure", pressure.grid())];
         check_grids(self.solver.grid(), &fields)?;
-        copy(&mut self.solution, velocity);
+        self.solution.copy_from(velocity);
         self.fill_residual(force);
         let Self { solver, residual, direction, image, imposed, imposed_pressure: own, .. } = self;
         solver.solve(residual, direction)?;
@@ -347,21 +347,4 @@ fn dot(a: &StaggeredField, b: &StaggeredField) -> f64 {
         lanes.iter().sum::<f64>() + a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum::<f64>()
     };
     product(a.x(), b.x()) + product(a.y(), b.y())
-}
-
-/// `target = keep * target + factor * term`.
-fn combine(target: &mut StaggeredField, keep: f64, factor: f64, term: &StaggeredField) {
-    let (x, y) = target.components_mut();
-    for (target, term) in x.iter_mut().zip(term.x()) {
-        *target = keep * *target + factor * term;
-    }
-    for (target, term) in y.iter_mut().zip(term.y()) {
-        *target = keep * *target + factor * term;
-    }
-}
-
-fn copy(target: &mut StaggeredField, source: &StaggeredField) {
-    let (x, y) = target.components_mut();
-    x.copy_from_slice(source.x());
-    y.copy_from_slice(source.y());
 }

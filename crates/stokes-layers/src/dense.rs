@@ -8,7 +8,7 @@ mod walls;
 
 use num_complex::Complex64;
 
-use crate::{Forcing, LayerError, Region, Vec2, error::within, gmres::dot, greens::StressKernel, region::Images};
+use crate::{Forcing, Geometry, LayerError, Vec2, error::within, geometry::Images, gmres::dot, greens::StressKernel};
 pub use curve::{Foot, NodeCurve};
 use walls::DenseWalls;
 
@@ -61,16 +61,16 @@ impl DoubleLayerMatrix {
     ///
     /// # Errors
     /// The plane, for which there is no such matrix, or a region out of its range.
-    pub fn new(region: Region, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, LayerError> {
-        region.check()?;
-        let walls = match region {
-            Region::Plane => return Err(LayerError::NoPeriod),
-            Region::Box { .. } => None,
-            Region::Channel { length, width, forcing } => {
+    pub fn new(geometry: Geometry, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, LayerError> {
+        geometry.check()?;
+        let walls = match geometry {
+            Geometry::Plane => return Err(LayerError::NoPeriod),
+            Geometry::Box { .. } => None,
+            Geometry::Channel { length, width, forcing } => {
                 Some(DenseWalls::new(length, width, middle, matches!(forcing, Forcing::Flux(_)), least_gap))
             }
         };
-        let (images, area) = (region.images(), region.area());
+        let (images, area) = (geometry.images(), geometry.area());
         let kernel = StressKernel::new(&images, TOLERANCE);
         let (blocks, scaled, dipoles) = Default::default();
         Ok(Self { kernel, images, area, walls, viscosity, nodes: 0, blocks, scaled, dipoles })

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use num_complex::Complex64;
 
 use crate::{
-    LayerError, Region, Settings, Vec2,
+    Geometry, LayerError, Settings, Vec2,
     error::{positive, same_length, within},
     gmres::{Gmres, Outcome},
     greens::{Flow, Vectors},
@@ -83,7 +83,7 @@ pub struct WarmStart {
 /// [`InterfaceFlow::sample`] anywhere. While the numbers of interfaces and points stay the same nothing is allocated.
 #[derive(Debug, Clone)]
 pub struct InterfaceFlow {
-    region: Region,
+    geometry: Geometry,
     viscosity: f64,
     settings: Settings,
     layers: Layers,
@@ -109,18 +109,18 @@ impl InterfaceFlow {
     /// # Errors
     /// A viscosity or a length that is not positive and finite, periods of which one is more than 20 times the other,
     /// settings out of their range.
-    pub fn new(region: Region, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
+    pub fn new(geometry: Geometry, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
         positive("the viscosity", viscosity)?;
-        region.check()?;
-        if let Region::Box { lengths: [lx, ly] } = region {
+        geometry.check()?;
+        if let Geometry::Box { lengths: [lx, ly] } = geometry {
             within("the ratio of the periods", lx.max(ly) / lx.min(ly), 1.0, LARGEST_RATIO)?;
         }
         settings.check()?;
         Ok(Self {
-            region,
+            geometry,
             viscosity,
             settings,
-            layers: Layers::new(region, settings.nodes, settings.tolerance),
+            layers: Layers::new(geometry, settings.nodes, settings.tolerance),
             gmres: Gmres::recycling(),
             viscosities: Vec::new(),
             contrasts: Vec::new(),
@@ -133,10 +133,10 @@ impl InterfaceFlow {
         })
     }
 
-    /// The region.
+    /// The geometry.
     #[must_use]
-    pub fn region(&self) -> &Region {
-        &self.region
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
     }
 
     /// Viscosity of the exterior fluid (stress times time).

@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 use num_complex::Complex64;
 
 use crate::{
-    LayerError, Region, Vec2,
+    Geometry, LayerError, Vec2,
     close::{CloseCorrection, CloseWeights},
     curve::{Curve, REFINEMENT, Transforms},
     greens::{GreensFunction, Vectors},
@@ -54,7 +54,7 @@ impl<'a> Density<'a> {
 /// Layers on closed curves in a region. Flows are 4 pi times velocity times viscosity.
 #[derive(Debug, Clone)]
 pub(crate) struct Layers {
-    region: Region,
+    geometry: Geometry,
     greens: GreensFunction,
     pub(crate) transforms: Transforms,
     pub(crate) curves: Vec<Curve>,
@@ -71,19 +71,19 @@ pub(crate) struct Layers {
 }
 
 impl Layers {
-    pub(crate) fn new(region: Region, nodes: usize, tolerance: f64) -> Self {
-        let walls = if let Region::Channel { length, width, forcing } = region {
+    pub(crate) fn new(geometry: Geometry, nodes: usize, tolerance: f64) -> Self {
+        let walls = if let Geometry::Channel { length, width, forcing } = geometry {
             Some(Walls::new(length, width, forcing, tolerance))
         } else {
             None
         };
         Self {
-            region,
-            greens: GreensFunction::new(&region, tolerance),
+            geometry,
+            greens: GreensFunction::new(&geometry, tolerance),
             transforms: Transforms::new(nodes),
             curves: Vec::new(),
             direct: DirectSums::new(nodes),
-            multipoles: Multipoles::new(region, tolerance),
+            multipoles: Multipoles::new(geometry, tolerance),
             walls,
             close: CloseCorrection::new(nodes, tolerance),
             out: Vec::new(),
@@ -123,10 +123,10 @@ impl Layers {
     /// Computes the single layer of the forces at the nodes. With `double`, prepares for [`Layers::double_layer`].
     pub(crate) fn single_layer(&mut self, double: bool) {
         let Self { direct, multipoles, walls, close, curves, transforms, out, .. } = self;
-        let wave = if let Region::Channel { length, .. } = self.region { Some(TAU / length) } else { None };
+        let wave = if let Geometry::Channel { length, .. } = self.geometry { Some(TAU / length) } else { None };
         direct.load(curves, wave);
         multipoles.divide(curves, &mut direct.pairs);
-        close.find(curves, transforms, &self.region.images());
+        close.find(curves, transforms, &self.geometry.images());
         out.iter_mut().for_each(|out| out.clear(self.nodes));
 
         direct.add_forces(out);
@@ -188,7 +188,7 @@ impl Layers {
 
     /// 4 pi/area times the sum of X v.n in a box, whose mean velocity is zero.
     fn mean_flow(&self, density: Density<'_>) -> Option<Complex64> {
-        let Region::Box { lengths: [lx, ly] } = self.region else { return None };
+        let Geometry::Box { lengths: [lx, ly] } = self.geometry else { return None };
         let mut sum = Complex64::default();
         for (index, (curve, contrast)) in self.curves.iter().zip(density.contrasts).enumerate() {
             let (vx, vy) = density.of(index);

@@ -7,7 +7,7 @@
 //! The velocity of its tip, and the flow at its centre and close to it:
 //!
 //! ```
-//! use stokes_layers::{FlowSample, Interface, InterfaceFlow, PeriodicCalculus, Region, Settings};
+//! use stokes_layers::{FlowSample, Interface, InterfaceFlow, PeriodicCalculus, Geometry, Settings};
 //! use stokes_layers::{TensionPlacement, Vec2};
 //!
 //! # fn main() -> Result<(), stokes_layers::LayerError> {
@@ -17,7 +17,7 @@
 //! let mut forces = vec![Vec2::ZERO; count];
 //! PeriodicCalculus::new(count)?.tension_forces(&positions, &[1.0; 128], TensionPlacement::Points, &mut forces)?;
 //!
-//! let mut flow = InterfaceFlow::new(Region::Plane, 1.0, Settings::default())?;
+//! let mut flow = InterfaceFlow::new(Geometry::Plane, 1.0, Settings::default())?;
 //! flow.load([Interface { positions: &positions, forces: &forces, viscosity: 10.0 }].into_iter())?;
 //! let solution = flow.solve()?;
 //! let mut velocities = vec![Vec2::ZERO; count];
@@ -62,18 +62,18 @@ mod close;
 mod curve;
 pub mod dense;
 mod error;
+mod geometry;
 pub mod gmres;
 mod greens;
 mod interface_flow;
 mod layer;
 mod multipole;
-mod region;
 mod settings;
 
 pub use curve::{PeriodicCalculus, TensionPlacement};
 pub use error::LayerError;
+pub use geometry::{Forcing, Geometry};
 /// A position, force or velocity.
 pub use glam::DVec2 as Vec2;
 pub use interface_flow::{FlowSample, Interface, InterfaceFlow, Solution, WarmStart};
-pub use region::{Forcing, Region};
 pub use settings::Settings;

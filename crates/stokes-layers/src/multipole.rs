@@ -9,7 +9,7 @@ mod series;
 use num_complex::Complex64;
 
 use crate::{
-    Region,
+    Geometry,
     curve::Curve,
     greens::{FreePair, RowPair, Vectors},
     layer::{Dipoles, DirectPair, Pair},
@@ -33,7 +33,7 @@ struct Link {
 /// Series between curves and the moments that go with them.
 #[derive(Debug, Clone)]
 pub(crate) struct Multipoles {
-    region: Region,
+    geometry: Geometry,
     tolerance: f64,
     finder: SeriesFinder,
     /// The series of a box around the source itself, with its unit.
@@ -52,9 +52,9 @@ pub(crate) struct Multipoles {
 }
 
 impl Multipoles {
-    pub(crate) fn new(region: Region, tolerance: f64) -> Self {
-        let mut finder = SeriesFinder::new(&region, tolerance);
-        let own = if let Region::Box { lengths: [lx, ly] } = region {
+    pub(crate) fn new(geometry: Geometry, tolerance: f64) -> Self {
+        let mut finder = SeriesFinder::new(&geometry, tolerance);
+        let own = if let Geometry::Box { lengths: [lx, ly] } = geometry {
             let unit = lx.min(ly);
             let mut series = Series::new();
             let extent = Extent { reach: LARGEST_RATIO * unit, unit, degree: MOST_DEGREES };
@@ -64,7 +64,7 @@ impl Multipoles {
             None
         };
         Self {
-            region,
+            geometry,
             tolerance,
             finder,
             own,
@@ -98,19 +98,19 @@ impl Multipoles {
         let own = target == source;
         let reach = curves[target].radius + curves[source].radius;
         let too_close = |distance: Complex64| reach > LARGEST_RATIO * distance.norm();
-        let distance = self.region.images().wrap(curves[target].centre - curves[source].centre);
+        let distance = self.geometry.images().wrap(curves[target].centre - curves[source].centre);
         self.direct.clear();
         let (mut nearest, mut direct) = (distance.norm(), own || too_close(distance));
         let mut sum_over_nodes = |kernel, own| pairs.push(DirectPair { target, source, own, kernel });
         let free = |e: Complex64| Pair::Free(FreePair { offset: [-e.re, -e.im] });
-        match self.region {
-            Region::Plane if direct => sum_over_nodes(free(distance), own),
-            Region::Channel { length, .. } if direct => {
+        match self.geometry {
+            Geometry::Plane if direct => sum_over_nodes(free(distance), own),
+            Geometry::Channel { length, .. } if direct => {
                 let k = std::f64::consts::TAU / length;
                 sum_over_nodes(Pair::Row(RowPair::new(k, [-distance.re, -distance.im])), own);
             }
-            Region::Plane | Region::Channel { .. } => {}
-            Region::Box { lengths: [lx, ly] } => {
+            Geometry::Plane | Geometry::Channel { .. } => {}
+            Geometry::Box { lengths: [lx, ly] } => {
                 (nearest, direct) = (f64::INFINITY, false);
                 for (i, j) in (-2..=2).flat_map(|i| (-2..=2).map(move |j| (i, j))) {
                     let e = distance + Complex64::new(f64::from(i) * lx, f64::from(j) * ly);
@@ -140,7 +140,7 @@ impl Multipoles {
         let index = self.next(target, source);
         let series = &mut self.links[index].series;
         match &self.own {
-            _ if self.region == Region::Plane => series.free(distance, extent),
+            _ if self.geometry == Geometry::Plane => series.free(distance, extent),
             Some((own, unit)) if target == source && self.direct.len() == 1 => {
                 series.rescale(own, extent.unit / unit, extent.degree);
             }
@@ -212,7 +212,7 @@ impl Multipoles {
                 any = true;
             }
             if any {
-                self.expansion.add_flow(&curve.nodes.position, self.unit, self.region.area(), out);
+                self.expansion.add_flow(&curve.nodes.position, self.unit, self.geometry.area(), out);
             }
         }
     }

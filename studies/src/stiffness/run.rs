@@ -6,11 +6,7 @@ use motile::active_interface::{
     ActiveDroplet,
     trajectory::{RegimeCriteria, TrajectoryRecorder},
 };
-use motile::elastic_solids::{
-    Moduli, Solid,
-    channel::{Constriction, width_between},
-    solid::Observables,
-};
+use motile::elastic_solids::{Moduli, Solid, channel::width_between, solid::Observables};
 use motile::ib_core::gap::SolidGap;
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
 use motile::stokes_grid::Drive;
@@ -187,10 +183,13 @@ impl Job {
 
     fn shape(&self) -> ChannelShape {
         match self.purpose {
-            Purpose::Passage => {
-                let Constriction { throat, throat_length, ramp, centre, .. } = Constriction::thesis();
-                ChannelShape::Constriction { width: self.width, throat, throat_length, ramp, centre }
-            }
+            Purpose::Passage => ChannelShape::Constriction {
+                width: self.width,
+                throat: 1.0,
+                throat_length: 4.0,
+                ramp: 1.0,
+                centre: 0.0,
+            },
             _ => ChannelShape::Straight { width: self.width },
         }
     }

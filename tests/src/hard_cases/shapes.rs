@@ -2,7 +2,7 @@
 
 use motile::AnyFlow;
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::boundary_integral::{BoundaryIntegral, Region, Settings};
+use motile::boundary_integral::{BoundaryIntegral, Geometry, Settings};
 use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes};
 
@@ -16,7 +16,7 @@ fn relax(way: Way, curve: &Curve, side: f64, until: f64, look: Look<'_>) -> Resu
     let flow: AnyFlow = match way {
         Way::Integral => {
             let settings = Settings { nodes: 192, ..Settings::default() };
-            let flow = BoundaryIntegral::new(Region::Box { lengths: [side, side] }, 10.0, settings)
+            let flow = BoundaryIntegral::new(Geometry::Box { lengths: [side, side] }, 10.0, settings)
                 .and_then(|flow| flow.with_reference_perimeter(curve.perimeter()));
             Box::new(flow.map_err(motile::SetupError::from)?)
         }

@@ -1,6 +1,6 @@
 //! Elastic walls: stiff, narrow, badly meshed.
 
-use motile::elastic_solids::{Mesher, Moduli, Solid, TriangleMesh, channel::StraightChannel, forces::Springs};
+use motile::elastic_solids::{Mesher, Moduli, Solid, TriangleMesh, forces::Springs};
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid};
 use motile::{AnyFlow, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup, Surface};
@@ -52,7 +52,7 @@ fn sheared(mesh: TriangleMesh, way: Way, until: f64, look: Look<'_>) -> Result<O
 
 /// The mesh of a wall of height one below the channel, whose inner points `place` may move; not those of its boundary.
 fn disturbed(place: impl Fn(usize, Vec2) -> Vec2) -> Result<TriangleMesh, CaseError> {
-    let channel = StraightChannel { period: 6.0, width: 2.0 }.channel()?;
+    let channel = ChannelShape::Straight { width: 2.0 }.channel(6.0)?;
     let mesh = channel.walls(-2.0, 2.0, &Mesher::new(0.1)?)?.lower;
     let fixed: Vec<usize> = mesh.boundary_loops().iter().flat_map(|outline| outline.points.iter().copied()).collect();
     let points = mesh.points().iter().enumerate();

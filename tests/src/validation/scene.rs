@@ -44,10 +44,10 @@ pub fn flow(region: Region, method: Method, viscosity: f64, tolerance: f64) -> R
     match method {
         Method::Integral(IntegralMethod { nodes, .. }) => {
             let region = match region {
-                Region::Plane => boundary_integral::Region::Plane,
-                Region::Box { lengths } => boundary_integral::Region::Box { lengths },
+                Region::Plane => boundary_integral::Geometry::Plane,
+                Region::Box { lengths } => boundary_integral::Geometry::Box { lengths },
                 Region::Channel { length, width, drive } => {
-                    boundary_integral::Region::Channel { length, width, forcing: forcing(drive) }
+                    boundary_integral::Geometry::Channel { length, width, forcing: forcing(drive) }
                 }
             };
             let settings = Settings { nodes, tolerance, ..Settings::default() };

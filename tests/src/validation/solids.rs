@@ -1,7 +1,7 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
 use motile::elastic_solids::{
-    ElasticForces, EnergyDensity, Mesher, NeoHookean, Outline, Region, Solid, SolidError, TriangleMesh,
+    ElasticForces, EnergyDensity, Interior, Mesher, NeoHookean, Outline, Solid, SolidError, TriangleMesh,
     check::{ForceBalance, InnerPoints, MeasuredModuli, force_balance, measured_moduli, patch_residual, stress_error},
     forces::{Hyperelastic, Springs},
     material::{DeformationGradient, Mat2, MooneyRivlin, SaintVenantKirchhoff},
@@ -75,7 +75,7 @@ pub fn laws(mesh: &TriangleMesh) -> Result<Named<dyn ElasticForces>, SolidError>
 /// A mesh that could not be made.
 pub fn meshes() -> Result<[TriangleMesh; 2], SolidError> {
     let circle = |radius: f64| Outline::circle(Vec2::new(0.2, -0.1), radius);
-    Ok([Region::new([circle(1.0)?, circle(0.4)?])?.mesh(0.1)?, equilateral_block(Vec2::ZERO, 12, 11, 0.1)?])
+    Ok([Interior::new([circle(1.0)?, circle(0.4)?])?.mesh(0.1)?, equilateral_block(Vec2::ZERO, 12, 11, 0.1)?])
 }
 
 /// The balance of the forces under a large deformation that is not smooth on the scale of the mesh.
@@ -116,7 +116,7 @@ pub fn moduli(sample: Sample, material: Material) -> Result<MeasuredModuli, Soli
     let mesh = match sample {
         Sample::Lattice => equilateral_strip(Vec2::ZERO, 40, 30, 0.05)?,
         Sample::Wall => {
-            let region = Region::new([Outline::flat(0.0, 4.0, 0.0)?, Outline::flat(0.0, 4.0, 1.5)?])?;
+            let region = Interior::new([Outline::flat(0.0, 4.0, 0.0)?, Outline::flat(0.0, 4.0, 1.5)?])?;
             Mesher::new(0.05)?.turned(TURN)?.mesh(&region)?
         }
         Sample::Disc => Outline::circle(Vec2::ZERO, 1.0)?.mesh(0.05)?,
@@ -189,7 +189,7 @@ impl Layer {
             return fitted_strip(Vec2::new(0.0, bottom), [LENGTH, THICKNESS], h);
         }
         let sides = [Outline::flat(0.0, LENGTH, bottom)?, Outline::flat(0.0, LENGTH, bottom + THICKNESS)?];
-        Mesher::new(h)?.turned(TURN)?.mesh(&Region::new(sides)?)
+        Mesher::new(h)?.turned(TURN)?.mesh(&Interior::new(sides)?)
     }
 
     fn relaxation(&self, solid: Solid, h: f64, shear: f64) -> Result<f64, StudyError> {

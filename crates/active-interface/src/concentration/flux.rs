@@ -2,6 +2,7 @@
 
 /// How the concentration at a marker follows from that of the segments around it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Flux {
     /// The segment upstream (first order; smears the edge of the concentration).
     Upwind,

@@ -24,7 +24,7 @@ pub struct Width {
 /// Walls that are not periodic in x, or with different periods.
 pub fn width_between(lower: &Solid, upper: &Solid) -> Result<Width, SolidError> {
     let (first, second) = (lower.mesh().period().unwrap_or(0.0), upper.mesh().period().unwrap_or(0.0));
-    let (Some(below), Some(above), true) = (lower.upper_surface(), upper.lower_surface(), first == second) else {
+    let (Some(below), Some(above), true) = (lower.surface(-1), upper.surface(1), first == second) else {
         return Err(SolidError::DifferentPeriods { first, second });
     };
     vertical_width(&below, &above, first)

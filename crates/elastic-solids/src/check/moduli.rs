@@ -84,10 +84,7 @@ const TOLERANCE: f64 = 1e-6;
 /// Moves the points that are not on the boundary until the forces on them vanish, by nonlinear conjugate gradients
 /// (Polak and Ribiere) with one secant step along each direction, which is exact for small strains.
 fn relax_inner(mesh: &TriangleMesh, law: &dyn ElasticForces, positions: &mut [Vec2]) -> Result<(), SolidError> {
-    let mut inner = vec![true; positions.len()];
-    for &point in mesh.boundary_loops().iter().flat_map(|boundary| &boundary.points) {
-        inner[point] = false;
-    }
+    let inner = mesh.inner_points();
     let residual = |positions: &[Vec2], forces: &mut Vec<Vec2>| -> Result<(), SolidError> {
         forces.fill(Vec2::ZERO);
         law.add_forces(positions, forces)?;

@@ -6,19 +6,19 @@ use crate::check::{force_balance, patch_residual};
 use crate::forces::{Hyperelastic, Springs};
 use crate::material::{Mat2, MooneyRivlin, SaintVenantKirchhoff};
 use crate::mesh::equilateral_strip;
-use crate::{ElasticForces, NeoHookean, Outline, Region, SolidError, TriangleMesh};
+use crate::{ElasticForces, Interior, NeoHookean, Outline, SolidError, TriangleMesh};
 use ib_core::Vec2;
 use ib_core::input::InputError;
 
 fn blob() -> TriangleMesh {
     let circle = |radius: f64| Outline::circle(Vec2::new(0.2, -0.1), radius).unwrap();
-    Region::new([circle(1.0), circle(0.4)]).unwrap().mesh(0.25).unwrap()
+    Interior::new([circle(1.0), circle(0.4)]).unwrap().mesh(0.25).unwrap()
 }
 
 fn wall() -> TriangleMesh {
     let flat = Outline::flat(-1.5, 3.0, -1.0).unwrap();
     let wave = Outline::profile(-1.5, 3.0, |x| 0.2 * (std::f64::consts::TAU * x / 3.0).sin()).unwrap();
-    Region::new([flat, wave]).unwrap().mesh(0.2).unwrap()
+    Interior::new([flat, wave]).unwrap().mesh(0.2).unwrap()
 }
 
 /// All laws, some with moduli that depend on the place.

@@ -1,4 +1,4 @@
-//! The checked boundary of a region at the spacing of its mesh.
+//! The checked boundary of an interior at the spacing of its mesh.
 
 use ib_core::Vec2;
 use ib_core::input::within;
@@ -8,7 +8,7 @@ use crate::mesh::lattice::ROW_HEIGHT;
 use crate::mesher::point_set::PointSet;
 use crate::mesher::segments::Segments;
 use crate::outline::{Place, Track};
-use crate::{Outline, Region, SolidError};
+use crate::{Interior, Outline, SolidError};
 
 /// Length of boundary, in spacings, beyond which two nearby parts of it are the two sides of a wall, not of a corner.
 const ACROSS: usize = 6;
@@ -16,7 +16,7 @@ const ACROSS: usize = 6;
 /// Largest change of the spacing, over itself, that makes rows of triangles fit a wall.
 const LARGEST_FIT: f64 = 0.05;
 
-/// Points on the outlines of a region, where they make a boundary that can be meshed.
+/// Points on the outlines of an interior, where they make a boundary that can be meshed.
 #[derive(Debug)]
 pub(crate) struct Boundary<'a> {
     pub(crate) spacing: f64,
@@ -34,15 +34,15 @@ pub(crate) struct Boundary<'a> {
 
 impl<'a> Boundary<'a> {
     /// `fitted` where the seeds of a wall are to be a lattice between its surfaces.
-    pub(crate) fn new(region: &'a Region, asked: f64, fitted: bool) -> Result<Self, SolidError> {
+    pub(crate) fn new(interior: &'a Interior, asked: f64, fitted: bool) -> Result<Self, SolidError> {
         let mut spacing = asked;
-        if let Some(period) = region.period() {
+        if let Some(period) = interior.period() {
             within("the period over the mesh spacing", period / spacing, 6.0, MOST_POINTS)?;
         }
         // Finer samples are taken below, and the inside has many more points.
-        let length: f64 = region.outlines().iter().map(Outline::length).sum();
+        let length: f64 = interior.outlines().iter().map(Outline::length).sum();
         within("the length of the outlines over the mesh spacing", length / spacing, 0.0, 0.1 * MOST_POINTS)?;
-        let tracks: Vec<Track<'a>> = region.outlines().iter().map(Track::new).collect();
+        let tracks: Vec<Track<'a>> = interior.outlines().iter().map(Track::new).collect();
         let places = |spacing: f64| tracks.iter().map(|track| track.places(spacing, 0.0)).collect::<Vec<_>>();
         let points = |places: &[Vec<Place>]| {
             let of = |(track, places): (&Track<'_>, &Vec<Place>)| places.iter().map(|&place| track.at(place)).collect();
@@ -51,7 +51,7 @@ impl<'a> Boundary<'a> {
         let mut sampled = places(spacing);
         let mut outlines = points(&sampled);
         let (low, high) = bounds(&outlines);
-        if region.period().is_some() && fitted {
+        if interior.period().is_some() && fitted {
             // Triangles that fit the height of the wall without being stretched.
             let fit = (high.y - low.y) / (rows(high.y - low.y, asked) * ROW_HEIGHT);
             if (fit / asked - 1.0).abs() < LARGEST_FIT {
@@ -60,13 +60,13 @@ impl<'a> Boundary<'a> {
                 outlines = points(&sampled);
             }
         }
-        let start = region.outlines().iter().position(|outline| outline.period().is_some());
-        let period = start.zip(region.period()).map(|(outline, period)| (outlines[outline][0].x, period));
+        let start = interior.outlines().iter().position(|outline| outline.period().is_some());
+        let period = start.zip(interior.period()).map(|(outline, period)| (outlines[outline][0].x, period));
         if period.is_some() {
             // Every second row of the seeds stands half a spacing further right; let flat surfaces continue that
             // lattice.
             let rows = rows(high.y - low.y, spacing);
-            for (k, outline) in region.outlines().iter().enumerate() {
+            for (k, outline) in interior.outlines().iter().enumerate() {
                 let row = (rows * (outlines[k][0].y - low.y) / (high.y - low.y)).round();
                 if row % 2.0 == 1.0 && outline.period().is_some() {
                     sampled[k] = tracks[k].places(spacing, 0.5);
@@ -82,7 +82,7 @@ impl<'a> Boundary<'a> {
         }
         let segments = Segments::new(&outlines, period, 10.0 * spacing);
         let boundary = Self { spacing, places: sampled, tracks, outlines, segments, period, low, high };
-        boundary.check_widths(region, asked)?;
+        boundary.check_widths(interior, asked)?;
         boundary.check_walls(asked)?;
         Ok(boundary)
     }
@@ -94,8 +94,8 @@ impl<'a> Boundary<'a> {
     }
 
     /// No closed outline narrower than the spacing.
-    fn check_widths(&self, region: &Region, spacing: f64) -> Result<(), SolidError> {
-        for (number, (outline, points)) in region.outlines().iter().zip(&self.outlines).enumerate() {
+    fn check_widths(&self, interior: &Interior, spacing: f64) -> Result<(), SolidError> {
+        for (number, (outline, points)) in interior.outlines().iter().zip(&self.outlines).enumerate() {
             if outline.period().is_some() {
                 continue;
             }

@@ -33,7 +33,7 @@ fn a_disc_and_a_ring_converge_to_their_area() {
         let disc = circle(1.0).mesh(spacing).unwrap();
         let error = std::f64::consts::PI - disc.area();
         assert!((error / lacking(spacing) - 1.0).abs() < 0.05, "{error}");
-        let ring = Region::new([circle(1.0), circle(0.4)]).unwrap().mesh(spacing).unwrap();
+        let ring = Interior::new([circle(1.0), circle(0.4)]).unwrap().mesh(spacing).unwrap();
         assert_eq!(ring.boundary_loops().len(), 2);
         assert!((ring.area() - std::f64::consts::PI * (1.0 - 0.16)).abs() < 0.1 * lacking(spacing));
         error
@@ -49,7 +49,7 @@ fn a_disc_and_a_ring_converge_to_their_area() {
 fn a_straight_wall_is_a_lattice_unless_its_seeds_are_turned() {
     let flat = |y| Outline::flat(-3.0, 6.0, y).unwrap();
     for height in [1.0, 1.07, 1.1] {
-        let region = Region::new([flat(0.0), flat(height)]).unwrap();
+        let region = Interior::new([flat(0.0), flat(height)]).unwrap();
         let quality = region.mesh(0.1).unwrap().quality();
         assert!(quality.edge_deviation < 0.02 && quality.smallest_angle > 57.0, "{quality}");
         let turned = Mesher::new(0.1).unwrap().turned(0.2).unwrap().mesh(&region).unwrap();
@@ -62,7 +62,7 @@ fn a_straight_wall_is_a_lattice_unless_its_seeds_are_turned() {
 #[test]
 fn several_parts_and_islands_in_holes() {
     let circle = |x: f64, radius: f64| Outline::circle(v(x, 0.0), radius).unwrap();
-    let region = Region::new([circle(0.0, 1.0), circle(0.0, 0.6), circle(0.0, 0.3), circle(3.0, 0.5)]).unwrap();
+    let region = Interior::new([circle(0.0, 1.0), circle(0.0, 0.6), circle(0.0, 0.3), circle(3.0, 0.5)]).unwrap();
     let mesh = region.mesh(0.05).unwrap();
     assert_eq!(mesh.boundary_loops().len(), 4);
     let expected = std::f64::consts::PI * (1.0 - 0.36 + 0.09 + 0.25);
@@ -74,14 +74,15 @@ fn a_hole_in_a_periodic_wall_may_lie_anywhere() {
     let flat = |y| Outline::flat(-1.5, 3.0, y).unwrap();
     for x in [0.2, -1.5, 1.45, 31.4, -100.0] {
         let hole = |radius: f64| Outline::circle(v(x, 0.55), radius).unwrap();
-        let mesh = Region::new([flat(0.0), flat(1.1), hole(0.3)]).unwrap().mesh(0.06).unwrap();
+        let mesh = Interior::new([flat(0.0), flat(1.1), hole(0.3)]).unwrap().mesh(0.06).unwrap();
         let mut advances: Vec<i32> = mesh.boundary_loops().iter().map(|l| l.periods).collect();
         advances.sort_unstable();
         assert_eq!(advances, [-1, 0, 1]);
         let expected = 3.3 - std::f64::consts::PI * 0.09;
         assert!((mesh.area() - expected).abs() < 5e-3, "at {x}: {}", mesh.area());
         assert!(mesh.quality().smallest_angle > 28.0);
-        let refused = |radius: f64| Region::new([flat(0.0), flat(1.1), hole(radius)]).unwrap().mesh(0.06).unwrap_err();
+        let refused =
+            |radius: f64| Interior::new([flat(0.0), flat(1.1), hole(radius)]).unwrap().mesh(0.06).unwrap_err();
         assert!(matches!(refused(0.02), SolidError::HoleTooSmall { .. }));
         assert!(matches!(refused(0.51), SolidError::WallTooThin { .. }));
     }
@@ -91,7 +92,7 @@ fn a_hole_in_a_periodic_wall_may_lie_anywhere() {
 fn outlines_that_make_no_mesh_are_refused() {
     let circle = |x: f64, radius: f64| Outline::circle(v(x, 0.0), radius).unwrap();
     let refused =
-        |outlines: Vec<Outline>, spacing: f64| Region::new(outlines).and_then(|r| r.mesh(spacing)).unwrap_err();
+        |outlines: Vec<Outline>, spacing: f64| Interior::new(outlines).and_then(|r| r.mesh(spacing)).unwrap_err();
     let bow_tie = Outline::polygon(&[v(0.0, 0.0), v(1.0, 1.0), v(1.0, 0.0), v(0.0, 1.0)]).unwrap();
     match refused(vec![bow_tie], 0.1) {
         SolidError::Crossing { x, y } => assert!((v(x, y) - v(0.5, 0.5)).length() < 0.05),
@@ -137,11 +138,11 @@ fn outlines_that_make_no_mesh_are_refused() {
 fn work_is_a_given_number_of_moves_of_each_point() {
     let flat = Outline::flat(-6.0, 12.0, -2.5).unwrap();
     let profile = Outline::profile(-6.0, 12.0, |x| -1.0 + 0.4 * (std::f64::consts::PI * x / 3.0).cos()).unwrap();
-    let region = Region::new([flat, profile]).unwrap();
+    let region = Interior::new([flat, profile]).unwrap();
     let (mesh, moves) = Mesher::new(0.046).unwrap().mesh_counting(&region).unwrap();
     assert!(mesh.points().len() > 10_000, "{}", mesh.points().len());
     assert_eq!(moves, SWEEPS * mesh.points().len());
-    let disc = Region::new([Outline::circle(v(0.0, 0.0), 1.0).unwrap()]).unwrap();
+    let disc = Interior::new([Outline::circle(v(0.0, 0.0), 1.0).unwrap()]).unwrap();
     let (mesh, moves) = Mesher::new(0.1).unwrap().mesh_counting(&disc).unwrap();
     let tries = moves as f64 / (SWEEPS * mesh.points().len()) as f64;
     assert!((tries - 12.0).abs() < 0.2, "{tries}");

@@ -155,17 +155,9 @@ impl Solid {
         sides(&self.positions) * sides(self.mesh.points()).inverse()
     }
 
-    /// The surface of a periodic wall that faces up, from right to left (length); `None` where there is none.
-    pub(crate) fn upper_surface(&self) -> Option<Vec<Vec2>> {
-        self.surface(-1)
-    }
-
-    /// The surface of a periodic wall that faces down, from left to right (length); `None` where there is none.
-    pub(crate) fn lower_surface(&self) -> Option<Vec<Vec2>> {
-        self.surface(1)
-    }
-
-    fn surface(&self, periods: i32) -> Option<Vec<Vec2>> {
+    /// The surface of a periodic wall (length): with `periods` -1 that which faces up, from right to left, with 1 that
+    /// which faces down, from left to right; `None` where there is none.
+    pub(crate) fn surface(&self, periods: i32) -> Option<Vec<Vec2>> {
         let boundary = self.mesh.boundary_loops().iter().find(|boundary| boundary.periods == periods)?;
         Some(self.mesh.boundary_polygon(boundary, &self.positions))
     }

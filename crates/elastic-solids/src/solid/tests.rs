@@ -4,7 +4,7 @@ use ib_core::input::InputError;
 use ib_core::{Body, BodyError, Domain, MarkerKind, Medium, gap::Boundary};
 
 use super::*;
-use crate::channel::{Constriction, width_between};
+use crate::channel::{ChannelShape, width_between};
 use crate::material::Mat2;
 use crate::mesh::{equilateral_block, equilateral_strip};
 use crate::{Mesher, NeoHookean};
@@ -199,7 +199,7 @@ fn displacements_along_and_across_a_surface() {
 #[test]
 fn the_width_of_a_channel_between_deformed_walls() {
     // Chords of the ramp, of curvature pi^2/4, are off it by less than 0.05^2/8 pi^2/4 = 8e-4 on either side.
-    let walls = Constriction::thesis().channel().unwrap().walls(-2.5, 2.5, &Mesher::new(0.05).unwrap()).unwrap();
+    let walls = ChannelShape::THESIS.channel(12.0).unwrap().walls(-2.5, 2.5, &Mesher::new(0.05).unwrap()).unwrap();
     let lower = Solid::springs(walls.lower, 1.0).unwrap();
     let upper = Solid::hyperelastic(walls.upper, NeoHookean::new(1.0, 2.0).unwrap());
     let width = width_between(&lower, &upper).unwrap();

@@ -28,7 +28,7 @@ const MOST_ITERATIONS: usize = 120;
 /// On a straight interface S multiplies the wave number k by 1/(4 k), along and across alike, which makes a
 /// preconditioner; what is too short for the grid is left out. A uniform force along the normal moves nothing and is
 /// fixed to what suits the iteration.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct EquivalentForces {
     filters: Vec<Filter>,
     gmres: Gmres,
@@ -39,7 +39,7 @@ pub(crate) struct EquivalentForces {
 }
 
 /// Multiplication of the Fourier modes along a closed curve.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Filter {
     series: PeriodicSeries,
     /// Wave number of the first mode (1/length).

@@ -9,7 +9,7 @@ pub(super) const RIGID: usize = 3;
 
 /// Rigid motions on the nodes of all droplets, orthonormal in the product weighted by the arc length; x components of
 /// all nodes first, then y components.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct RigidModes {
     /// Motion by motion, with zeros on the other droplets.
     motions: Vec<f64>,

@@ -1,9 +1,9 @@
 //! Interfaces to other viscosities on the grid.
 
-use stokes_grid::{CentreField, Grid, SolveReport, StaggeredField, StokesSolver};
-use stokes_layers::{Forcing, Region};
+use stokes_grid::{Grid, StaggeredField, StokesSolver};
+use stokes_layers::{Forcing, Geometry};
 
-use super::{ImmersedBoundary, add, sampling};
+use super::{ImmersedBoundary, sampling};
 use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
 use crate::mobility::{Clearance, Setting};
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
 };
 
 /// What interfaces to other viscosities need beside the grid.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct ContrastFlow<K> {
     contrast: Contrast,
     equivalent: EquivalentForces,
@@ -34,7 +34,7 @@ pub(super) struct ContrastFlow<K> {
 type Imposed = Option<(StaggeredField, [f64; 2])>;
 
 /// Vectors at the droplets' nodes.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 struct Nodes {
     positions: Vec<Vec2>,
     /// Distances from solids (grid spacings); empty without solids.
@@ -108,12 +108,14 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let imposed = moves.then(|| (velocity.clone(), at_rest.mean_pressure_gradient));
         let zero_flux = matches!(self.solver.drive(), stokes_grid::Drive::ZeroFlux | stokes_grid::Drive::Flux(_));
         let forcing = if zero_flux { Forcing::Flux(0.0) } else { Forcing::Gradient(0.0) };
-        let (region, middle) = match self.walls() {
-            None => (Region::Box { lengths: [lx, ly] }, 0.0),
-            Some([bottom, top]) => (Region::Channel { length: lx, width: top - bottom, forcing }, 0.5 * (top + bottom)),
+        let (geometry, middle) = match self.walls() {
+            None => (Geometry::Box { lengths: [lx, ly] }, 0.0),
+            Some([bottom, top]) => {
+                (Geometry::Channel { length: lx, width: top - bottom, forcing }, 0.5 * (top + bottom))
+            }
         };
         Ok(ContrastFlow {
-            contrast: Contrast::new(region, middle, self.solver.viscosity(), 0.1 * grid.spacing())?,
+            contrast: Contrast::new(geometry, middle, self.solver.viscosity(), 0.1 * grid.spacing())?,
             equivalent: EquivalentForces::default(),
             transfer: Transfer::new(grid, self.transfer.kernel().clone()),
             imposed,
@@ -142,10 +144,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let prepared = flow.contrast.prepare()?;
         self.solve_rigid_part(flow)?;
         let own = self.solve_own(flow)?;
-        let fixed = flow.imposed.as_ref().map_or([0.0; 2], |(_, gradient)| *gradient);
-        for (total, (own, fixed)) in gradient.iter_mut().zip(own.mean_pressure_gradient.into_iter().zip(fixed)) {
-            *total += own - fixed;
-        }
+        gradient.iter_mut().zip(own).for_each(|(total, own)| *total += own);
         let Nodes { own, pulled, other, velocities, .. } = &mut flow.nodes;
         let effort = flow.contrast.solve([own, pulled, other], velocities)?;
         gradient[0] += effort.pressure_gradient;
@@ -153,10 +152,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         if !flow.contrast.others().is_empty() {
             let found = self.find_equivalent(flow)?;
             (iterations, residual) = (iterations + found.iterations, residual.max(found.residual));
-            self.solve_on(&flow.transfer, flow.equivalent.forces())?;
-            if let Some((imposed, _)) = &flow.imposed {
-                add(&mut self.velocity, imposed, -1.0);
-            }
+            self.solve_droplets(&flow.transfer, &flow.imposed, flow.equivalent.forces())?;
             self.add_to_others(flow, markers);
         }
         for (droplet, curve) in flow.contrast.droplets().iter().zip(flow.contrast.curves()) {
@@ -165,8 +161,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         }
         self.work.iterations += iterations;
         self.work.most_iterations = self.work.most_iterations.max(iterations);
-        add(&mut self.velocity, &flow.other, 1.0);
-        add(&mut self.density, &flow.other_density, 1.0);
+        self.velocity.combine(1.0, 1.0, &flow.other);
+        self.density.combine(1.0, 1.0, &flow.other_density);
         Ok(FlowReport { iterations, residual, mean_pressure_gradient: gradient })
     }
 
@@ -185,11 +181,11 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         if flow.all.iter().any(|force| *force != Vec2::ZERO) {
             let report = self.solve_located(&flow.all)?;
             gradient = report.mean_pressure_gradient;
-            copy(&mut flow.other, &self.velocity);
-            copy(&mut flow.other_density, &self.density);
+            flow.other.copy_from(&self.velocity);
+            flow.other_density.copy_from(&self.density);
         } else if let Some((imposed, fixed)) = &flow.imposed {
             gradient = *fixed;
-            copy(&mut flow.other, imposed);
+            flow.other.copy_from(imposed);
             flow.other_density.fill(0.0);
         } else {
             moves = false;
@@ -225,8 +221,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(())
     }
 
-    /// Velocities at the nodes of the droplets' own forces.
-    fn solve_own(&mut self, flow: &mut ContrastFlow<K>) -> Result<SolveReport, FlowError> {
+    /// Velocities at the nodes of the droplets' own forces, and the mean pressure gradient.
+    fn solve_own(&mut self, flow: &mut ContrastFlow<K>) -> Result<[f64; 2], FlowError> {
         let Nodes { positions, gaps, forces, own, .. } = &mut flow.nodes;
         self.respond((&flow.contrast, &flow.transfer, &flow.imposed), [positions, forces], gaps, own)
     }
@@ -238,14 +234,28 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         [positions, forces]: [&[Vec2]; 2],
         gaps: &[f64],
         velocities: &mut [Vec2],
-    ) -> Result<SolveReport, FlowError> {
-        let report = self.solve_on(transfer, forces)?;
-        if let Some((imposed, _)) = imposed {
-            add(&mut self.velocity, imposed, -1.0);
-        }
+    ) -> Result<[f64; 2], FlowError> {
+        let gradient = self.solve_droplets(transfer, imposed, forces)?;
         transfer.interpolate(&self.velocity, velocities);
         self.correct_droplets(contrast, gaps, positions, forces, velocities)?;
-        Ok(report)
+        Ok(gradient)
+    }
+
+    /// The flow on the grid of `forces` at the droplets' nodes alone, and its mean pressure gradient.
+    fn solve_droplets(
+        &mut self,
+        transfer: &Transfer<K>,
+        imposed: &Imposed,
+        forces: &[Vec2],
+    ) -> Result<[f64; 2], FlowError> {
+        self.density.fill(0.0);
+        transfer.spread(forces, &mut self.density);
+        let mut gradient = self.solve_density(forces.len())?.mean_pressure_gradient;
+        if let Some((imposed, fixed)) = imposed {
+            self.velocity.combine(1.0, -1.0, imposed);
+            gradient.iter_mut().zip(fixed).for_each(|(gradient, fixed)| *gradient -= fixed);
+        }
+        Ok(gradient)
     }
 
     /// Adds the mobility correction of droplets to velocities at their nodes.
@@ -265,13 +275,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             }
             let nodes = curve.first..curve.first + curve.len();
             let (positions, forces) = (&positions[nodes.clone()], &forces[nodes.clone()]);
-            correction.apply(
-                &setting,
-                gaps.get(nodes.clone()).unwrap_or(&[]),
-                positions,
-                forces,
-                &mut velocities[nodes],
-            )?;
+            let gaps = gaps.get(nodes.clone()).unwrap_or_default();
+            correction.apply(&setting, gaps, positions, forces, &mut velocities[nodes])?;
             self.work.corrections += 1;
         }
         Ok(())
@@ -336,15 +341,10 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         flow.contrast.prepare()?;
         self.solve_own(flow)?;
         self.find_equivalent(flow)?;
-        self.solve_on(&flow.transfer, flow.equivalent.forces())?;
-        if let Some((imposed, _)) = &flow.imposed {
-            add(&mut self.velocity, imposed, -1.0);
-        }
-        add(&mut self.velocity, &flow.other, 1.0);
-        add(&mut self.density, &flow.other_density, 1.0);
-        let mut pressure = CentreField::zeros(*self.solver.grid());
-        self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
-
+        self.solve_droplets(&flow.transfer, &flow.imposed, flow.equivalent.forces())?;
+        self.velocity.combine(1.0, 1.0, &flow.other);
+        self.density.combine(1.0, 1.0, &flow.other_density);
+        let pressure = self.pressure_field()?;
         let (contrast, nodes) = (&flow.contrast, &flow.nodes);
         let at_nodes: Vec<f64> = nodes.positions.iter().map(|&node| sampling::pressure(&pressure, node)).collect();
         let offsets = contrast.pressure_offsets(&at_nodes, flow.equivalent.forces(), &nodes.forces, &nodes.velocities);
@@ -425,10 +425,4 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             variance: self.variance,
         }
     }
-}
-
-fn copy(target: &mut StaggeredField, source: &StaggeredField) {
-    let (x, y) = target.components_mut();
-    x.copy_from_slice(source.x());
-    y.copy_from_slice(source.y());
 }

@@ -14,45 +14,51 @@ struct Lattice<'a> {
     parity: f64,
 }
 
-impl Lattice<'_> {
+impl<'a> Lattice<'a> {
+    /// The components of a velocity.
+    fn of_velocity(velocity: &'a StaggeredField) -> [Self; 2] {
+        let lattice = |values, shift| Lattice { values, grid: velocity.grid(), shift, parity: -1.0 };
+        [lattice(velocity.x(), [0.0, 0.5]), lattice(velocity.y(), [0.5, 0.0])]
+    }
+
     fn value(&self, column: i64, row: i64) -> f64 {
         let (nx, ny) = (self.grid.nx() as i64, self.grid.ny() as i64);
-        let column = column.rem_euclid(nx);
-        let (row, sign) = if !self.grid.has_walls() {
-            (row.rem_euclid(ny), 1.0)
-        } else if self.shift[1] == 0.0 {
-            let r = row.rem_euclid(2 * ny);
-            if r <= ny { (r, 1.0) } else { (2 * ny - r, self.parity) }
+        let (row, sign) = if self.grid.has_walls() {
+            let row = row.rem_euclid(2 * ny);
+            // About rows of nodes or between rows of cells.
+            let mirrored = 2 * ny - i64::from(self.shift[1] != 0.0) - row;
+            if row <= mirrored { (row, 1.0) } else { (mirrored, self.parity) }
         } else {
-            let r = row.rem_euclid(2 * ny);
-            if r < ny { (r, 1.0) } else { (2 * ny - 1 - r, self.parity) }
+            (row.rem_euclid(ny), 1.0)
         };
-        sign * self.values[(row * nx + column) as usize]
+        sign * self.values[(row * nx + column.rem_euclid(nx)) as usize]
     }
 
-    /// Value and gradient (per cell) by bilinear interpolation at a position in cells.
-    fn bilinear(&self, position: [f64; 2]) -> (f64, [f64; 2]) {
-        let (x, y) = (position[0] - self.shift[0], position[1] - self.shift[1]);
-        let (i, j) = (x.floor(), y.floor());
-        let (s, t) = (x - i, y - j);
-        let (i, j) = (i as i64, j as i64);
+    /// The entry below and to the left of a point, and how far beyond it the point is, in cells.
+    fn cell(&self, point: Vec2) -> ([i64; 2], [f64; 2]) {
+        let (h, origin) = (self.grid.spacing(), self.grid.origin());
+        let place = [0, 1].map(|k| (point[k] - origin[k]) / h - self.shift[k]);
+        let first = place.map(f64::floor);
+        (first.map(|entry| entry as i64), [place[0] - first[0], place[1] - first[1]])
+    }
+
+    /// Value and gradient at a point by bilinear interpolation.
+    fn bilinear(&self, point: Vec2) -> (f64, [f64; 2]) {
+        let ([i, j], [s, t]) = self.cell(point);
         let [a, b, c, d] = [self.value(i, j), self.value(i + 1, j), self.value(i, j + 1), self.value(i + 1, j + 1)];
         let value = (1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d);
-        (value, [(1.0 - t) * (b - a) + t * (d - c), (1.0 - s) * (c - a) + s * (d - b)])
+        let gradient = [(1.0 - t) * (b - a) + t * (d - c), (1.0 - s) * (c - a) + s * (d - b)];
+        (value, gradient.map(|step| step / self.grid.spacing()))
     }
-}
 
-impl Lattice<'_> {
-    /// Value and gradient (per cell) by cubic interpolation at a position in cells.
-    fn cubic(&self, position: [f64; 2]) -> (f64, [f64; 2]) {
-        let (x, y) = (position[0] - self.shift[0], position[1] - self.shift[1]);
-        let (i, j) = (x.floor(), y.floor());
-        let ((columns, column_slopes), (rows, row_slopes)) = (cubic_weights(x - i), cubic_weights(y - j));
-        let (i, j) = (i as i64 - 1, j as i64 - 1);
+    /// Value and gradient at a point by cubic interpolation.
+    fn cubic(&self, point: Vec2) -> (f64, [f64; 2]) {
+        let ([i, j], [s, t]) = self.cell(point);
+        let ((columns, column_slopes), (rows, row_slopes)) = (cubic_weights(s), cubic_weights(t));
         let (mut value, mut gradient) = (0.0, [0.0; 2]);
-        for (row, (weight, slope)) in (j..).zip(rows.into_iter().zip(row_slopes)) {
+        for (row, (weight, slope)) in (j - 1..).zip(rows.into_iter().zip(row_slopes)) {
             let (mut along, mut across) = (0.0, 0.0);
-            for (column, (weight, slope)) in (i..).zip(columns.into_iter().zip(column_slopes)) {
+            for (column, (weight, slope)) in (i - 1..).zip(columns.into_iter().zip(column_slopes)) {
                 let entry = self.value(column, row);
                 along += weight * entry;
                 across += slope * entry;
@@ -60,7 +66,7 @@ impl Lattice<'_> {
             value += weight * along;
             gradient = [gradient[0] + weight * across, gradient[1] + slope * along];
         }
-        (value, gradient)
+        (value, gradient.map(|step| step / self.grid.spacing()))
     }
 }
 
@@ -79,36 +85,20 @@ fn cubic_weights(t: f64) -> ([f64; 4], [f64; 4]) {
 
 /// Velocity and its gradient at a point by cubic interpolation between grid points.
 pub(crate) fn smooth_velocity(velocity: &StaggeredField, point: Vec2) -> (Vec2, [[f64; 2]; 2]) {
-    let grid = velocity.grid();
-    let (h, origin) = (grid.spacing(), grid.origin());
-    let u = Lattice { values: velocity.x(), grid, shift: [0.0, 0.5], parity: -1.0 };
-    let v = Lattice { values: velocity.y(), grid, shift: [0.5, 0.0], parity: -1.0 };
-    let position = [(point.x - origin[0]) / h, (point.y - origin[1]) / h];
-    let ((ux, du), (uy, dv)) = (u.cubic(position), v.cubic(position));
-    (Vec2::new(ux, uy), [du.map(|d| d / h), dv.map(|d| d / h)])
+    let [(ux, du), (uy, dv)] = Lattice::of_velocity(velocity).map(|component| component.cubic(point));
+    (Vec2::new(ux, uy), [du, dv])
 }
 
 /// Pressure at a point, bilinear between grid points.
 pub(crate) fn pressure(pressure: &CentreField, point: Vec2) -> f64 {
-    let grid = pressure.grid();
-    let (h, origin) = (grid.spacing(), grid.origin());
-    let lattice = Lattice { values: pressure.values(), grid, shift: [0.5, 0.5], parity: 1.0 };
-    lattice.bilinear([(point.x - origin[0]) / h, (point.y - origin[1]) / h]).0
+    Lattice { values: pressure.values(), grid: pressure.grid(), shift: [0.5; 2], parity: 1.0 }.bilinear(point).0
 }
 
 /// Fills `out` with the flow at `points`: velocity and pressure bilinear between grid points, and the gradient of that.
 pub(crate) fn sample(velocity: &StaggeredField, pressure: &CentreField, points: &[Vec2], out: &mut [FlowSample]) {
-    let grid = velocity.grid();
-    let (h, origin) = (grid.spacing(), grid.origin());
-    let u = Lattice { values: velocity.x(), grid, shift: [0.0, 0.5], parity: -1.0 };
-    let v = Lattice { values: velocity.y(), grid, shift: [0.5, 0.0], parity: -1.0 };
-    for (point, out) in points.iter().zip(out) {
-        let position = [(point.x - origin[0]) / h, (point.y - origin[1]) / h];
-        let ((ux, du), (uy, dv)) = (u.bilinear(position), v.bilinear(position));
-        *out = FlowSample {
-            velocity: Vec2::new(ux, uy),
-            pressure: self::pressure(pressure, *point),
-            gradient: [du.map(|d| d / h), dv.map(|d| d / h)],
-        };
+    for (&point, out) in points.iter().zip(out) {
+        let [(ux, du), (uy, dv)] = Lattice::of_velocity(velocity).map(|component| component.bilinear(point));
+        let velocity = Vec2::new(ux, uy);
+        *out = FlowSample { velocity, pressure: self::pressure(pressure, point), gradient: [du, dv] };
     }
 }

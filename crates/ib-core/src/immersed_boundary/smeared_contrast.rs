@@ -22,7 +22,7 @@ use crate::{
 /// It is of first order in h, and the errors grow with the ratio of viscosities: at h = R/20 a droplet a hundred times
 /// as viscous as its surroundings is 25 to 40 per cent too fast. [`ImmersedBoundary`] alone does better at a fraction
 /// of the cost; this is here to reproduce the thesis. There is no mobility correction.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SmearedContrast<S, K> {
     flow: ImmersedBoundary<TwoPhaseStokes<S>, K>,
     transfer: Transfer<K>,
@@ -37,7 +37,7 @@ pub struct SmearedContrast<S, K> {
 }
 
 /// The Poisson problem of the indicator.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Indicator {
     transform: RealFft2,
     symbol: Symbol,

@@ -1,9 +1,12 @@
 //! A kernel chosen at run time.
 
+use serde::{Deserialize, Serialize};
+
 use super::{CompositeBSpline, Gaussian6, Kernel, MAX_SUPPORT, Peskin4, Pieces, Role, Roma3};
 
 /// A kernel chosen at run time; parsed from its name (`peskin4`, `roma3`, `gaussian6`, `bspline3` to `bspline6`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum AnyKernel {
     /// [`Peskin4`].
     Peskin4,

@@ -9,8 +9,7 @@ pub struct Gaussian6;
 
 impl Gaussian6 {
     /// Second moment K = 59/60 - sqrt(29)/20, the value that makes the third derivative continuous.
-    #[must_use]
-    pub fn second_moment() -> f64 {
+    pub(super) fn second_moment() -> f64 {
         59.0 / 60.0 - 29.0_f64.sqrt() / 20.0
     }
 

@@ -9,7 +9,7 @@ const REACH: f64 = 6.0;
 const OFFSET: f64 = 0.2;
 
 /// Distances of the markers of an interface from the nearest points of solids.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Clearance {
     squared: Vec<f64>,
     gaps: Vec<f64>,

@@ -34,14 +34,14 @@ use crate::{FlowError, Vec2};
 ///
 /// tau' the tangent mirrored in that axis. Multiplying by e^{i phi/2} on both sides gives each inclination its own
 /// wave number, so that H fades by itself where the interface turns away from the axis.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct MobilityCorrection {
     deficit: Arc<MobilityDeficit>,
     plan: Option<Plan>,
 }
 
 /// Transforms and scratch for one number of markers.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Plan {
     real: RealTransform,
     complex: ComplexTransform,

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use crate::checkpoint::SavedState;
 
 /// How long the steps of a run are.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum StepSize {
     /// All of this length (time); refused at the start if above the stability limit, and an error during the run if the
     /// limit falls below it.

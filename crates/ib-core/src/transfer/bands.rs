@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use stokes_grid::StaggeredField;
 
-use super::anywhere::Anywhere;
-use super::spots::{Spot, Spots};
-use super::visits::{BLOCK, visits};
+use super::general::GeneralTransfer;
+use super::locations::{Location, Locations};
+use super::order::{BLOCK, spreading_order};
 use super::{Band, Markers, interpolate as interpolate_some, spread as spread_some, stride};
 use crate::{Kernel, Vec2, kernel::MAX_SUPPORT};
 
@@ -44,35 +44,29 @@ impl Bands {
     }
 
     /// Sorts the markers into bands, if there are enough of them.
-    pub(super) fn find<K: Kernel>(&mut self, anywhere: Anywhere<'_, K>, spots: &Spots) {
-        let (rows, all) = (anywhere.rows(), spots.all());
+    pub(super) fn find<K: Kernel>(&mut self, general: GeneralTransfer<'_, K>, locations: &Locations) {
+        let (rows, all) = (general.grid.ny(), &locations.all);
         let pays = all.len() >= LEAST_MARKERS && rows >= 2 * LEAST_ROWS && rayon::current_num_threads() > 1;
         self.rows = if pays { (rows / BANDS).max(LEAST_ROWS) } else { 0 };
         if !pays {
             return;
         }
         let (band_rows, bands) = (self.rows, rows / self.rows);
-        let walls = anywhere.has_walls();
+        let walls = general.grid.has_walls();
         self.lists.resize_with(BANDS * BANDS, Vec::new);
         // Of whole blocks, so that markers are visited in the order of one thread.
-        let stride = stride(anywhere.kernel());
+        let stride = stride(general.kernel);
         let piece = all.len().div_ceil(BANDS).next_multiple_of(BLOCK);
         let pieces = all.par_chunks(piece).zip(self.lists.par_chunks_mut(BANDS));
-        pieces.enumerate().for_each(|(index, (piece_spots, lists))| {
+        pieces.enumerate().for_each(|(index, (piece_locations, lists))| {
             lists.iter_mut().for_each(Vec::clear);
-            for k in visits(piece_spots.len(), stride) {
-                let (marker, row) = ((index * piece + k) as u32, spots.row(&piece_spots[k]));
+            for k in spreading_order(piece_locations.len(), stride) {
+                let (marker, row) = ((index * piece + k) as u32, locations.row(&piece_locations[k]));
                 let (first, last) = (row.saturating_sub(REACH), row.saturating_add(REACH));
                 // Beyond a wall a stencil is folded back by less than a band.
                 let band = |row: i64| {
-                    let inside = (0..rows as i64).contains(&row);
-                    let row = if inside {
-                        row
-                    } else if walls {
-                        row.clamp(0, rows as i64 - 1)
-                    } else {
-                        row.rem_euclid(rows as i64)
-                    };
+                    let rows = rows as i64;
+                    let row = if walls { row.clamp(0, rows - 1) } else { row.rem_euclid(rows) };
                     (row as usize / band_rows).min(bands - 1)
                 };
                 let (first, last) = (band(first), band(last));
@@ -87,29 +81,30 @@ impl Bands {
     /// Spreading, band by band.
     pub(super) fn spread<K: Kernel>(
         &self,
-        anywhere: Anywhere<'_, K>,
-        spots: &Spots,
+        general: GeneralTransfer<'_, K>,
+        locations: &Locations,
         forces: &[Vec2],
         scale: f64,
         components: [&mut [f64]; 2],
     ) {
-        let bands = anywhere.rows() / self.rows;
+        let bands = general.grid.ny() / self.rows;
         let work = |band: usize, [fx, fy]: [&mut [f64]; 2]| {
-            let (mut near, mut pushing) = ([Spot::NONE; BLOCK], [Vec2::ZERO; BLOCK]);
+            let (mut near, mut pushing) = ([Location::NONE; BLOCK], [Vec2::ZERO; BLOCK]);
             for lists in self.lists.chunks_exact(BANDS) {
                 for some in lists[band].chunks(BLOCK) {
                     for (k, marker) in some.iter().enumerate() {
-                        (near[k], pushing[k]) = (spots.all()[*marker as usize], forces[*marker as usize]);
+                        (near[k], pushing[k]) = (locations.all[*marker as usize], forces[*marker as usize]);
                     }
                     let (near, pushing) = (&near[..some.len()], &pushing[..some.len()]);
                     // The list is in the order in which they are added.
-                    let markers = Markers { spots: near, forces: pushing, stride: 1, elsewhere: spots.elsewhere() };
+                    let markers =
+                        Markers { locations: near, forces: pushing, stride: 1, irregular: &locations.irregular };
                     let band = Band { first_row: band * self.rows, fx: &mut *fx, fy: &mut *fy };
-                    spread_some(anywhere, scale, markers, band);
+                    spread_some(general, scale, markers, band);
                 }
             }
         };
-        divide(0, bands, self.rows * anywhere.columns(), components, &work);
+        divide(0, bands, self.rows * general.grid.nx(), components, &work);
     }
 }
 
@@ -136,16 +131,16 @@ fn divide(
 
 /// Interpolation, marker by marker.
 pub(super) fn interpolate<K: Kernel>(
-    anywhere: Anywhere<'_, K>,
-    spots: &[Spot],
-    elsewhere: &[[f64; 2]],
+    general: GeneralTransfer<'_, K>,
+    locations: &[Location],
+    irregular: &[[f64; 2]],
     velocity: &StaggeredField,
     velocities: &mut [Vec2],
 ) {
-    spots
+    locations
         .par_chunks(SHARE)
         .zip(velocities.par_chunks_mut(SHARE))
-        .for_each(|(spots, velocities)| interpolate_some(anywhere, spots, elsewhere, velocity, velocities));
+        .for_each(|(locations, velocities)| interpolate_some(general, locations, irregular, velocity, velocities));
 }
 
 #[cfg(test)]

@@ -154,10 +154,10 @@ impl Setup {
 
     fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod, region: Region) -> Result<AnyFlow, SetupError> {
         let region = match region {
-            Region::Plane => boundary_integral::Region::Plane,
-            Region::Box { lengths } => boundary_integral::Region::Box { lengths },
+            Region::Plane => boundary_integral::Geometry::Plane,
+            Region::Box { lengths } => boundary_integral::Geometry::Box { lengths },
             Region::Channel { length, width, drive } => {
-                boundary_integral::Region::Channel { length, width, forcing: forcing(drive) }
+                boundary_integral::Geometry::Channel { length, width, forcing: forcing(drive) }
             }
         };
         let flow = BoundaryIntegral::new(region, self.viscosity, Settings { nodes, ..Settings::default() })?;

@@ -1,11 +1,12 @@
 //! What descriptions must be, checked before any work.
 
+use elastic_solids::channel::ChannelShape;
 use ib_core::StepSize;
 use stokes_grid::Drive;
 
 use super::{
-    ChannelShape, Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
-    MarkerMotion, Method, Region, Setup, SolidOutline, SolidSetup, Start, Surface,
+    Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion, Method,
+    Region, Setup, SolidOutline, SolidSetup, Start, Surface,
 };
 use crate::SetupError;
 

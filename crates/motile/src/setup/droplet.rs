@@ -116,7 +116,6 @@ pub struct Particles {
     /// How they are spread over the interface at the start.
     pub start: Start,
     /// How they are carried from segment to segment.
-    #[cfg_attr(feature = "serde", serde(with = "super::file::FluxText"))]
     pub flux: Flux,
 }
 
@@ -135,8 +134,7 @@ impl Default for Particles {
 
 /// Excluded volume of the particles.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Exclusion {
     /// None: particles of negative activity collapse.
     None,
@@ -226,8 +224,7 @@ pub enum DropletShape {
 
 /// What a squeezed circle becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Squeezed {
     /// An ellipse.
     Ellipse,

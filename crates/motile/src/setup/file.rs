@@ -1,10 +1,5 @@
 //! Scene files: descriptions in TOML.
 
-use active_interface::Flux;
-use ib_core::{AnyKernel, StepSize};
-use serde::{Deserialize, Serialize};
-use stokes_grid::Drive;
-
 use super::Setup;
 use crate::SetupError;
 
@@ -77,44 +72,4 @@ pub(super) mod particles {
         }
         from.deserialize_any(Entry)
     }
-}
-
-/// [`StepSize`] in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "StepSize", rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum StepText {
-    Fixed(f64),
-    OfLimit(f64),
-    Adaptive { tolerance: f64 },
-}
-
-/// [`Drive`] in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Drive", rename_all = "kebab-case")]
-pub(super) enum DriveText {
-    ZeroGradient,
-    Gradient(f64),
-    ZeroFlux,
-    Flux(f64),
-}
-
-/// [`Flux`] in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "Flux", rename_all = "kebab-case")]
-pub(super) enum FluxText {
-    Upwind,
-    Weno5,
-}
-
-/// [`AnyKernel`] in a file, by its name in small letters.
-#[derive(Serialize, Deserialize)]
-#[serde(remote = "AnyKernel", rename_all = "lowercase")]
-pub(super) enum KernelText {
-    Peskin4,
-    Roma3,
-    Gaussian6,
-    BSpline3,
-    BSpline4,
-    BSpline5,
-    BSpline6,
 }

@@ -71,7 +71,6 @@ pub struct GridMethod {
     /// Spacing of the markers of interfaces (length); `None` for h/2.
     pub marker_spacing: Option<f64>,
     /// Regularised delta function.
-    #[cfg_attr(feature = "serde", serde(with = "super::file::KernelText"))]
     pub kernel: AnyKernel,
     /// Whether interface velocities are corrected to second order ([`ib_core::ImmersedBoundary`]). Needs markers of equal
     /// spacing ([`crate::MarkerMotion::Equidistributed`]), and a sharp contrast where viscosities differ.
@@ -119,8 +118,7 @@ impl GridMethod {
 
 /// How the immersed boundary method treats an interface between fluids of different viscosity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Contrast {
     /// A jump, by a double layer on the interface ([`ib_core::ImmersedBoundary`]): second order in the grid spacing.
     #[default]

@@ -14,7 +14,7 @@ pub use build::{AnyFlow, Built};
 pub use droplet::{DropletSetup, DropletShape, Exclusion, MarkerMotion, Particles, Squeezed, Start};
 pub use method::{Contrast, GridMethod, IntegralMethod, Method, MethodKind};
 pub use region::Region;
-pub use solid::{Axis, ChannelShape, Grading, Hold, Material, MeshKind, SolidOutline, SolidSetup, Surface};
+pub use solid::{Axis, Grading, Hold, Material, MeshKind, SolidOutline, SolidSetup, Surface};
 
 use ib_core::StepSize;
 
@@ -59,7 +59,6 @@ pub struct Setup {
     /// Viscosity of the exterior fluid, and of droplets that have none of their own (stress times time).
     pub viscosity: f64,
     /// How long the steps of runs are.
-    #[cfg_attr(feature = "serde", serde(with = "file::StepText"))]
     pub step: StepSize,
     /// A short-range repulsion between different interfaces; no part of the physics of the model.
     pub repulsion: Option<RepulsionSetup>,

@@ -1,7 +1,7 @@
 //! Where the bodies of a description lie, looked at before anything is meshed.
 
 use active_interface::ActiveDroplet;
-use elastic_solids::Region as Enclosed;
+use elastic_solids::Interior;
 use ib_core::gap::{Boundary, Conflict, Gaps};
 use ib_core::{Body, MarkerKind, Medium, Vec2};
 
@@ -13,7 +13,7 @@ impl Setup {
     pub(super) fn check_places(
         &self,
         droplets: &[ActiveDroplet],
-        solids: &[Enclosed],
+        solids: &[Interior],
         medium: &Medium,
     ) -> Result<(), SetupError> {
         let mut bodies = Vec::new();

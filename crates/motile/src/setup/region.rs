@@ -22,7 +22,7 @@ pub enum Region {
         /// Distance of the rigid walls (length).
         width: f64,
         /// What drives the flow along the channel.
-        #[cfg_attr(feature = "serde", serde(default, with = "super::file::DriveText"))]
+        #[cfg_attr(feature = "serde", serde(default))]
         drive: Drive,
     },
 }

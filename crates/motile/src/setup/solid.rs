@@ -1,8 +1,8 @@
 //! Descriptions of elastic solids.
 
-use elastic_solids::channel::{BranchingChannel, Constriction, Ratchet, SinusoidalChannel, StraightChannel, Valve};
+use elastic_solids::channel::ChannelShape;
 use elastic_solids::material::{MooneyRivlin, SaintVenantKirchhoff};
-use elastic_solids::{Channel, Mesher, NeoHookean, Outline, Region as Enclosed, Solid, SolidError, TriangleMesh};
+use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError, TriangleMesh};
 use ib_core::{MobilityDeficit, Vec2};
 
 use super::{GridMethod, Method, Region, Setup};
@@ -108,86 +108,6 @@ pub enum SolidOutline {
     },
 }
 
-/// Channels between two walls, centred on the origin, with the period of the region.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
-pub enum ChannelShape {
-    /// Between two straight walls.
-    Straight {
-        /// Distance between the sides (length).
-        width: f64,
-    },
-    /// With a narrow passage, joined by cosine ramps ([`Constriction`]).
-    Constriction {
-        /// Width of the main channel (length).
-        width: f64,
-        /// Width of the passage (length).
-        throat: f64,
-        /// Length of the passage (length).
-        throat_length: f64,
-        /// Length of each ramp (length).
-        ramp: f64,
-        /// Middle of the passage in x (length); 0 in a file that gives none.
-        #[cfg_attr(feature = "serde", serde(default))]
-        centre: f64,
-    },
-    /// With two triangular teeth that almost meet ([`Valve`]).
-    Valve {
-        /// Width of the channel (length).
-        width: f64,
-        /// Gap between the tips of the teeth (length), as of sharp tips.
-        gap: f64,
-        /// Width of the base of a tooth (length).
-        base: f64,
-        /// Radius by which the tips and feet are rounded (length); 0 for sharp ones, as in a file that gives none.
-        #[cfg_attr(feature = "serde", serde(default))]
-        radius: f64,
-        /// Tips in x (length); 0 in a file that gives none.
-        #[cfg_attr(feature = "serde", serde(default))]
-        centre: f64,
-    },
-    /// Of asymmetric teeth ([`Ratchet`]).
-    Ratchet {
-        /// Width between the teeth (length).
-        width: f64,
-        /// Width at the tips (length).
-        throat: f64,
-        /// Number of teeth in a period.
-        teeth: usize,
-        /// Part of a tooth over which the channel narrows, going to larger x (0 to 1, both excluded).
-        rise: f64,
-        /// Straight flanks with sharp edges instead of cosine ramps, as in a file only where it says so.
-        #[cfg_attr(feature = "serde", serde(default))]
-        sharp: bool,
-    },
-    /// With sinusoidal sides ([`SinusoidalChannel`]).
-    Sinusoidal {
-        /// Mean width (length).
-        width: f64,
-        /// Amplitude of each side (length).
-        amplitude: f64,
-        /// Number of waves in a period.
-        waves: usize,
-        /// Phase of the upper side against the lower one (radians); 0 in a file that gives none.
-        #[cfg_attr(feature = "serde", serde(default))]
-        phase: f64,
-    },
-    /// That splits in two around an island and joins again ([`BranchingChannel`]).
-    Branching {
-        /// Width of the undivided channel (length).
-        width: f64,
-        /// Widths of the lower and the upper branch beside the middle of the island (length).
-        branches: [f64; 2],
-        /// Length of the island (length).
-        island_length: f64,
-        /// Thickness of the island (length).
-        island_thickness: f64,
-        /// Length over which each side moves out (length), ending beside the tip of the island.
-        ramp: f64,
-    },
-}
-
 /// What a solid is made of. Moduli are those of the plane (force per length).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -242,8 +162,7 @@ pub enum Grading {
 
 /// An axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Axis {
     /// Along the channel.
     X,
@@ -253,8 +172,7 @@ pub enum Axis {
 
 /// How the points of a solid are arranged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum MeshKind {
     /// Equilateral triangles where the shape allows it, as in a straight wall.
     #[default]
@@ -266,16 +184,16 @@ pub enum MeshKind {
 /// What is done about the smearing of a solid's surface over the grid, by which a stiff one stops the fluid 0.31 to 0.44
 /// grid spacings in front of its surface (with the default kernel).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Surface {
     /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order. A round droplet that would
     /// start in touch with the walls starts squeezed a little, beside a film.
     #[default]
     Corrected,
-    /// Walls, and only they, are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first order, of a few tenths of
-    /// a grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for long, such as
-    /// the mouth of a constriction, where in time they enter corrected surfaces or invert a triangle of springs.
+    /// Walls, and only they, are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first order, of a
+    /// few tenths of a grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for
+    /// long, such as the mouth of a constriction, where in time they enter corrected surfaces or invert a triangle of
+    /// springs.
     SetBack,
     /// Nothing, as in the thesis.
     Plain,
@@ -400,7 +318,7 @@ impl SolidSetup {
     }
 
     /// What it fills, a wall set back by that much (length); islands are as they are.
-    pub(super) fn enclosed(&self, region: &Region, set_back: f64) -> Result<Enclosed, SetupError> {
+    pub(super) fn enclosed(&self, region: &Region, set_back: f64) -> Result<Interior, SetupError> {
         let [period, height] = region.lengths();
         let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
         let channel = |shape: &ChannelShape| {
@@ -419,7 +337,7 @@ impl SolidSetup {
                 if *fillet > 0.0 { outline.filleted(*fillet)? } else { outline }
             }
         };
-        Ok(Enclosed::new([closed])?)
+        Ok(Interior::new([closed])?)
     }
 
     /// The solid on a mesh, at rest and not held.
@@ -473,58 +391,6 @@ impl Grading {
             (Some([x0, f0]), Some(&[x1, f1])) => f0 + (f1 - f0) * (at - x0) / (x1 - x0),
             (Some([_, factor]), None) | (None, Some(&[_, factor])) => factor,
             (None, None) => 1.0,
-        }
-    }
-}
-
-impl ChannelShape {
-    /// As it stands in a file.
-    pub(super) fn name(&self) -> &'static str {
-        match self {
-            Self::Straight { .. } => "straight",
-            Self::Constriction { .. } => "constriction",
-            Self::Valve { .. } => "valve",
-            Self::Ratchet { .. } => "ratchet",
-            Self::Sinusoidal { .. } => "sinusoidal",
-            Self::Branching { .. } => "branching",
-        }
-    }
-
-    /// Its width away from whatever narrows or widens it (length).
-    #[must_use]
-    pub fn width(&self) -> f64 {
-        match *self {
-            Self::Straight { width }
-            | Self::Constriction { width, .. }
-            | Self::Valve { width, .. }
-            | Self::Ratchet { width, .. }
-            | Self::Sinusoidal { width, .. }
-            | Self::Branching { width, .. } => width,
-        }
-    }
-
-    /// The channel with this period (length).
-    ///
-    /// # Errors
-    /// Lengths that make no channel.
-    pub fn channel(&self, period: f64) -> Result<Channel, SolidError> {
-        match *self {
-            Self::Straight { width } => StraightChannel { period, width }.channel(),
-            Self::Constriction { width, throat, throat_length, ramp, centre } => {
-                Constriction { period, width, throat, throat_length, ramp, centre }.channel()
-            }
-            Self::Valve { width, gap, base, radius, centre } => {
-                Valve { period, width, gap, base, radius, centre }.channel()
-            }
-            Self::Ratchet { width, throat, teeth, rise, sharp } => {
-                Ratchet { period, width, throat, teeth, rise, sharp }.channel()
-            }
-            Self::Sinusoidal { width, amplitude, waves, phase } => {
-                SinusoidalChannel { period, width, amplitude, waves, phase }.channel()
-            }
-            Self::Branching { width, branches, island_length, island_thickness, ramp } => {
-                BranchingChannel { period, width, branches, island_length, island_thickness, ramp }.channel()
-            }
         }
     }
 }

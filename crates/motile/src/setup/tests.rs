@@ -3,6 +3,7 @@ use ib_core::{Body, StepSize, Vec2};
 use stokes_grid::Drive;
 
 use super::*;
+use crate::ChannelShape;
 
 fn channel(width: f64) -> Region {
     Region::Channel { length: 6.0, width, drive: Drive::ZeroGradient }

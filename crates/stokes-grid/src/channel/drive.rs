@@ -5,6 +5,7 @@ use crate::error::checks::check_finite;
 
 /// What is held fixed along a channel, beside the forces and the walls' motion: the mean pressure gradient or the flux.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Drive {
     /// No mean pressure gradient: the pressure is periodic in x, fluid may stream through (the thesis' channel).
     #[default]

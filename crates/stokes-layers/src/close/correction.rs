@@ -9,9 +9,9 @@ use num_complex::Complex64;
 
 use crate::{
     curve::{Curve, REFINEMENT, Transforms},
+    geometry::Images,
     greens::{Flow, Vectors, free},
     layer::Density,
-    region::Images,
 };
 
 use super::CloseWeights;

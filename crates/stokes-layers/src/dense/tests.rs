@@ -18,14 +18,14 @@ fn curves(layer: &DoubleLayerMatrix) -> Vec<NodeCurve> {
 }
 
 fn layers() -> [DoubleLayerMatrix; 4] {
-    let channel = |forcing| Region::Channel { length: 5.0, width: 5.0, forcing };
+    let channel = |forcing| Geometry::Channel { length: 5.0, width: 5.0, forcing };
     [
-        Region::Box { lengths: [5.0; 2] },
-        Region::Box { lengths: [5.0, 4.8] },
+        Geometry::Box { lengths: [5.0; 2] },
+        Geometry::Box { lengths: [5.0, 4.8] },
         channel(Forcing::Gradient(0.0)),
         channel(Forcing::Flux(0.0)),
     ]
-    .map(|region| DoubleLayerMatrix::new(region, 1.5, 1.0, 1e-3).unwrap())
+    .map(|geometry| DoubleLayerMatrix::new(geometry, 1.5, 1.0, 1e-3).unwrap())
 }
 
 fn vector(len: usize, seed: f64) -> Vec<f64> {
@@ -71,8 +71,8 @@ fn rigid_motions_are_multiplied_by_the_exterior_viscosity() {
 
 #[test]
 fn what_cannot_be_is_refused_before_memory_is_taken() {
-    assert_eq!(DoubleLayerMatrix::new(Region::Plane, 0.0, 1.0, 0.1).unwrap_err(), LayerError::NoPeriod);
-    assert!(DoubleLayerMatrix::new(Region::Box { lengths: [1.0, -1.0] }, 0.0, 1.0, 0.1).is_err());
+    assert_eq!(DoubleLayerMatrix::new(Geometry::Plane, 0.0, 1.0, 0.1).unwrap_err(), LayerError::NoPeriod);
+    assert!(DoubleLayerMatrix::new(Geometry::Box { lengths: [1.0, -1.0] }, 0.0, 1.0, 0.1).is_err());
     let mut layer = layers()[0].clone();
     let mut curve = NodeCurve::default();
     let error = curve.load(&layer, 0, 1.0, &[Vec2::ZERO; 7]).unwrap_err();

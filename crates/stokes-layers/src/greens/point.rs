@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use num_complex::Complex64;
 
 use super::logarithm::ln;
-use crate::Region;
+use crate::Geometry;
 
 const I: Complex64 = Complex64::new(0.0, 1.0);
 const ZERO: Complex64 = Complex64::new(0.0, 0.0);
@@ -91,11 +91,11 @@ pub(crate) enum GreensFunction {
 
 impl GreensFunction {
     /// That of a region, less the walls; rows of images are as many as bring the rest below `tolerance`.
-    pub(crate) fn new(region: &Region, tolerance: f64) -> Self {
-        match *region {
-            Region::Plane => Self::Free,
-            Region::Channel { length, .. } => Self::Row { k: 2.0 * PI / length },
-            Region::Box { lengths } => {
+    pub(crate) fn new(geometry: &Geometry, tolerance: f64) -> Self {
+        match *geometry {
+            Geometry::Plane => Self::Free,
+            Geometry::Channel { length, .. } => Self::Row { k: 2.0 * PI / length },
+            Geometry::Box { lengths } => {
                 let transposed = lengths[1] < lengths[0];
                 let [along, across] = if transposed { [lengths[1], lengths[0]] } else { lengths };
                 let k = 2.0 * PI / along;

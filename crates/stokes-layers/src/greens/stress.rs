@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::{Vec2, region::Images};
+use crate::{Vec2, geometry::Images};
 
 /// Sources done at a time.
 const LANES: usize = 8;

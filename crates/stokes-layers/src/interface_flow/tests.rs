@@ -5,9 +5,9 @@ const NODES: usize = 96;
 
 /// Largest error of `A E = eta_out E` at the first of two interfaces and of `A E = 0` at the second, for the rigid
 /// motions E of the first, relative to the mean viscosity; and whether a uniform expansion keeps its flux.
-fn errors(region: Region, second: Complex64, viscosities: [f64; 2]) -> [f64; 2] {
+fn errors(geometry: Geometry, second: Complex64, viscosities: [f64; 2]) -> [f64; 2] {
     let settings = Settings { nodes: NODES, tolerance: 1e-15, ..Settings::default() };
-    let mut flow = InterfaceFlow::new(region, 1.0, settings).unwrap();
+    let mut flow = InterfaceFlow::new(geometry, 1.0, settings).unwrap();
     let angle = |k: usize| std::f64::consts::TAU * k as f64 / NODES as f64;
     let outline = |k: usize| Complex64::new(1.2 * angle(k).cos(), 0.9 * angle(k).sin()) * Complex64::cis(0.3);
     let curves = [Complex64::new(0.2, 0.1), second].map(|centre| {
@@ -66,16 +66,16 @@ fn errors(region: Region, second: Complex64, viscosities: [f64; 2]) -> [f64; 2] 
 #[test]
 fn rigid_motions_and_flux() {
     for viscosities in [[10.0, 3.0], [1000.0, 0.001], [0.001, 50.0]] {
-        let free = errors(Region::Plane, Complex64::new(3.1, 0.4), viscosities);
+        let free = errors(Geometry::Plane, Complex64::new(3.1, 0.4), viscosities);
         assert!(free[0] < 1e-12 && free[1] < 1e-12, "{free:?}");
-        let close = errors(Region::Plane, Complex64::new(2.65, 0.4), viscosities);
+        let close = errors(Geometry::Plane, Complex64::new(2.65, 0.4), viscosities);
         assert!(close[0] < 1e-11, "{close:?}");
-        let square = errors(Region::Box { lengths: [6.0, 7.0] }, Complex64::new(3.2, 3.6), viscosities);
+        let square = errors(Geometry::Box { lengths: [6.0, 7.0] }, Complex64::new(3.2, 3.6), viscosities);
         assert!(square[0] < 1e-12, "{square:?}");
-        let large = errors(Region::Box { lengths: [14.0, 15.0] }, Complex64::new(2.9, 0.6), viscosities);
+        let large = errors(Geometry::Box { lengths: [14.0, 15.0] }, Complex64::new(2.9, 0.6), viscosities);
         assert!(large[0] < 1e-12, "{large:?}");
         for forcing in [Forcing::Gradient(0.0), Forcing::Flux(0.0)] {
-            let channel = Region::Channel { length: 7.0, width: 4.0, forcing };
+            let channel = Geometry::Channel { length: 7.0, width: 4.0, forcing };
             let channel = errors(channel, Complex64::new(3.5, -0.4), viscosities);
             assert!(channel[0] < 1e-11, "{channel:?}");
         }

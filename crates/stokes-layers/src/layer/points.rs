@@ -44,7 +44,7 @@ impl Layers {
     pub(crate) fn flow_at(&mut self, index: usize, point: Complex64, density: Density<'_>) -> (Flow, Option<usize>) {
         let mut flow = Flow::default();
         let mut inside = None;
-        let images = self.region.images();
+        let images = self.geometry.images();
         for body in 0..self.curves.len() {
             let apart = images.wrap(point - self.curves[body].centre);
             let distance = self.points.reach * self.curves[body].spacing();
@@ -103,7 +103,7 @@ impl Layers {
         let curve = &self.curves[body];
         let weight = curve.weight() * density.contrasts[body];
         let (vx, vy) = density.of(body);
-        let images = self.region.images();
+        let images = self.geometry.images();
         for (i, z) in curve.nodes.position.iter().enumerate() {
             let nearest = images.wrap(z - apart);
             let mut add = |k: &Kernels, sign: f64| {

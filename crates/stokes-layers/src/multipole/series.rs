@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 use num_complex::Complex64;
 
 use crate::{
-    Region,
+    Geometry,
     curve::Transform,
+    geometry::Images,
     greens::{GreensFunction, ln},
-    region::Images,
 };
 
 /// Largest ratio of the distance of points to that of a singularity for which a series is used.
@@ -119,10 +119,10 @@ struct Circle {
 }
 
 impl SeriesFinder {
-    pub(crate) fn new(region: &Region, tolerance: f64) -> Self {
-        let greens = GreensFunction::new(region, tolerance.min(1e-12));
+    pub(crate) fn new(geometry: &Geometry, tolerance: f64) -> Self {
+        let greens = GreensFunction::new(geometry, tolerance.min(1e-12));
         let circles = [Circle::new(64), Circle::new(128)];
-        Self { circles, greens, images: region.images(), area: region.area() }
+        Self { circles, greens, images: geometry.images(), area: geometry.area() }
     }
 
     /// The series around `distance` (target minus source), those parts of the images at the distances `direct` left out

@@ -28,16 +28,20 @@ fn highest(mesh: &TriangleMesh) -> Vec2 {
     mesh.points().iter().copied().max_by(|a, b| a.y.total_cmp(&b.y)).unwrap()
 }
 
+fn constriction(throat: f64, throat_length: f64, centre: f64) -> ChannelShape {
+    ChannelShape::Constriction { width: 2.0, throat, throat_length, ramp: 1.0, centre }
+}
+
 #[test]
 fn a_straight_channel() {
-    let channel = StraightChannel { period: 6.0, width: 2.0 }.channel().unwrap();
+    let channel = ChannelShape::Straight { width: 2.0 }.channel(6.0).unwrap();
     let walls = walls(&channel, 0.1, 12.0, 1e-12);
     assert!((highest(&walls.lower).y + 1.0).abs() < 1e-14);
 }
 
 #[test]
 fn the_constriction_of_the_thesis() {
-    let channel = Constriction::thesis().channel().unwrap();
+    let channel = ChannelShape::THESIS.channel(12.0).unwrap();
     // 6 x 2 + 4 x 1 + two ramps of mean width 1.5.
     let walls = walls(&channel, 0.1, 19.0, 0.01);
     assert!((highest(&walls.lower).y + 0.5).abs() < 1e-12);
@@ -46,18 +50,18 @@ fn the_constriction_of_the_thesis() {
         assert!(quality.edge_deviation < 0.04 && quality.smallest_angle > 33.0, "{quality}");
     }
     // The same half a period further, across the seam.
-    let moved = Constriction { centre: 6.0, ..Constriction::thesis() }.channel().unwrap();
+    let moved = constriction(1.0, 4.0, 6.0).channel(12.0).unwrap();
     let seam = moved.walls(BOTTOM, TOP, &Mesher::new(0.1).unwrap()).unwrap();
     assert!((seam.lower.area() - walls.lower.area()).abs() < 1e-3);
 }
 
 #[test]
 fn a_valve_keeps_its_sharp_tips_and_rounds_them_on_request() {
-    let valve = Valve { period: 8.0, width: 2.0, gap: 0.2, base: 1.2, radius: 0.0, centre: 0.5 };
+    let valve = |radius: f64| ChannelShape::Valve { width: 2.0, gap: 0.2, base: 1.2, radius, centre: 0.5 };
     // The channel less two triangles of base 1.2 and height 0.9.
-    let sharp = walls(&valve.channel().unwrap(), 0.07, 16.0 - 1.08, 1e-10);
+    let sharp = walls(&valve(0.0).channel(8.0).unwrap(), 0.07, 16.0 - 1.08, 1e-10);
     assert!((highest(&sharp.lower) - Vec2::new(0.5, -0.1)).length() < 1e-12);
-    let rounded = Valve { radius: 0.1, ..valve }.channel().unwrap();
+    let rounded = valve(0.1).channel(8.0).unwrap();
     let rounded = rounded.walls(BOTTOM, TOP, &Mesher::new(0.05).unwrap()).unwrap();
     let tip = highest(&rounded.lower).y;
     // A circle of radius r in a tip of half angle a stands off it by r (1/sin a - 1).
@@ -67,11 +71,13 @@ fn a_valve_keeps_its_sharp_tips_and_rounds_them_on_request() {
 
 #[test]
 fn ratchets_narrow_over_their_rise() {
-    let smooth = Ratchet { period: 12.0, width: 2.0, throat: 1.0, teeth: 3, rise: 0.75, sharp: false };
+    let ratchet = |sharp: bool| {
+        let shape = ChannelShape::Ratchet { width: 2.0, throat: 1.0, teeth: 3, rise: 0.75, sharp };
+        shape.channel(12.0).unwrap()
+    };
     // Means of the cosine ramps and of the straight flanks are both 1.5.
-    let smooth_walls = walls(&smooth.channel().unwrap(), 0.1, 18.0, 0.02);
-    let sharp = Ratchet { sharp: true, ..smooth };
-    let sharp_walls = walls(&sharp.channel().unwrap(), 0.1, 18.0, 1e-10);
+    let smooth_walls = walls(&ratchet(false), 0.1, 18.0, 0.02);
+    let sharp_walls = walls(&ratchet(true), 0.1, 18.0, 1e-10);
     for mesh in [&smooth_walls.lower, &sharp_walls.lower] {
         let tip = highest(mesh);
         assert!((tip.y + 0.5).abs() < 2e-3 && ((tip.x + 6.0).rem_euclid(4.0) - 3.0).abs() < 0.06, "{tip}");
@@ -82,26 +88,24 @@ fn ratchets_narrow_over_their_rise() {
 
 #[test]
 fn a_sinusoidal_channel() {
-    let shape = SinusoidalChannel { period: 10.0, width: 2.0, amplitude: 0.3, waves: 2, phase: 0.0 };
-    let narrowing = walls(&shape.channel().unwrap(), 0.1, 20.0, 0.01);
+    let shape =
+        |amplitude: f64, phase: f64| ChannelShape::Sinusoidal { width: 2.0, amplitude, waves: 2, phase }.channel(10.0);
+    let narrowing = walls(&shape(0.3, 0.0).unwrap(), 0.1, 20.0, 0.01);
     assert!((highest(&narrowing.lower).y + 0.7).abs() < 2e-3);
-    let winding = SinusoidalChannel { phase: PI, ..shape };
-    walls(&winding.channel().unwrap(), 0.1, 20.0, 0.01);
-    let closed = SinusoidalChannel { amplitude: 1.1, ..shape };
-    assert!(matches!(closed.channel(), Err(SolidError::Crossing { .. })));
+    walls(&shape(0.3, PI).unwrap(), 0.1, 20.0, 0.01);
+    assert!(matches!(shape(1.1, 0.0), Err(SolidError::Crossing { .. })));
 }
 
 #[test]
 fn a_channel_that_branches_around_an_island() {
-    let shape = BranchingChannel {
-        period: 14.0,
+    let shape = ChannelShape::Branching {
         width: 2.0,
         branches: [1.0, 0.6],
         island_length: 5.0,
         island_thickness: 1.2,
         ramp: 1.5,
     };
-    let channel = shape.channel().unwrap();
+    let channel = shape.channel(14.0).unwrap();
     let walls = channel.walls(-3.0, 3.0, &Mesher::new(0.08).unwrap()).unwrap();
     assert_eq!(walls.islands.len(), 1);
     let island = &walls.islands[0];
@@ -124,20 +128,19 @@ fn a_channel_that_branches_around_an_island() {
 
 #[test]
 fn bad_shapes_are_refused() {
-    let constriction = Constriction { throat_length: 11.0, ..Constriction::thesis() };
-    assert!(matches!(constriction.channel(), Err(SolidError::Input(InputError::OutOfRange { .. }))));
-    let constriction = Constriction { throat: 0.0, ..Constriction::thesis() };
-    assert!(matches!(constriction.channel(), Err(SolidError::Input(InputError::NotPositive { .. }))));
-    let straight = StraightChannel { period: f64::NAN, width: 1.0 };
-    assert!(matches!(straight.channel(), Err(SolidError::Input(InputError::NotPositive { .. }))));
-    let valve = Valve { period: 8.0, width: 2.0, gap: 2.5, base: 1.2, radius: 0.0, centre: 0.0 };
-    assert!(matches!(valve.channel(), Err(SolidError::Input(InputError::NotPositive { .. }))));
-    let valve = Valve { gap: 0.1, radius: 5.0, ..valve };
-    assert!(matches!(valve.channel(), Err(SolidError::FilletTooLarge { .. })));
-    let ratchet = Ratchet { period: 12.0, width: 2.0, throat: 1.0, teeth: 0, rise: 0.5, sharp: true };
-    assert!(matches!(ratchet.channel(), Err(SolidError::Input(InputError::OutOfRange { .. }))));
-    let ratchet = Ratchet { teeth: 2, rise: 1.0, ..ratchet };
-    assert!(matches!(ratchet.channel(), Err(SolidError::Input(InputError::OutOfRange { .. }))));
+    let long = constriction(1.0, 11.0, 0.0);
+    assert!(matches!(long.channel(12.0), Err(SolidError::Input(InputError::OutOfRange { .. }))));
+    let closed = constriction(0.0, 4.0, 0.0);
+    assert!(matches!(closed.channel(12.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
+    let straight = ChannelShape::Straight { width: 1.0 };
+    assert!(matches!(straight.channel(f64::NAN), Err(SolidError::Input(InputError::NotPositive { .. }))));
+    let valve = |gap, radius| ChannelShape::Valve { width: 2.0, gap, base: 1.2, radius, centre: 0.0 }.channel(8.0);
+    assert!(matches!(valve(2.5, 0.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
+    assert!(matches!(valve(0.1, 5.0), Err(SolidError::FilletTooLarge { .. })));
+    for (teeth, rise) in [(0, 0.5), (2, 1.0)] {
+        let ratchet = ChannelShape::Ratchet { width: 2.0, throat: 1.0, teeth, rise, sharp: true };
+        assert!(matches!(ratchet.channel(12.0), Err(SolidError::Input(InputError::OutOfRange { .. }))));
+    }
     let (flat, circle) = (|y| Outline::flat(0.0, 4.0, y).unwrap(), Outline::circle(Vec2::ZERO, 0.2).unwrap());
     assert!(matches!(Channel::new(flat(1.0), flat(-1.0)), Err(SolidError::NotBetween { .. })));
     assert!(matches!(Channel::new(flat(-1.0), circle.clone()), Err(SolidError::DifferentPeriods { .. })));

@@ -4,7 +4,7 @@ use super::*;
 use crate::forces::{Hyperelastic, Springs};
 use crate::material::SaintVenantKirchhoff;
 use crate::mesh::{equilateral_block, equilateral_strip};
-use crate::{Mesher, NeoHookean, Outline, Region};
+use crate::{Interior, Mesher, NeoHookean, Outline};
 
 const SHEAR: f64 = 93.75;
 
@@ -20,7 +20,7 @@ fn assert_close(found: MeasuredModuli, shear: f64, bulk: f64, tolerance: f64) {
 /// Unstructured meshes: a wall with turned seeds, and a disc.
 fn unstructured() -> [TriangleMesh; 2] {
     let flat = |y: f64| Outline::flat(0.0, 4.0, y).unwrap();
-    let wall = Region::new([flat(0.0), flat(1.5)]).unwrap();
+    let wall = Interior::new([flat(0.0), flat(1.5)]).unwrap();
     let turned = Mesher::new(0.05).unwrap().turned(0.2).unwrap().mesh(&wall).unwrap();
     [turned, Outline::circle(Vec2::ZERO, 1.0).unwrap().mesh(0.06).unwrap()]
 }

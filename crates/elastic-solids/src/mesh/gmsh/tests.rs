@@ -5,7 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::mesh::equilateral_strip;
-use crate::{Outline, Region};
+use crate::{Interior, Outline};
 
 /// A square of two triangles as Gmsh writes it: with curves, parameters, two surfaces, and a section that is none of
 /// ours.
@@ -91,7 +91,7 @@ fn what_is_written_is_read_again() {
 fn periodic_meshes_are_joined_again() {
     let flat = Outline::flat(-1.0, 2.0, -1.0).unwrap();
     let wave = Outline::profile(-1.0, 2.0, |x| 0.1 * (std::f64::consts::PI * x).sin()).unwrap();
-    let meshed = Region::new([flat, wave]).unwrap().mesh(0.1).unwrap();
+    let meshed = Interior::new([flat, wave]).unwrap().mesh(0.1).unwrap();
     for mesh in [equilateral_strip(Vec2::new(0.3, 0.0), 9, 4, 0.2).unwrap(), meshed] {
         let period = mesh.period().unwrap();
         let file = with_groups(mesh);

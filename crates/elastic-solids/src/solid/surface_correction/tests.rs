@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::mesh::BoundaryLoop;
-use crate::{Mesher, Outline, Region};
+use crate::{Interior, Mesher, Outline};
 use ib_core::{CubicQuadratic, Domain};
 
 fn medium(spacing: f64) -> Medium {
@@ -37,7 +37,7 @@ fn velocities(mesh: &TriangleMesh, forces: &[Vec2]) -> Vec<Vec2> {
 #[test]
 fn it_is_reciprocal_and_takes_energy() {
     let disc = Outline::circle(Vec2::ZERO, 1.0).unwrap();
-    let mesh = Mesher::new(0.1).unwrap().mesh(&Region::new([disc]).unwrap()).unwrap();
+    let mesh = Mesher::new(0.1).unwrap().mesh(&Interior::new([disc]).unwrap()).unwrap();
     let count = mesh.points().len();
     let forces = |a: f64, b: f64| -> Vec<Vec2> {
         (0..count).map(|k| k as f64).map(|k| Vec2::new((a * k).sin(), (b * k + 1.0).cos())).collect()

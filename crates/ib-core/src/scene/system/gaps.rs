@@ -1,7 +1,7 @@
 //! How near the bodies come to one another and to walls.
 
 use super::System;
-use crate::gap::{Boundary, Conflict, Gap, Gaps, Neighbour, Outline, wall_gap};
+use crate::gap::{Boundary, Conflict, Gap, Gaps, Outline, wall_gap};
 use crate::{Body, Handle, Hydrodynamics, Repulsion, SceneError, Vec2};
 
 impl<H: Hydrodynamics> System<H> {
@@ -31,19 +31,6 @@ impl<H: Hydrodynamics> System<H> {
     ) -> Result<Option<f64>, SceneError> {
         let [first, second] = [Outline::of(self.any_body(first)?), Outline::of(self.any_body(second)?)];
         Ok(first.gap(&second, self.hydrodynamics.medium().domain.periods))
-    }
-
-    /// The smallest [`System::gap`] between a body and all others (length), and the body on its other side; `None`
-    /// where there is none.
-    ///
-    /// # Errors
-    /// [`SceneError::ForeignHandle`].
-    pub fn gap_around(&self, body: impl Into<Handle<dyn Body>>) -> Result<Option<Neighbour>, SceneError> {
-        let body = body.into();
-        let (outline, periods) = (Outline::of(self.any_body(body)?), self.hydrodynamics.medium().domain.periods);
-        let others = self.all_bodies().filter(|(handle, _)| *handle != body);
-        let gaps = others.filter_map(|(handle, other)| Some((outline.gap(&Outline::of(other), periods)?, handle)));
-        Ok(gaps.min_by(|a, b| a.0.total_cmp(&b.0)))
     }
 
     /// The smallest [`System::wall_gap`] since the start (length): over the states after each addition of a body and at

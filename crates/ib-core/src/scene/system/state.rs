@@ -1,7 +1,7 @@
 //! The state of all bodies and its rate of change.
 
 use super::{System, body_error};
-use crate::{Hydrodynamics, SceneError};
+use crate::{Body, Hydrodynamics, SceneError};
 
 impl<H: Hydrodynamics> System<H> {
     /// Length of the state of all bodies.
@@ -13,25 +13,19 @@ impl<H: Hydrodynamics> System<H> {
     /// Copies the state of all bodies to `state`, resizing it.
     pub fn write_state(&self, state: &mut Vec<f64>) {
         state.resize(self.state_len(), 0.0);
-        let mut start = 0;
-        for body in &self.bodies {
-            let end = start + body.state_len();
-            body.write_state(&mut state[start..end]);
-            start = end;
-        }
+        let mut rest = state.as_mut_slice();
+        self.bodies.iter().for_each(|body| body.write_state(part(&mut rest, body.as_ref())));
     }
 
     /// Gives the bodies a state whose parts have the lengths `lengths` (one a body).
     pub(crate) fn restore(&mut self, lengths: &[usize], state: &[f64]) -> Result<(), SceneError> {
-        let mut start = 0;
         self.forget_flow();
         self.apart = false;
-        for (body, length) in self.bodies.iter_mut().zip(lengths) {
-            body.read_state(&state[start..start + length])
-                .map_err(|source| body_error(self.time, body.as_ref(), source))?;
-            start += length;
-        }
-        Ok(())
+        let (time, mut rest) = (self.time, state);
+        self.bodies.iter_mut().zip(lengths).try_for_each(|(body, &length)| {
+            let state = rest.split_off(..length).unwrap_or_default();
+            body.read_state(state).map_err(|source| body_error(time, body.as_ref(), source))
+        })
     }
 
     pub(crate) fn write_lengths(&self, lengths: &mut Vec<usize>) {
@@ -70,11 +64,10 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     fn rate_here(&mut self, rate: &mut [f64]) {
-        let mut start = 0;
+        let mut rest = rate;
         for (body, group) in self.bodies.iter_mut().zip(self.markers.groups()) {
-            let end = start + body.state_len();
-            body.rate(&self.markers.velocities[group.range.clone()], &mut rate[start..end]);
-            start = end;
+            let rate = part(&mut rest, body.as_ref());
+            body.rate(&self.markers.velocities[group.range.clone()], rate);
         }
     }
 
@@ -84,44 +77,32 @@ impl<H: Hydrodynamics> System<H> {
     /// A state that a body refuses.
     pub fn read_state(&mut self, state: &[f64]) -> Result<(), SceneError> {
         self.forget_flow();
-        let time = self.time;
-        let mut start = 0;
-        for body in &mut self.bodies {
-            let end = start + body.state_len();
-            body.read_state(&state[start..end]).map_err(|source| body_error(time, body.as_ref(), source))?;
-            start = end;
-        }
-        Ok(())
+        let (time, mut rest) = (self.time, state);
+        self.bodies.iter_mut().try_for_each(|body| {
+            let state = rest.split_off(..body.state_len()).unwrap_or_default();
+            body.read_state(state).map_err(|source| body_error(time, body.as_ref(), source))
+        })
     }
 
     /// Adds `factor * L(state) state` to `out`; see [`crate::Body::add_implicit`].
-    pub fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
-        let mut start = 0;
+    pub fn add_implicit(&mut self, mut state: &[f64], factor: f64, mut out: &mut [f64]) {
         for body in &mut self.bodies {
-            let end = start + body.state_len();
-            body.add_implicit(&state[start..end], factor, &mut out[start..end]);
-            start = end;
+            let (state, out) = (state.split_off(..body.state_len()).unwrap_or_default(), part(&mut out, body.as_ref()));
+            body.add_implicit(state, factor, out);
         }
     }
 
     /// Solves `y - factor L(state) y = state` in place; see [`crate::Body::solve_implicit`].
-    pub fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
-        let mut start = 0;
+    pub fn solve_implicit(&mut self, factor: f64, mut state: &mut [f64]) {
         for body in &mut self.bodies {
-            let end = start + body.state_len();
-            body.solve_implicit(factor, &mut state[start..end]);
-            start = end;
+            let state = part(&mut state, body.as_ref());
+            body.solve_implicit(factor, state);
         }
     }
 
     /// Writes the sizes of all bodies' entries of the state; see [`crate::Body::write_scales`].
-    pub fn write_scales(&self, scales: &mut [f64]) {
-        let mut start = 0;
-        for body in &self.bodies {
-            let end = start + body.state_len();
-            body.write_scales(&mut scales[start..end]);
-            start = end;
-        }
+    pub fn write_scales(&self, mut scales: &mut [f64]) {
+        self.bodies.iter().for_each(|body| body.write_scales(part(&mut scales, body.as_ref())));
     }
 
     /// The largest over the bodies of the root mean square of `errors / scales`; both have the length of the state.
@@ -137,4 +118,9 @@ impl<H: Hydrodynamics> System<H> {
         }
         largest
     }
+}
+
+/// The part of a flat list that is the next body's, taken off the rest.
+fn part<'a>(rest: &mut &'a mut [f64], body: &dyn Body) -> &'a mut [f64] {
+    rest.split_off_mut(..body.state_len()).unwrap_or_default()
 }

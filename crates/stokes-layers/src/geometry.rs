@@ -1,4 +1,4 @@
-//! The regions that the fluid fills.
+//! The geometries with known Green's functions.
 
 use num_complex::Complex64;
 
@@ -23,9 +23,9 @@ impl Default for Forcing {
     }
 }
 
-/// A region with a known Green's function of the Stokes equations.
+/// A geometry with a known Green's function of the Stokes equations.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Region {
+pub enum Geometry {
     /// The unbounded plane, the fluid at rest far away.
     Plane,
     /// A rectangle with periodic boundaries; the velocity, that inside the curves included, has zero mean.
@@ -44,7 +44,7 @@ pub enum Region {
     },
 }
 
-impl Region {
+impl Geometry {
     /// Refuses lengths that are not positive and finite and a forcing that is not finite.
     pub(crate) fn check(&self) -> Result<(), LayerError> {
         match *self {

@@ -2,9 +2,9 @@
 
 use stokes_grid::Grid;
 
-use super::inside::weights;
 use super::lanes::Portable;
-use super::spots::split;
+use super::locations::split;
+use super::polynomial::weights;
 use crate::{
     Kernel,
     kernel::{MAX_SUPPORT, Role},
@@ -27,50 +27,21 @@ enum Component {
 
 /// Transfer with stencils that wrap around the box or are folded back at walls.
 #[derive(Debug)]
-pub(super) struct Anywhere<'a, K> {
-    kernel: &'a K,
-    columns: usize,
-    rows: usize,
-    walls: bool,
+pub(super) struct GeneralTransfer<'a, K> {
+    pub(super) kernel: &'a K,
+    pub(super) grid: &'a Grid,
 }
 
-// Not derived: a copy of the reference does not need a kernel that can be copied.
-impl<K> Clone for Anywhere<'_, K> {
+// Not derived: a copy of the references does not need a kernel that can be copied.
+impl<K> Clone for GeneralTransfer<'_, K> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<K> Copy for Anywhere<'_, K> {}
+impl<K> Copy for GeneralTransfer<'_, K> {}
 
-impl<'a, K: Kernel> Anywhere<'a, K> {
-    pub(super) fn new(kernel: &'a K, grid: &Grid) -> Self {
-        Self { kernel, columns: grid.nx(), rows: grid.ny(), walls: grid.has_walls() }
-    }
-
-    #[inline(always)]
-    pub(super) fn kernel(&self) -> &'a K {
-        self.kernel
-    }
-
-    /// Columns of cells.
-    #[inline(always)]
-    pub(super) fn columns(&self) -> usize {
-        self.columns
-    }
-
-    /// Rows of cells.
-    #[cfg(feature = "rayon")]
-    pub(super) fn rows(&self) -> usize {
-        self.rows
-    }
-
-    /// Whether there are walls at the bottom and the top.
-    #[cfg(feature = "rayon")]
-    pub(super) fn has_walls(&self) -> bool {
-        self.walls
-    }
-
+impl<K: Kernel> GeneralTransfer<'_, K> {
     /// Adds `force` (force density times cells) at `place` (in units of h) to the rows of both components that are
     /// there, from `first_row` on.
     #[inline(never)]
@@ -112,7 +83,7 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
     }
 
     fn add_component(&self, component: Component, [x, y]: [Line; 2], value: f64, first_row: usize, field: &mut [f64]) {
-        let nx = self.columns;
+        let nx = self.grid.nx();
         let first = self.column(x.first);
         let mut columns = x.weights;
         columns.iter_mut().for_each(|column| *column *= value);
@@ -136,7 +107,7 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
     }
 
     fn gather_component(&self, component: Component, x: Line, y: Line, field: &[f64]) -> f64 {
-        let nx = self.columns;
+        let nx = self.grid.nx();
         let first = self.column(x.first);
         let mut sums = [0.0; MAX_SUPPORT];
         for (i, weight) in y.weights[..y.len].iter().enumerate() {
@@ -160,7 +131,7 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
     /// The stored column that stands for `column`.
     #[inline]
     fn column(&self, column: i64) -> usize {
-        let nx = self.columns as i64;
+        let nx = self.grid.nx() as i64;
         // Mostly one period away at most; the division is slow.
         let near = if column < 0 { column + nx } else { column };
         (if (0..nx).contains(&near) { near } else { column.rem_euclid(nx) }) as usize
@@ -169,7 +140,7 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
     /// The stored column that stands for one from zero on.
     #[inline]
     fn wrapped(&self, column: usize) -> usize {
-        let nx = self.columns;
+        let nx = self.grid.nx();
         if column < nx {
             column
         } else if column < 2 * nx {
@@ -182,24 +153,19 @@ impl<'a, K: Kernel> Anywhere<'a, K> {
     /// The stored row and the sign that stand for row `row` of the extended field.
     #[inline]
     fn fold(&self, row: i64, component: Component) -> (usize, f64) {
-        let ny = self.rows as i64;
-        if !self.walls {
+        let ny = self.grid.ny() as i64;
+        if !self.grid.has_walls() {
             // A stencil reaches beyond the box by less than one period unless the box is smaller than the kernel.
             let wrapped = if (0..ny).contains(&row) { row } else { row.rem_euclid(ny) };
             return (wrapped as usize, 1.0);
         }
-        match component {
-            Component::X if (0..ny).contains(&row) => (row as usize, 1.0),
-            Component::Y if (0..=ny).contains(&row) => (row as usize, 1.0),
-            Component::X => {
-                // Odd about both walls: period 2 ny, row r and 2 ny - 1 - r opposite.
-                let r = row.rem_euclid(2 * ny);
-                if r < ny { (r as usize, 1.0) } else { ((2 * ny - 1 - r) as usize, -1.0) }
-            }
-            Component::Y => {
-                let r = row.rem_euclid(2 * ny);
-                (if r <= ny { r } else { 2 * ny - r } as usize, 1.0)
-            }
-        }
+        // Between rows of cells, odd, or about rows of nodes, even, with the period 2 ny.
+        let (end, sign) = match component {
+            Component::X => (2 * ny - 1, -1.0),
+            Component::Y => (2 * ny, 1.0),
+        };
+        let row = if (0..ny).contains(&row) { row } else { row.rem_euclid(2 * ny) };
+        let mirrored = end - row;
+        if row <= mirrored { (row as usize, 1.0) } else { (mirrored as usize, sign) }
     }
 }

@@ -3,26 +3,26 @@ use stokes_grid::Grid;
 use super::*;
 use crate::CubicQuadratic;
 use crate::transfer::lanes::{Portable, dispatch};
-use crate::transfer::spots::Spots;
+use crate::transfer::locations::Locations;
 
 /// On a machine without wide instructions both are the same.
 #[test]
 fn all_instructions_agree() {
     let grid = Grid::channel(20, 16, 0.1).unwrap();
     let kernel = CubicQuadratic::default();
-    let anywhere = Anywhere::new(&kernel, &grid);
+    let general = GeneralTransfer { kernel: &kernel, grid: &grid };
     let positions: Vec<Vec2> =
         (0..500).map(|k| f64::from(k) * 0.0731).map(|k| Vec2::new(k % 2.0 - 1.0, (k * 0.39) % 1.6 - 0.8)).collect();
     let forces: Vec<Vec2> = positions.iter().map(|r| Vec2::new(r.x.sin(), (r.y * 1.7).cos())).collect();
-    let mut found = Spots::new(&grid);
+    let mut found = Locations::new(grid);
     found.find(kernel.pieces(), &positions);
-    let (spots, elsewhere) = (found.all(), found.elsewhere());
+    let (locations, irregular) = (&found.all, &found.irregular);
     let cells = 20 * 17;
     let both = |wide: bool| {
         let (mut fx, mut fy) = (vec![0.0; cells - 20], vec![0.0; cells]);
-        let markers = Markers { spots, forces: &forces, stride: 8, elsewhere };
+        let markers = Markers { locations, forces: &forces, stride: 8, irregular };
         let band = Band { first_row: 0, fx: &mut fx, fy: &mut fy };
-        let task = Spreading { anywhere, pieces: CubicQuadratics, scale: 3.0, markers, band };
+        let task = Spreading { general, pieces: CubicQuadratics, scale: 3.0, markers, band };
         if wide {
             dispatch(task);
         } else {
@@ -31,7 +31,7 @@ fn all_instructions_agree() {
         let mut velocities = vec![Vec2::ZERO; positions.len()];
         let (u, v, velocities_mut) = (&fx[..], &fy[..], &mut velocities[..]);
         let pieces = CubicQuadratics;
-        let task = Interpolation { anywhere, pieces, spots, elsewhere, u, v, velocities: velocities_mut };
+        let task = Interpolation { general, pieces, locations, irregular, u, v, velocities: velocities_mut };
         if wide {
             dispatch(task);
         } else {

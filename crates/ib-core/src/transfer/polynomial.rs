@@ -1,9 +1,9 @@
 //! The transfer of many markers with a kernel of polynomials, most of them away from the edges of the grid.
 
-use super::anywhere::Anywhere;
+use super::general::GeneralTransfer;
 use super::lanes::{Lanes, LanesTask};
-use super::spots::{Edge, Spot};
-use super::visits::BLOCK;
+use super::locations::{Edge, Location};
+use super::order::BLOCK;
 use super::{Band, Markers};
 use crate::kernel::CUBIC_QUADRATIC;
 use crate::{Kernel, Vec2, kernel::Pieces};
@@ -61,9 +61,9 @@ struct Window {
 
 /// The weights of the stencil of a marker.
 #[inline(always)]
-fn window<L: Lanes>(l: L, pieces: &impl Polynomials, spot: &Spot) -> Window {
-    let [x_columns, y_columns] = weights(l, pieces, spot.fractions[0]);
-    let [y_rows, x_rows] = weights(l, pieces, spot.fractions[1]);
+fn window<L: Lanes>(l: L, pieces: &impl Polynomials, location: &Location) -> Window {
+    let [x_columns, y_columns] = weights(l, pieces, location.fractions[0]);
+    let [y_rows, x_rows] = weights(l, pieces, location.fractions[1]);
     Window {
         rows: [l.store(x_rows), l.store(y_rows)],
         columns: [l.store(x_columns), l.store(y_columns)],
@@ -98,7 +98,7 @@ fn at_edge(edge: Edge, window: &mut Window) {
 /// Spreading of forces to both components, of all rows or those of a band.
 #[derive(Debug)]
 pub(super) struct Spreading<'a, K, P> {
-    pub(super) anywhere: Anywhere<'a, K>,
+    pub(super) general: GeneralTransfer<'a, K>,
     pub(super) pieces: P,
     pub(super) scale: f64,
     pub(super) markers: Markers<'a>,
@@ -108,39 +108,39 @@ pub(super) struct Spreading<'a, K, P> {
 impl<K: Kernel, P: Polynomials> LanesTask for Spreading<'_, K, P> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let Self { anywhere, pieces, scale, markers, band } = self;
-        let Markers { spots, forces, stride, elsewhere } = markers;
+        let Self { general, pieces, scale, markers, band } = self;
+        let Markers { locations, forces, stride, irregular } = markers;
         let Band { first_row, fx, fy } = band;
         // Known to be four or more, the first four of a row need no check.
-        let nx = anywhere.columns().max(4);
+        let nx = general.grid.nx().max(4);
         let offset = first_row * nx;
         // Windows that begin before this are within the band.
         let end = fx.len().saturating_sub(2 * nx + 3).min(fy.len().saturating_sub(3 * nx + 3));
-        for (spots, forces) in spots.chunks(BLOCK).zip(forces.chunks(BLOCK)) {
-            let count = spots.len().min(forces.len());
-            let (spots, forces) = (&spots[..count], &forces[..count]);
+        for (locations, forces) in locations.chunks(BLOCK).zip(forces.chunks(BLOCK)) {
+            let count = locations.len().min(forces.len());
+            let (locations, forces) = (&locations[..count], &forces[..count]);
             for first in 0..stride.min(count) {
                 let mut next = first;
                 while next < count {
-                    let (spot, force) = (&spots[next], &forces[next]);
+                    let (location, force) = (&locations[next], &forces[next]);
                     next += stride;
                     let force = [scale * force.x, scale * force.y];
                     // What begins below the band is far beyond its end when the subtraction wraps.
-                    let base = (spot.base as usize).wrapping_sub(offset);
-                    if spot.kind == Spot::WITHIN && base < end {
-                        let [normal, tangential] = weights(l, &pieces, spot.fractions[0]);
-                        let [y_rows, x_rows] = weights(l, &pieces, spot.fractions[1]);
+                    let base = (location.base as usize).wrapping_sub(offset);
+                    if location.kind == Location::REGULAR && base < end {
+                        let [normal, tangential] = weights(l, &pieces, location.fractions[0]);
+                        let [y_rows, x_rows] = weights(l, &pieces, location.fractions[1]);
                         let (x_columns, y_columns) =
                             (l.mul(l.splat(force[0]), normal), l.mul(l.splat(force[1]), tangential));
                         add_rows::<L, 3>(l, &mut fx[base..], nx, x_columns, l.store(x_rows));
                         add_rows::<L, 4>(l, &mut fy[base..], nx, y_columns, l.store(y_rows));
-                    } else if spot.base != Spot::ELSEWHERE {
-                        let mut window = window(l, &pieces, spot);
-                        at_edge(spot.edge(), &mut window);
+                    } else if location.base != Location::IRREGULAR {
+                        let mut window = window(l, &pieces, location);
+                        at_edge(location.edge(), &mut window);
                         let force = force.map(|force| l.splat(force));
                         add_window(l, &window, force, base, nx, [&mut *fx, &mut *fy]);
-                    } else if let Some(place) = elsewhere.get(spot.kind as usize) {
-                        anywhere.add(*place, force, first_row, fx, fy);
+                    } else if let Some(place) = irregular.get(location.kind as usize) {
+                        general.add(*place, force, first_row, fx, fy);
                     }
                 }
             }
@@ -190,11 +190,11 @@ fn add_rows<L: Lanes, const N: usize>(l: L, window: &mut [f64], nx: usize, colum
 /// Interpolation of both components.
 #[derive(Debug)]
 pub(super) struct Interpolation<'a, K, P> {
-    pub(super) anywhere: Anywhere<'a, K>,
+    pub(super) general: GeneralTransfer<'a, K>,
     pub(super) pieces: P,
     /// Those of the markers to interpolate at.
-    pub(super) spots: &'a [Spot],
-    pub(super) elsewhere: &'a [[f64; 2]],
+    pub(super) locations: &'a [Location],
+    pub(super) irregular: &'a [[f64; 2]],
     pub(super) u: &'a [f64],
     pub(super) v: &'a [f64],
     pub(super) velocities: &'a mut [Vec2],
@@ -203,19 +203,19 @@ pub(super) struct Interpolation<'a, K, P> {
 impl<K: Kernel, P: Polynomials> LanesTask for Interpolation<'_, K, P> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let Self { anywhere, pieces, spots, elsewhere, u, v, velocities } = self;
-        let nx = anywhere.columns();
+        let Self { general, pieces, locations, irregular, u, v, velocities } = self;
+        let nx = general.grid.nx();
         // Both fields from each row of a window on, all of one length: one check for all of them.
         let length = u.len().saturating_sub(2 * nx).min(v.len().saturating_sub(3 * nx));
         let [u0, u1, u2] = [from(u, 0, length), from(u, nx, length), from(u, 2 * nx, length)];
         let [v0, v1, v2] = [from(v, 0, length), from(v, nx, length), from(v, 2 * nx, length)];
         let v3 = from(v, 3 * nx, length);
         let rows = [u0, u1, u2, v0, v1, v2, v3];
-        for (spot, out) in spots.iter().zip(velocities) {
-            let base = spot.base as usize;
-            if spot.kind == Spot::WITHIN && base + 4 <= length {
-                let [x_columns, y_columns] = weights(l, &pieces, spot.fractions[0]);
-                let [y_rows, x_rows] = weights(l, &pieces, spot.fractions[1]);
+        for (location, out) in locations.iter().zip(velocities) {
+            let base = location.base as usize;
+            if location.kind == Location::REGULAR && base + 4 <= length {
+                let [x_columns, y_columns] = weights(l, &pieces, location.fractions[0]);
+                let [y_rows, x_rows] = weights(l, &pieces, location.fractions[1]);
                 let (x_rows, y_rows) = (l.store(x_rows), l.store(y_rows));
                 let x = l.mul(l.splat(x_rows[0]), cells(l, u0, base));
                 let x = l.mul_add(l.splat(x_rows[1]), cells(l, u1, base), x);
@@ -225,16 +225,16 @@ impl<K: Kernel, P: Polynomials> LanesTask for Interpolation<'_, K, P> {
                 let y = l.mul_add(l.splat(y_rows[2]), cells(l, v2, base), y);
                 let y = l.mul_add(l.splat(y_rows[3]), cells(l, v3, base), y);
                 *out = l.sums(l.mul(x, x_columns), l.mul(y, y_columns)).into();
-            } else if spot.base != Spot::ELSEWHERE {
-                let mut window = window(l, &pieces, spot);
-                at_edge(spot.edge(), &mut window);
+            } else if location.base != Location::IRREGULAR {
+                let mut window = window(l, &pieces, location);
+                at_edge(location.edge(), &mut window);
                 *out = gather(l, &rows, base, &window.rows, &window.columns);
                 if window.wraps {
                     // From the last four columns to the first.
                     *out += gather(l, &rows, (base + 4).wrapping_sub(nx), &window.rows, &window.beyond);
                 }
-            } else if let Some(place) = elsewhere.get(spot.kind as usize) {
-                *out = anywhere.gather(*place, u, v).into();
+            } else if let Some(place) = irregular.get(location.kind as usize) {
+                *out = general.gather(*place, u, v).into();
             }
         }
     }

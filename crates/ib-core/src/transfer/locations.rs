@@ -23,14 +23,14 @@ fn whole(shifted: f64) -> i64 {
     shifted.to_bits().wrapping_sub(WHOLE.to_bits()) as i64
 }
 
-/// What the passes need of a marker.
+/// Where a marker is: what spreading and interpolation need of it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Spot {
+pub(super) struct Location {
     /// The fractions of both coordinates of which weights are polynomials.
     pub(super) fractions: [f64; 2],
-    /// The index of the first grid point of its window of four by four, or [`Spot::ELSEWHERE`].
+    /// The index of the first grid point of its window of four by four, or [`Location::IRREGULAR`].
     pub(super) base: u32,
-    /// An [`Edge`] as a number; elsewhere the index of the place.
+    /// An [`Edge`] as a number; where it is irregular the index of the place.
     pub(super) kind: u32,
 }
 
@@ -46,13 +46,13 @@ pub(super) struct Edge {
     pub(super) wrapped: usize,
 }
 
-impl Spot {
+impl Location {
     /// The stencil is not within a window or two.
-    pub(super) const ELSEWHERE: u32 = u32::MAX;
+    pub(super) const IRREGULAR: u32 = u32::MAX;
     /// The stencil is the window.
-    pub(super) const WITHIN: u32 = 0;
+    pub(super) const REGULAR: u32 = 0;
     /// No marker.
-    pub(super) const NONE: Self = Self { fractions: [0.0; 2], base: Self::ELSEWHERE, kind: u32::MAX };
+    pub(super) const NONE: Self = Self { fractions: [0.0; 2], base: Self::IRREGULAR, kind: u32::MAX };
 
     /// What to do at an edge of the grid.
     pub(super) fn edge(&self) -> Edge {
@@ -68,102 +68,81 @@ impl From<Edge> for u32 {
 
 /// The markers of a scene on a grid.
 #[derive(Debug, Clone)]
-pub(super) struct Spots {
+pub(super) struct Locations {
     /// In the order of the markers.
-    spots: Vec<Spot>,
+    pub(super) all: Vec<Location>,
     /// The places, in units of h from the origin of the grid and wrapped where the box is periodic, of the markers
     /// whose stencils wrap around the box or reach far beyond a wall, or of all where the kernel is not made of
     /// polynomials.
-    elsewhere: Vec<[f64; 2]>,
-    columns: usize,
-    rows: usize,
-    walls: bool,
-    origin: [f64; 2],
-    spacing: f64,
+    pub(super) irregular: Vec<[f64; 2]>,
+    grid: Grid,
 }
 
-impl Spots {
-    pub(super) fn new(grid: &Grid) -> Self {
-        Self {
-            spots: Vec::new(),
-            elsewhere: Vec::new(),
-            columns: grid.nx(),
-            rows: grid.ny(),
-            walls: grid.has_walls(),
-            origin: grid.origin(),
-            spacing: grid.spacing(),
-        }
-    }
-
-    pub(super) fn all(&self) -> &[Spot] {
-        &self.spots
-    }
-
-    /// The place of a spot that is elsewhere.
-    pub(super) fn elsewhere(&self) -> &[[f64; 2]] {
-        &self.elsewhere
+impl Locations {
+    pub(super) fn new(grid: Grid) -> Self {
+        Self { all: Vec::new(), irregular: Vec::new(), grid }
     }
 
     /// The row of a marker, to within two.
     #[cfg(feature = "rayon")]
-    pub(super) fn row(&self, spot: &Spot) -> i64 {
-        if spot.base == Spot::ELSEWHERE {
+    pub(super) fn row(&self, location: &Location) -> i64 {
+        if location.base == Location::IRREGULAR {
             // What is not finite lands somewhere.
-            self.elsewhere.get(spot.kind as usize).map_or(0, |place| place[1] as i64)
+            self.irregular.get(location.kind as usize).map_or(0, |place| place[1] as i64)
         } else {
-            i64::from(spot.base) / self.columns.max(1) as i64 + 1
+            i64::from(location.base) / self.grid.nx() as i64 + 1
         }
     }
 
     /// Takes the `positions` (length) of markers over, for a kernel of polynomials or any other.
     pub(super) fn find(&mut self, pieces: Option<&Pieces>, positions: &[Vec2]) {
-        self.elsewhere.clear();
-        self.spots.resize(positions.len(), Spot::default());
-        let mut spots = std::mem::take(&mut self.spots);
+        self.irregular.clear();
+        self.all.resize(positions.len(), Location::default());
+        let mut locations = std::mem::take(&mut self.all);
         if let Some(pieces) = pieces {
-            dispatch(Finding { shift: pieces.shift, positions, spots: &mut spots, on: self });
+            dispatch(Search { shift: pieces.shift, positions, locations: &mut locations, on: self });
         } else {
-            for (position, spot) in positions.iter().zip(&mut spots) {
+            for (position, location) in positions.iter().zip(&mut locations) {
                 let place = self.place(position);
-                self.put_elsewhere(place, spot);
+                self.put_irregular(place, location);
             }
         }
-        self.spots = spots;
+        self.all = locations;
     }
 
     /// The place of a position, wrapped where the box is periodic.
     fn place(&self, position: &Vec2) -> [f64; 2] {
-        let scale = 1.0 / self.spacing;
-        let [x, y] = [scale * (position.x - self.origin[0]), scale * (position.y - self.origin[1])];
+        let scale = 1.0 / self.grid.spacing();
+        let [x, y] = [scale * (position.x - self.grid.origin()[0]), scale * (position.y - self.grid.origin()[1])];
         // Wrapping before the weights keeps the column arithmetic exact for droplets that have travelled far.
         let wrapped = |r: f64, period: f64| if (0.0..period).contains(&r) { r } else { r.rem_euclid(period) };
-        [wrapped(x, self.columns as f64), if self.walls { y } else { wrapped(y, self.rows as f64) }]
+        [wrapped(x, self.grid.nx() as f64), if self.grid.has_walls() { y } else { wrapped(y, self.grid.ny() as f64) }]
     }
 
-    fn put_elsewhere(&mut self, place: [f64; 2], spot: &mut Spot) {
-        *spot = Spot { kind: self.elsewhere.len() as u32, ..Spot::NONE };
-        self.elsewhere.push(place);
+    fn put_irregular(&mut self, place: [f64; 2], location: &mut Location) {
+        *location = Location { kind: self.irregular.len() as u32, ..Location::NONE };
+        self.irregular.push(place);
     }
 
     /// Rows and columns at which a window may begin.
     fn windows(&self) -> [usize; 2] {
         // Between walls the y component has a row more than there are cells.
-        [self.columns.saturating_sub(3), self.rows.saturating_sub(if self.walls { 2 } else { 3 })]
+        [self.grid.nx().saturating_sub(3), self.grid.ny().saturating_sub(if self.grid.has_walls() { 2 } else { 3 })]
     }
 
-    /// The spot of any marker.
+    /// The location of any marker.
     #[inline(never)]
-    fn find_any(&mut self, shift: f64, position: &Vec2, spot: &mut Spot) {
+    fn find_one(&mut self, shift: f64, position: &Vec2, location: &mut Location) {
         let place = self.place(position);
         if let Some(found) = self.near_edge(shift, place) {
-            *spot = found;
+            *location = found;
         } else {
-            self.put_elsewhere(place, spot);
+            self.put_irregular(place, location);
         }
     }
 
-    /// The spot of a place whose stencil is a window but for one row beyond a wall and columns that wrap around.
-    fn near_edge(&self, shift: f64, place: [f64; 2]) -> Option<Spot> {
+    /// The location of a place whose stencil is a window but for one row beyond a wall and columns that wrap around.
+    fn near_edge(&self, shift: f64, place: [f64; 2]) -> Option<Location> {
         let [(i, tx), (j, ty)] = place.map(|r| split(r + shift));
         let [first_column, first_row] = [i, j].map(|whole| whole.saturating_sub(1));
         let [columns, rows] = self.windows().map(|count| count as i64);
@@ -172,11 +151,11 @@ impl Spots {
         }
         let (row, below, above) = match first_row {
             row if (0..rows).contains(&row) => (row, false, false),
-            -1 if self.walls => (0, true, false),
-            row if self.walls && row == rows => (rows - 1, false, true),
+            -1 if self.grid.has_walls() => (0, true, false),
+            row if self.grid.has_walls() && row == rows => (rows - 1, false, true),
             _ => return None,
         };
-        let nx = self.columns as i64;
+        let nx = self.grid.nx() as i64;
         // Wrapped, a place is in the box or at its end.
         let column = if first_column < 0 { first_column.saturating_add(nx) } else { first_column };
         let (column, wrapped) = match column {
@@ -184,32 +163,32 @@ impl Spots {
             column if (columns..nx).contains(&column) => (columns - 1, (nx - column) as usize),
             _ => return None,
         };
-        let base = u32::try_from(row * nx + column).ok().filter(|base| *base != Spot::ELSEWHERE)?;
-        Some(Spot { fractions: [tx, ty], base, kind: Edge { below, above, wrapped }.into() })
+        let base = u32::try_from(row * nx + column).ok().filter(|base| *base != Location::IRREGULAR)?;
+        Some(Location { fractions: [tx, ty], base, kind: Edge { below, above, wrapped }.into() })
     }
 }
 
-/// The search for spots with the instructions of the machine.
-struct Finding<'a> {
+/// The search for locations with the instructions of the machine.
+struct Search<'a> {
     shift: f64,
     positions: &'a [Vec2],
-    spots: &'a mut [Spot],
-    on: &'a mut Spots,
+    locations: &'a mut [Location],
+    on: &'a mut Locations,
 }
 
-impl LanesTask for Finding<'_> {
+impl LanesTask for Search<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) {
-        let Self { shift, positions, spots, on } = self;
+        let Self { shift, positions, locations, on } = self;
         let [columns, rows] = on.windows().map(|count| count as u64);
-        let nx = on.columns as u64;
-        let [x0, y0] = on.origin;
+        let nx = on.grid.nx() as u64;
+        let [x0, y0] = on.grid.origin();
         let minus_origin = l.load([-x0, -y0, -x0, -y0]);
-        let [scale, shift4, minus_half] = [1.0 / on.spacing, shift, -0.5].map(|value| l.splat(value));
+        let [scale, shift4, minus_half] = [1.0 / on.grid.spacing(), shift, -0.5].map(|value| l.splat(value));
         let [big, minus_big, minus_one] = [WHOLE, -WHOLE, -1.0].map(|value| l.splat(value));
         let (pairs, last) = positions.as_chunks::<2>();
-        let (spot_pairs, last_spots) = spots.as_chunks_mut::<2>();
-        for (positions, spots) in pairs.iter().zip(spot_pairs) {
+        let (location_pairs, last_locations) = locations.as_chunks_mut::<2>();
+        for (positions, locations) in pairs.iter().zip(location_pairs) {
             let [first, second] = positions;
             let places = l.mul(scale, l.add(l.load([first.x, first.y, second.x, second.y]), minus_origin));
             let places = l.add(places, shift4);
@@ -217,23 +196,23 @@ impl LanesTask for Finding<'_> {
             let fractions = l.store(l.add(places, l.mul(minus_one, l.add(shifted, minus_big))));
             let [i0, j0, i1, j1] = l.store(shifted).map(|shifted| whole(shifted).wrapping_sub(1) as u64);
             let [x0, y0, x1, y1] = fractions;
-            let [first, second] = spots;
-            for (spot, position, i, j, fractions) in
+            let [first, second] = locations;
+            for (location, position, i, j, fractions) in
                 [(first, &positions[0], i0, j0, [x0, y0]), (second, &positions[1], i1, j1, [x1, y1])]
             {
                 // What is negative has become large.
-                if i < columns && j < rows && j * nx + i < u64::from(Spot::ELSEWHERE) {
-                    // One by one: a spot that is put together first would be read back before it is in memory.
-                    spot.fractions = fractions;
-                    spot.base = (j * nx + i) as u32;
-                    spot.kind = Spot::WITHIN;
+                if i < columns && j < rows && j * nx + i < u64::from(Location::IRREGULAR) {
+                    // One by one: a location that is put together first would be read back before it is in memory.
+                    location.fractions = fractions;
+                    location.base = (j * nx + i) as u32;
+                    location.kind = Location::REGULAR;
                 } else {
-                    on.find_any(shift, position, spot);
+                    on.find_one(shift, position, location);
                 }
             }
         }
-        for (position, spot) in last.iter().zip(last_spots) {
-            on.find_any(shift, position, spot);
+        for (position, location) in last.iter().zip(last_locations) {
+            on.find_one(shift, position, location);
         }
     }
 }

@@ -11,16 +11,16 @@ use crate::{Mesher, Outline, SolidError, TriangleMesh};
 /// outline is a solid, a second one inside it a hole, one outside it another part; two periodic outlines, one above the
 /// other, are a wall.
 #[derive(Debug, Clone)]
-pub struct Region {
+pub struct Interior {
     outlines: Vec<Outline>,
     period: Option<f64>,
 }
 
-impl Region {
+impl Interior {
     /// The solid between `outlines`, which must not cross (this is checked when it is meshed).
     ///
     /// # Errors
-    /// No outline; periodic outlines of different periods, or an odd number of them (the region would have no end).
+    /// No outline; periodic outlines of different periods, or an odd number of them (there would be no end).
     pub fn new(outlines: impl IntoIterator<Item = Outline>) -> Result<Self, SolidError> {
         let outlines: Vec<Outline> = outlines.into_iter().collect();
         at_least("outlines", outlines.len(), 1)?;
@@ -91,6 +91,6 @@ impl Outline {
     /// # Errors
     /// Those of [`Mesher::mesh`]; a periodic outline, which encloses nothing.
     pub fn mesh(&self, spacing: f64) -> Result<TriangleMesh, SolidError> {
-        Region::new([self.clone()])?.mesh(spacing)
+        Interior::new([self.clone()])?.mesh(spacing)
     }
 }
