@@ -58,13 +58,13 @@ impl Gaps {
     ///     domain, viscosity: 1.0, spacing: Some(0.1), shape_modes: None, interface_stiffness: 1.0, mobility_deficit: None,
     /// };
     /// assert_eq!(Gaps::of([square(0.0), square(2.0)]).conflict(&medium), None);
-    /// // the third overlaps the first by way of its image
+    /// // the image of the third overlaps the first
     /// let Some(Conflict::Overlap { body, other, depth, .. }) =
     ///     Gaps::of([square(0.0), square(2.0), square(5.5)]).conflict(&medium)
     /// else {
     ///     panic!()
     /// };
-    /// assert_eq!((body, other, depth), (2, 0, 0.5));
+    /// assert_eq!((body, other, depth), (2, 0, 0.25));
     /// ```
     #[must_use]
     pub fn conflict(&self, medium: &Medium) -> Option<Conflict> {
