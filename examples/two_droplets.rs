@@ -134,6 +134,7 @@ fn meet(flags: &Flags) -> Result<()> {
     summary.put("time", scene.time(), "simulated");
     summary.put("steps", scene.steps(), "");
     summary.put("seconds", job.seconds, "of computation");
+    summary.put("warnings", job.warnings.clone(), "");
     summary.put("failure", job.failure(), "if the run broke off");
     let (draws, picture) = (job.draws(), job.directory.join("final.png"));
     job.finish(&summary, || {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::{Result, ensure};
-use motile::ib_core::{Every, Observer, Scene, SceneError, StepSize};
+use motile::ib_core::{Every, Observer, Scene, SceneError, StepSize, Warning};
 use motile::{AnyFlow, Setup};
 use motile_output::RunProgress;
 
@@ -21,6 +21,8 @@ pub struct Job {
     pub end: f64,
     /// Wall clock time that it took (seconds).
     pub seconds: f64,
+    /// What its user should know of it.
+    pub warnings: Vec<String>,
     output: OutputFlags,
     description: String,
     outcome: Result<(), SceneError>,
@@ -47,7 +49,7 @@ impl Job {
         let description = format!("{name}: scene {}", setup.fingerprint());
         output.checkpoints.resume(scene, &description, end)?;
         let (directory, output) = (output.directory(name)?, output.clone());
-        Ok(Self { directory, end, output, description, seconds: 0.0, outcome: Ok(()) })
+        Ok(Self { directory, end, output, description, seconds: 0.0, warnings: Vec::new(), outcome: Ok(()) })
     }
 
     /// Whether pictures are wanted.
@@ -74,6 +76,8 @@ impl Job {
             outcome => outcome,
         };
         self.seconds = progress.finish();
+        let text = |(time, warning): &(f64, Warning)| format!("t = {time:.3}: {warning}");
+        self.warnings = progress.warnings().worst().iter().map(text).collect();
         output.checkpoints.save(scene, description, &self.outcome)
     }
 

@@ -14,6 +14,7 @@ mod threads;
 mod time_steps;
 mod validation;
 mod viscosity_contrast;
+mod warnings;
 mod work_precision;
 
 use std::process::ExitCode;
@@ -42,6 +43,7 @@ enum Study {
     Scaling(scaling::Flags),
     Threads(threads::Flags),
     ElasticStep(elastic_step::Flags),
+    Warnings(warnings::Flags),
 }
 
 fn main() -> ExitCode {
@@ -57,5 +59,6 @@ fn main() -> ExitCode {
         Study::Scaling(flags) => scaling::run(flags),
         Study::Threads(flags) => threads::run(flags),
         Study::ElasticStep(flags) => elastic_step::run(flags),
+        Study::Warnings(flags) => warnings::run(flags),
     })
 }

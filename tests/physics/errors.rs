@@ -84,7 +84,7 @@ fn droplets_in_droplets_of_another_viscosity_are_refused() {
             let inside = |radius, viscosity| DropletSetup {
                 viscosity: Some(viscosity),
                 shape: DropletShape::Round { radius },
-                ..DropletSetup::passive(0.0)
+                ..DropletSetup::passive(1.0)
             };
             let setup = Setup {
                 method,

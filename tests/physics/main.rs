@@ -18,5 +18,7 @@ mod swimmers;
 #[cfg(feature = "rayon")]
 mod threads;
 mod time_steps;
+mod units;
+mod warnings;
 mod without_grid;
 mod work;

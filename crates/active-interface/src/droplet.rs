@@ -8,7 +8,6 @@ mod observe;
 mod redistribution;
 mod shape;
 mod spectral;
-mod warning;
 
 use std::sync::Arc;
 
@@ -25,14 +24,13 @@ use filter::ShortWaveFilter;
 pub(crate) use limits::finest_response;
 use shape::Shape;
 use spectral::SpectralCurve;
-pub use warning::DropletWarning;
 
 /// Least number of markers of a droplet.
 pub const MINIMUM_MARKERS: usize = 8;
 
 /// Above this cell Peclet number `ds max|V_t - W| / D` (no dimension) the edge of the concentration is not resolved,
-/// however fine the grid.
-pub const PECLET_LIMIT: f64 = 0.5;
+/// however fine the grid: speeds may be off by a per cent (study `warnings`).
+pub const PECLET_LIMIT: f64 = 0.35;
 
 /// Relative change of the area, and of the number of particles, at which a run ends unless the droplet is told
 /// otherwise.
@@ -45,7 +43,8 @@ pub enum Motion {
     /// With the fluid's normal velocity (its mean removed, so that the area stays) and a tangential velocity W of their
     /// own that keeps them equally spaced; the default (docs/method.md, section 4). The mobility correction needs it.
     Equidistributed {
-        /// Rate at which unequal spacing relaxes (1/time).
+        /// Rate at which unequal spacing relaxes, in units of the rate at which the flow moves the markers: the root mean
+        /// square of their velocities over the radius of a circle of the same perimeter.
         relaxation: f64,
         /// Whether modes of the markers shorter than the kernel are filtered after each step; without it they grow in
         /// long runs. Only on a grid.
@@ -58,7 +57,7 @@ pub enum Motion {
 
 impl Default for Motion {
     fn default() -> Self {
-        Self::Equidistributed { relaxation: 5.0, filter: true }
+        Self::Equidistributed { relaxation: 20.0, filter: true }
     }
 }
 
@@ -86,6 +85,8 @@ pub struct ActiveDroplet {
     pub(crate) concentrations: Vec<f64>,
     pub(crate) tensions: Vec<f64>,
     pub(crate) slip: Vec<f64>,
+    /// Rate at which unequal spacing relaxes (1/time), of the last evaluation.
+    pub(crate) relaxation: f64,
     pub(crate) motions: Vec<Vec2>,
     pub(crate) transport: Option<Transport>,
     /// Diffusivities at the markers of the stabiliser, and of stabiliser and diffusion together (length^2 per time).
@@ -164,6 +165,7 @@ impl ActiveDroplet {
             concentrations: Vec::new(),
             tensions: Vec::new(),
             slip: vec![0.0; markers.len()],
+            relaxation: 0.0,
             motions: Vec::new(),
             transport,
             stabiliser: Vec::new(),
@@ -309,25 +311,14 @@ impl ActiveDroplet {
         self.redistributed
     }
 
-    /// The cell Peclet number `ds max|V_t - W| / D` of the last evaluation; 0 for a passive droplet.
+    /// The cell Peclet number `ds max|V_t - W| / D` of the last evaluation; 0 for a passive droplet, infinite for
+    /// particles that do not diffuse.
     #[must_use]
     pub fn cell_peclet(&self) -> f64 {
-        if self.transport.is_none() || self.diffusion == 0.0 {
+        if self.transport.is_none() {
             return 0.0;
         }
         cell_peclet(&self.slip, &self.shape.geometry.lengths, self.diffusion)
-    }
-
-    /// What a user should know at the present state.
-    #[must_use]
-    pub fn warnings(&self) -> Vec<DropletWarning> {
-        let mut warnings = Vec::from_iter(self.tension.warning());
-        let peclet = self.cell_peclet();
-        if peclet > PECLET_LIMIT {
-            let spacing = self.shape.geometry.mean_length() * PECLET_LIMIT / peclet;
-            warnings.push(DropletWarning::CellPeclet { peclet, spacing });
-        }
-        warnings
     }
 
     /// Brings everything that follows from markers and particle numbers up to date.

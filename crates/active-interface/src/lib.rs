@@ -77,7 +77,7 @@ pub mod units;
 
 pub use concentration::{Flux, InitialConcentration};
 pub use curve::Curve;
-pub use droplet::{ActiveDroplet, DropletWarning, Motion};
+pub use droplet::{ActiveDroplet, Motion};
 pub use error::InterfaceError;
 pub use observables::{Convention, Observables, observe};
 pub use tension::{ConstantTension, ContractileTension, ExcludedVolume, Tension};

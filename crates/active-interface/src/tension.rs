@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use ib_core::input::{finite, not_negative};
 
-use crate::{DropletWarning, InterfaceError};
+use crate::InterfaceError;
 pub use excluded_volume::ExcludedVolume;
 
 /// A tension law: the tension gamma (force; a line tension in two dimensions) as a function of the concentration c
@@ -29,8 +29,8 @@ pub trait Tension: Debug + Send + Sync {
         }
     }
 
-    /// What may go wrong with this law whatever the resolution, for a warning before a run.
-    fn warning(&self) -> Option<DropletWarning> {
+    /// What may go wrong with this law whatever the resolution, and the remedy, for a warning ([`ib_core::Warning`]).
+    fn warning(&self) -> Option<String> {
         None
     }
 }
@@ -126,8 +126,14 @@ impl Tension for ContractileTension {
         -self.activity - self.excluded_volume.slope(c)
     }
 
-    fn warning(&self) -> Option<DropletWarning> {
-        self.plateau().is_none().then_some(DropletWarning::NoPlateau { activity: self.activity })
+    fn warning(&self) -> Option<String> {
+        self.plateau().is_none().then(|| {
+            format!(
+                "the activity {} is not balanced by the excluded volume at any concentration, the particles collapse \
+                 towards a point: use |activity| below the strength of the excluded volume",
+                self.activity
+            )
+        })
     }
 }
 
@@ -147,7 +153,7 @@ macro_rules! laws_behind_pointers {
                 (**self).values(concentrations, tensions);
             }
 
-            fn warning(&self) -> Option<DropletWarning> {
+            fn warning(&self) -> Option<String> {
                 (**self).warning()
             }
         }

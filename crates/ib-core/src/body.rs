@@ -8,7 +8,7 @@ pub use step_limit::{StepCause, StepLimit, StepLimits};
 
 use std::any::Any;
 
-use crate::{BodyError, MarkerKind, Medium, Vec2, checkpoint::SavedState, gap::Boundary, scene::BodyFlow};
+use crate::{BodyError, MarkerKind, Medium, Vec2, Warning, checkpoint::SavedState, gap::Boundary, scene::BodyFlow};
 
 /// What can be seen of a body beyond its markers: the speed of a droplet, say.
 pub trait Observe: Body {
@@ -103,6 +103,12 @@ pub trait Body: Any + std::fmt::Debug + Send {
 
     /// The largest stable time steps of the explicit midpoint rule at the present state, one for each reason there is.
     fn step_limits(&self, medium: &Medium) -> StepLimits;
+
+    /// What a user should know of the present state though a run can go on from it, from the flow of the last
+    /// evaluation; by default nothing.
+    fn warnings(&self, _medium: &Medium) -> Vec<Warning> {
+        Vec::new()
+    }
 
     /// Adds the body's boundary, to which gaps are measured, given where its markers are (length): by default the
     /// polygon through those of an interface, and nothing of other bodies.

@@ -67,5 +67,5 @@ pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
 pub use integrator::{Integrator, Midpoint, RungeKuttaChebyshev};
 pub use kernel::{AnyKernel, CubicQuadratic, Kernel};
 pub use mobility::MobilityDeficit;
-pub use scene::{Every, Handle, Observer, Run, Scene, StepSize, System};
+pub use scene::{Every, Handle, Observer, Run, Scene, StepSize, System, Warning, Warnings};
 pub use transfer::Transfer;

@@ -4,6 +4,7 @@ mod handle;
 mod run;
 mod step_control;
 mod system;
+mod warning;
 
 pub use handle::Handle;
 pub(crate) use handle::SceneId;
@@ -11,6 +12,7 @@ pub use run::{Every, Observer, Run};
 pub(crate) use step_control::StepControl;
 pub use step_control::{Limiting, StepReport, StepSize};
 pub use system::{BodyFlow, System};
+pub use warning::{Warning, Warnings};
 
 use crate::integrator::ErrorEstimate;
 use crate::{

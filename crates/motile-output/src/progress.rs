@@ -1,12 +1,11 @@
 //! How far a run is.
 
 use std::io::IsTerminal;
-use std::mem::discriminant;
 use std::time::{Duration, Instant};
 
+use motile::active_interface::ActiveDroplet;
 use motile::active_interface::observables::{InterfaceState, centroid_velocity};
-use motile::active_interface::{ActiveDroplet, DropletWarning};
-use motile::ib_core::{Hydrodynamics, Observer, System};
+use motile::ib_core::{Hydrodynamics, Observer, System, Warnings};
 
 /// Least time between two updates of the bar, and between two lines where there is no terminal.
 const BAR_INTERVAL: Duration = Duration::from_millis(80);
@@ -68,20 +67,26 @@ impl Progress {
     }
 }
 
-/// Shows the progress of a run: time, speed of the first droplet, pace; and once what its user should know of any
-/// droplet ([`DropletWarning`]). To be called after every step.
+/// Shows the progress of a run: time, speed of the first droplet, pace; and once each of what its user should know
+/// ([`Warnings`]). To be called after every step.
 #[derive(Debug)]
 pub struct RunProgress {
     end: f64,
     progress: Progress,
-    warned: Vec<DropletWarning>,
+    warnings: Warnings,
 }
 
 impl RunProgress {
     /// A run to time `end`.
     #[must_use]
     pub fn new(end: f64, hidden: bool) -> Self {
-        Self { end, progress: Progress::new(hidden), warned: Vec::new() }
+        Self { end, progress: Progress::new(hidden), warnings: Warnings::default() }
+    }
+
+    /// The warnings of the run.
+    #[must_use]
+    pub fn warnings(&self) -> &Warnings {
+        &self.warnings
     }
 
     /// Takes the progress bar away; gives the wall clock time since the start (seconds).
@@ -94,14 +99,11 @@ impl<H: Hydrodynamics> Observer<H> for RunProgress {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         // The flow at the end of a step is that at the start of the next, so that this costs nothing.
         system.evaluate()?;
+        for (time, warning) in self.warnings.look(system) {
+            self.progress.note(&format!("warning: at t = {time:.3}, {warning}"));
+        }
         let mut speed = None;
-        for (handle, droplet) in system.bodies::<ActiveDroplet>() {
-            for warning in droplet.warnings() {
-                if !self.warned.iter().any(|known| discriminant(known) == discriminant(&warning)) {
-                    self.progress.note(&format!("warning: at t = {:.3}, {warning}", system.time()));
-                    self.warned.push(warning);
-                }
-            }
+        for (handle, _) in system.bodies::<ActiveDroplet>() {
             let state = InterfaceState::of(system, handle)?;
             speed = speed.or(Some(centroid_velocity(state.markers, state.velocities)?.length()));
         }

@@ -60,7 +60,7 @@ pub struct Recommendation {
 ///
 /// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the units of
 /// the defaults (-1 with a contrast, -2 on a grid in a channel); a sharper edge of the concentration needs more cells
-/// ([`active_interface::DropletWarning::CellPeclet`] tells).
+/// ([`ib_core::Warnings`] tell).
 ///
 /// ```
 /// use motile::prelude::*;

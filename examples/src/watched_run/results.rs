@@ -107,6 +107,7 @@ impl WatchedRun {
         summary.put("solver_iterations_mean", mean, "of an evaluation of the flow");
         summary.put("solver_iterations_max", work.most_iterations, "");
         summary.put("seconds", self.job.seconds, "of computation");
+        summary.put("warnings", self.job.warnings.clone(), "");
         let failure = self.job.failure();
         summary.put("finished", failure.is_none(), "");
         if let Some(failure) = failure {

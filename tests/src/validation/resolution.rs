@@ -1,6 +1,5 @@
 //! The threshold of swimming, and what the marker spacing has to resolve.
 
-use motile::active_interface::DropletWarning;
 use motile::ib_core::StepSize;
 use motile::{Built, DropletSetup, GridMethod, Method, Particles, Setup, Start};
 
@@ -59,6 +58,6 @@ pub fn marker_spacing(ds: f64) -> Result<MarkerSpacing, StudyError> {
     scene.run(3.0).step_size(StepSize::OfLimit(0.25)).go()?;
     let speed = scene.observe(droplets[0])?.speed();
     let droplet = scene.body(droplets[0])?;
-    let warned = droplet.warnings().iter().any(|warning| matches!(warning, DropletWarning::CellPeclet { .. }));
+    let warned = droplet.cell_peclet() > 0.35;
     Ok(MarkerSpacing { speed, peclet: droplet.cell_peclet(), warned })
 }

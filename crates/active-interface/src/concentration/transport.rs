@@ -170,7 +170,7 @@ fn after(k: usize, distance: usize, m: usize) -> usize {
 /// The largest cell Peclet number max |V_t - W| ds / D of the interface (no dimension), for relative velocities at the
 /// markers, segment lengths and the diffusivity D; infinite for D = 0 where anything moves.
 ///
-/// Above 0.5 the edge of the concentration is not resolved: use a smaller marker spacing.
+/// Above 0.35 the edge of the concentration is not resolved: use a smaller marker spacing.
 pub(crate) fn cell_peclet(relative_velocities: &[f64], lengths: &[f64], diffusivity: f64) -> f64 {
     let largest = relative_velocities
         .iter()

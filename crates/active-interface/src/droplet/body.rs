@@ -1,26 +1,28 @@
 //! The droplet as a body of a scene.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use ib_core::{
-    Body, BodyError, MarkerKind, Medium, Vec2,
+    Body, BodyError, MarkerKind, Medium, Vec2, Warning,
     body::{StepInfo, StepLimits},
     checkpoint::SavedState,
 };
 
-use super::geometry::{Geometry, equidistribute, outward};
+use super::geometry::{Geometry, equidistribute, motion_rate, outward};
 use super::redistribution::redistribute;
 use super::shape::Shape;
 use super::spectral::SpectralCurve;
-use super::{MINIMUM_MARKERS, finest_response};
+use super::{MINIMUM_MARKERS, PECLET_LIMIT, finest_response};
 use crate::{
     ActiveDroplet, InterfaceError, Motion,
     concentration::{Repair, Transport, repair_positivity},
     curve::polygon::raw_area,
 };
 
-/// Concentrations (particles per length) whose tensions tell a law, in whatever units it is.
-const LAW_SAMPLES: [f64; 12] = [0.0, 0.01, 0.1, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 30.0, 100.0, 1000.0];
+/// Concentrations, in units of the mean one, whose tensions tell a law.
+const LAW_SAMPLES: [f64; 10] = [0.0, 0.01, 0.1, 0.5, 1.0, 1.5, 2.0, 3.0, 10.0, 30.0];
+/// Least radius of a droplet on a grid, in grid spacings: the speed is then about a per cent off.
+const LEAST_RADIUS: f64 = 5.0;
 /// Part of all particles in one segment from which on they have collapsed.
 const COLLAPSED: f64 = 0.15;
 
@@ -102,7 +104,8 @@ impl Body for ActiveDroplet {
         self.slip.resize(count, 0.0);
         match self.motion {
             Motion::Equidistributed { relaxation, .. } => {
-                let (motions, slip) = (&mut self.motions, &mut self.slip);
+                self.relaxation = relaxation * motion_rate(&self.shape.geometry, velocities);
+                let (relaxation, motions, slip) = (self.relaxation, &mut self.motions, &mut self.slip);
                 match self.spectral.as_mut() {
                     Some(curve) => curve.equidistribute(&self.shape.geometry, velocities, relaxation, motions, slip),
                     None => equidistribute(&self.shape.geometry, velocities, relaxation, motions, slip),
@@ -239,12 +242,39 @@ impl Body for ActiveDroplet {
         if self.transport.is_some() {
             push("the diffusion constant", self.diffusion);
         }
-        for concentration in LAW_SAMPLES {
-            let name = format!("the tension at a concentration of {concentration}");
-            push(&name, self.tension.value(concentration));
+        let mean = self.initial_number / (2.0 * (PI * self.initial_area).sqrt());
+        for sample in LAW_SAMPLES {
+            let name = format!("the tension at {sample} times the mean concentration at the start");
+            push(&name, self.tension.value(sample * if mean > 0.0 { mean } else { 1.0 }));
         }
         push("the number of markers at the start", self.initial_markers as f64);
         properties
+    }
+
+    fn warnings(&self, medium: &Medium) -> Vec<Warning> {
+        let body = self.name.clone();
+        let warning = |cause, excess, message| Warning { body: body.clone(), cause, excess, message };
+        let mut warnings = Vec::new();
+        if let Some(message) = self.tension.warning() {
+            warnings.push(warning("tension without a plateau", f64::INFINITY, message));
+        }
+        let peclet = self.cell_peclet();
+        if peclet > PECLET_LIMIT {
+            let spacing = self.shape.geometry.mean_length() * PECLET_LIMIT / peclet;
+            let remedy = if spacing > 0.0 {
+                format!("use a marker spacing below {spacing:.2e}")
+            } else {
+                "give the particles a diffusion constant".to_owned()
+            };
+            let message = format!("the cell Peclet number is {peclet:.2}, above {PECLET_LIMIT}: {remedy}");
+            warnings.push(warning("edge of the concentration not resolved", peclet / PECLET_LIMIT, message));
+        }
+        let radius = self.shape.geometry.perimeter / TAU;
+        if let Some(least) = medium.spacing.map(|h| LEAST_RADIUS * h).filter(|least| radius < *least) {
+            let message = format!("its radius is {radius:.2e}, below {least:.2e}: use a finer grid");
+            warnings.push(warning("droplet not resolved", least / radius, message));
+        }
+        warnings
     }
 
     fn save(&self) -> SavedState {
@@ -252,7 +282,7 @@ impl Body for ActiveDroplet {
         let mut reals = vec![0.0; self.state_len()];
         self.write_state(&mut reals);
         reals.extend_from_slice(&self.slip);
-        reals.extend([*target_spacing, *initial_area, *initial_number, repair.moved]);
+        reals.extend([*target_spacing, *initial_area, *initial_number, repair.moved, self.relaxation]);
         let counts = [self.shape.markers.len(), repair.segments, repair.furthest, redistributed.0, redistributed.1];
         SavedState { reals, counts: counts.map(|count| count as u64).to_vec() }
     }
@@ -262,7 +292,7 @@ impl Body for ActiveDroplet {
         let per_marker = if self.transport.is_some() { 4 } else { 3 };
         let found = saved.reals.len();
         let count = usize::try_from(count).unwrap_or(usize::MAX).min(found);
-        let expected = per_marker * count + 4;
+        let expected = per_marker * count + 5;
         if count < MINIMUM_MARKERS || expected != found {
             return Err(BodyError::ForeignState { expected, found });
         }
@@ -276,6 +306,7 @@ impl Body for ActiveDroplet {
         self.fit(medium);
         self.slip.copy_from_slice(slip);
         (self.target_spacing, self.initial_area, self.initial_number) = (numbers[0], numbers[1], numbers[2]);
+        self.relaxation = numbers[4];
         self.repair = Repair { segments: segments as usize, moved: numbers[3], furthest: furthest as usize };
         self.redistributed = (inserted as usize, removed as usize);
         Ok(())

@@ -61,6 +61,13 @@ pub(crate) fn outward(tangent: Vec2) -> Vec2 {
     Vec2::new(tangent.y, -tangent.x)
 }
 
+/// The rate at which a flow moves markers around or away (1/time): the root mean square of their velocities over the
+/// radius of a circle of the same perimeter. Spacing becomes unequal by errors of that motion, a translation included.
+pub(crate) fn motion_rate(geometry: &Geometry, velocities: &[Vec2]) -> f64 {
+    let square = velocities.iter().map(|velocity| velocity.length_squared()).sum::<f64>() / velocities.len() as f64;
+    square.sqrt() * std::f64::consts::TAU / geometry.perimeter
+}
+
 /// Velocities of markers that follow the interface normally and stay equally spaced (docs/method.md, section 4):
 ///
 /// * normal velocity `V_n = U . n` less its mean over the arc weights, which keeps the polygon's area;

@@ -14,8 +14,8 @@ impl ActiveDroplet {
         let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
         let stiffness = medium.interface_stiffness * tension;
         let mut limits = StepLimits::from(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
-        if let Motion::Equidistributed { relaxation, .. } = self.motion {
-            limits.push(StepLimit::decay(2.0 / relaxation, "the relaxation of the marker spacing"));
+        if let Motion::Equidistributed { .. } = self.motion {
+            limits.push(StepLimit::decay(2.0 / self.relaxation, "the relaxation of the marker spacing"));
         }
         if self.transport.is_some() {
             // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.

@@ -24,7 +24,7 @@ fn tension_is_largest_on_the_plateau() {
 fn a_missing_plateau_is_reported() {
     let law = |activity| ContractileTension::thesis(10.0, activity, 10.0, 100.0).unwrap();
     assert_eq!(law(-9.9).warning(), None);
-    assert_eq!(law(-10.0).warning(), Some(DropletWarning::NoPlateau { activity: -10.0 }));
+    assert!(law(-10.0).warning().is_some_and(|message| message.contains("-10")));
     assert_eq!(law(1.0).warning(), None);
     assert!(ContractileTension::new(10.0, -1.0, ExcludedVolume::None).unwrap().warning().is_some());
     assert_eq!(ConstantTension::new(1.0).unwrap().warning(), None);

@@ -270,12 +270,10 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
             return Ok((dt, "the run", String::new()));
         }
         let part = if let StepSize::OfLimit(fraction) = self.step { fraction } else { OF_LIMIT };
+        self.check_limit()?;
         let stable = match self.limit() {
             Some((dt, reason, body)) => (part * dt, reason, body),
-            None => {
-                self.check_limit()?;
-                (remaining, "the end of the run", String::new())
-            }
+            None => (remaining, "the end of the run", String::new()),
         };
         if self.tolerance().is_some() {
             let control = &mut self.scene.control;
@@ -289,7 +287,7 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         Ok(stable)
     }
 
-    fn check(&self) -> Result<(), SceneError> {
+    fn check(&mut self) -> Result<(), SceneError> {
         let time = self.scene.time();
         if !(self.until.is_finite() && self.until >= time) {
             let remedy = "a finite time that is not in the past";
@@ -337,8 +335,12 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     }
 
     /// Refuses a step size that is a part of the stability limit where nothing that moves has one.
-    fn check_limit(&self) -> Result<(), SceneError> {
+    fn check_limit(&mut self) -> Result<(), SceneError> {
         let moves = self.scene.system().state_len() > 0;
+        if matches!(self.step, StepSize::OfLimit(_)) && moves && self.limit().is_none() {
+            // Some limits are those of the flow, which may not be known yet.
+            self.scene.system_mut().evaluate()?;
+        }
         if matches!(self.step, StepSize::OfLimit(_)) && moves && self.limit().is_none() {
             return Err(SceneError::NoStepLimit { time: self.scene.time() });
         }

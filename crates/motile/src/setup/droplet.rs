@@ -169,7 +169,8 @@ pub enum Start {
 pub enum MarkerMotion {
     /// At a velocity of their own that keeps them equally spaced.
     Equidistributed {
-        /// Rate at which unequal spacing relaxes (1/time).
+        /// Rate at which unequal spacing relaxes, in units of the rate at which the flow moves the markers
+        /// ([`active_interface::Motion::Equidistributed`]).
         relaxation: f64,
     },
     /// With the fluid, as in the thesis; markers are inserted where they thin out and removed where they crowd.
@@ -178,7 +179,7 @@ pub enum MarkerMotion {
 
 impl Default for MarkerMotion {
     fn default() -> Self {
-        Self::Equidistributed { relaxation: 5.0 }
+        Self::Equidistributed { relaxation: 20.0 }
     }
 }
 

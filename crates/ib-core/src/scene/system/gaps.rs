@@ -2,7 +2,12 @@
 
 use super::System;
 use crate::gap::{Boundary, Conflict, Gap, Gaps, Outline, wall_gap};
-use crate::{Body, Handle, Hydrodynamics, Repulsion, SceneError, Vec2};
+use crate::{Body, Handle, Hydrodynamics, Medium, Repulsion, SceneError, Vec2, Warning};
+
+/// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
+/// neighbouring nodes of an interface where there is no grid.
+const RESOLVED_CELLS: f64 = 1.0;
+const RESOLVED_NODES: f64 = 0.3;
 
 impl<H: Hydrodynamics> System<H> {
     /// The smallest distance of an interface to a rigid wall at the present state (length; negative beyond a wall, see
@@ -54,6 +59,41 @@ impl<H: Hydrodynamics> System<H> {
     /// The same over the states that steps have looked at alone.
     pub(crate) fn narrowest_so_far(&self) -> Option<f64> {
         self.minimum_gap
+    }
+
+    /// What a user should know of the present state, though a run can go on from it: what the bodies warn of, and films
+    /// that the method does not resolve.
+    pub fn warnings(&mut self) -> Vec<Warning> {
+        let medium = self.hydrodynamics.medium();
+        let mut warnings: Vec<Warning> = self.bodies.iter().flat_map(|body| body.warnings(&medium)).collect();
+        let between = self.narrowest.map(|gap| (gap.width, self.name_of(gap.body), self.name_of(gap.other)));
+        let walls = self.wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
+        let resolved = self.resolved_film();
+        for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
+            let message = format!(
+                "a gap of {gap:.2e} from {other}, below {resolved:.2e}, what is resolved: use a finer {}",
+                if medium.spacing.is_some() { "grid, or boundary integrals" } else { "interface (more nodes)" }
+            );
+            warnings.push(Warning { body, cause: "thin film", excess: resolved / gap.max(f64::MIN_POSITIVE), message });
+        }
+        warnings
+    }
+
+    /// The narrowest film in which velocities are within about a per cent (length).
+    fn resolved_film(&self) -> f64 {
+        let medium = self.hydrodynamics.medium();
+        medium.spacing.map_or_else(|| RESOLVED_NODES * self.node_spacing(&medium), |spacing| RESOLVED_CELLS * spacing)
+    }
+
+    /// The largest distance of neighbouring nodes of an interface (length).
+    fn node_spacing(&self, medium: &Medium) -> f64 {
+        let groups = self.markers.groups().iter().filter(|group| group.kind.is_interface());
+        let spacings = groups.map(|group| {
+            let markers = &self.markers.positions[group.range.clone()];
+            let perimeter: f64 = markers.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+            perimeter / medium.shape_modes.unwrap_or(markers.len()) as f64
+        });
+        spacings.fold(0.0, f64::max)
     }
 
     /// The repulsion between interfaces, if it is on.

@@ -1,0 +1,65 @@
+//! Runs warn of what they do not resolve, and of nothing else.
+
+use motile::ib_core::{Every, Warnings};
+use motile::stokes_grid::Drive;
+use motile::{Built, DropletSetup, DropletShape, GridMethod, Method, Particles, Region, Setup};
+
+/// The causes that a run of `setup` warns of, in the order of their names.
+fn causes(setup: &Setup, time: f64) -> Vec<&'static str> {
+    let Built { mut scene, .. } = setup.build().expect("a valid setup");
+    let mut warnings = Warnings::default();
+    scene.run(time).observe(Every::Steps(1), &mut warnings).go().expect("a run");
+    assert!(warnings.worst().iter().all(|(_, warning)| warning.excess > 1.0), "{warnings:?}");
+    let mut causes: Vec<_> = warnings.worst().iter().map(|(_, warning)| warning.cause).collect();
+    causes.sort_unstable();
+    causes
+}
+
+fn channel(width: f64, method: Method, activity: f64) -> Setup {
+    let region = Region::Channel { length: 6.0, width, drive: Drive::ZeroGradient };
+    Setup { region, method, droplets: vec![DropletSetup::active(activity)], ..Setup::default() }
+}
+
+#[test]
+fn what_is_resolved_gives_no_warning() {
+    assert!(causes(&Setup::default(), 1.0).is_empty());
+    assert!(causes(&Setup { method: Method::Grid(GridMethod::of_spacing(0.05)), ..Setup::default() }, 1.0).is_empty());
+    assert!(causes(&channel(3.0, Method::default(), -2.0), 1.0).is_empty());
+}
+
+#[test]
+fn thin_films_edges_and_small_droplets_are_told() {
+    let grid = |spacing| Method::Grid(GridMethod::of_spacing(spacing));
+    assert_eq!(causes(&channel(2.1, grid(0.1), -1.0), 0.2), ["thin film"]);
+    let edge = "edge of the concentration not resolved";
+    assert_eq!(causes(&channel(5.0, grid(0.1), -8.0), 1.0), [edge]);
+    let still = Particles { diffusion: 0.0, ..Particles::default() };
+    let still = DropletSetup { particles: Some(still), ..DropletSetup::default() };
+    assert_eq!(causes(&Setup { droplets: vec![still], ..Setup::default() }, 0.2), [edge]);
+    let small = DropletSetup { shape: DropletShape::Round { radius: 0.4 }, ..DropletSetup::passive(10.0) };
+    let small = Setup { droplets: vec![small], method: grid(0.1), ..Setup::default() };
+    assert_eq!(causes(&small, 0.2), ["droplet not resolved"]);
+    let unbalanced = Setup { droplets: vec![DropletSetup::contractile(-10.0, 9.0)], ..Setup::default() };
+    assert!(causes(&unbalanced, 0.1).contains(&"tension without a plateau"));
+}
+
+/// Of each body and cause the worst, and when it was.
+#[test]
+fn the_worst_is_kept() {
+    let Built { mut scene, .. } = channel(2.1, Method::Grid(GridMethod::of_spacing(0.1)), -6.0).build().unwrap();
+    let mut warnings = Warnings::default();
+    let mut least = (f64::INFINITY, 0.0);
+    for _ in 0..40 {
+        scene.run(scene.time() + 0.05).observe(Every::Steps(1), &mut warnings).go().unwrap();
+        let gap = scene.system_mut().wall_gap().unwrap();
+        if gap < least.0 {
+            least = (gap, scene.time());
+        }
+    }
+    let films: Vec<_> = warnings.worst().iter().filter(|(_, warning)| warning.cause == "thin film").collect();
+    assert_eq!(films.len(), 1);
+    let (time, film) = films[0];
+    let narrowest = scene.system().minimum_wall_gap().unwrap();
+    assert!((film.excess - 0.1 / narrowest).abs() < 1e-12 * film.excess, "{film:?} {narrowest}");
+    assert!((time - least.1).abs() <= 0.05, "{time} {least:?}");
+}
