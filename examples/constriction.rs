@@ -15,6 +15,9 @@ use motile_examples::{ElasticFlags, Passage, SceneFlags, WatchedRun, positive};
 
 /// An active droplet meets a constriction between elastic walls.
 #[derive(Debug, Parser)]
+#[command(mut_arg("time", |time| time.visible_alias("patience").default_value("400").help(
+    "Time after which a droplet that is still on its way is called undecided"
+)))]
 struct Flags {
     /// Width of the throat (R0)
     #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]
@@ -25,9 +28,6 @@ struct Flags {
     /// Length of the ramps on both sides of it (R0)
     #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]
     ramp: f64,
-    /// Time after which a droplet that is still on its way is called undecided; takes the place of --time
-    #[arg(long, default_value_t = 400.0, value_parser = positive, allow_hyphen_values = true)]
-    patience: f64,
     #[command(flatten)]
     scene: SceneFlags<ElasticFlags>,
 }
@@ -38,9 +38,8 @@ fn main() -> ExitCode {
 
 fn meet(flags: &Flags) -> Result<()> {
     // The channel, and the droplet half a period away from the middle of the throat.
-    let &Flags { throat, throat_length, ramp, patience, .. } = flags;
-    let mut flags = flags.scene.clone();
-    flags.method.time = patience;
+    let &Flags { throat, throat_length, ramp, ref scene } = flags;
+    let flags = scene;
     let (width, period) = (flags.region.width, flags.region.along.length);
     ensure!(throat <= width, "--throat {throat} is wider than the channel: give a number up to --width {width}");
     ensure!(
@@ -54,7 +53,7 @@ fn meet(flags: &Flags) -> Result<()> {
 
     // The run, with all that watches it, until the verdict.
     let caption = flags.region.caption()?;
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &flags, "constriction", &caption)?;
+    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "constriction", &caption)?;
     let mut passage = Passage::new(0.5 * throat_length + ramp);
     run.go(&mut scene, Some(&mut passage))?;
 

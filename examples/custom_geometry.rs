@@ -7,7 +7,7 @@
 
 use std::process::ExitCode;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 use clap::{Parser, ValueEnum};
 use motile::elastic_solids::{Channel, SolidError};
 use motile::ib_core::Scene;
@@ -73,6 +73,10 @@ fn main() -> ExitCode {
 }
 
 fn swim(Flags { case, scene: flags }: &Flags) -> Result<()> {
+    ensure!(
+        *case != Case::Closure || flags.output.write_scene.is_none(),
+        "--write-scene cannot write walls that are functions in code: leave it out, or give --case ratchet or branch"
+    );
     // The walls, and a droplet where the channel begins.
     let (width, length) = (flags.region.width, flags.region.along.length);
     let shape = match case {

@@ -78,7 +78,7 @@ fn chain(error: &anyhow::Error) -> String {
 }
 
 /// What is wrong with a command line, in one sentence.
-fn sentence(error: &clap::Error, command: &clap::Command) -> String {
+pub(crate) fn sentence(error: &clap::Error, command: &clap::Command) -> String {
     let context = |kind: ContextKind| match error.get(kind) {
         Some(ContextValue::String(text)) => text.clone(),
         Some(ContextValue::Strings(texts)) => texts.join(", "),
@@ -105,7 +105,14 @@ fn sentence(error: &clap::Error, command: &clap::Command) -> String {
             let names: Vec<&str> = command.get_subcommands().map(clap::Command::get_name).collect();
             format!("{given:?} is not one of {}", names.join(", "))
         }
-        ErrorKind::ArgumentConflict => format!("{flag} is given more than once"),
+        ErrorKind::ArgumentConflict => {
+            let other = context(ContextKind::PriorArg).split(' ').next().unwrap_or_default().to_string();
+            if other.is_empty() || other == flag {
+                format!("{flag} is given more than once")
+            } else {
+                format!("{flag} and {other} say the same in two ways: give one of them")
+            }
+        }
         _ => {
             let whole = error.to_string();
             // The usage follows after an empty line.

@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, Result, ensure};
+use anyhow::{Context as _, Result, bail, ensure};
 use clap::Args;
 use motile::stokes_grid::Drive;
 use motile::{DropletSetup, Exclusion, Region, Setup, Start};
@@ -23,7 +23,7 @@ const PERTURBATION: f64 = 0.05;
 /// How the concentration starts; the seed is that of `--seed`.
 const STARTS: [(&str, &str, Start); 2] = [
     ("polarised", "c = (1 - cos(theta)) c0, thesis (2.46)", Start::Polarised),
-    ("perturbed", "c0 with a small random perturbation", Start::Perturbed { amplitude: PERTURBATION, seed: 0 }),
+    ("perturbed", "c0 with a small random perturbation", Start::Perturbed { amplitude: PERTURBATION, seed: 1 }),
 ];
 /// What drives the flow along a channel.
 const DRIVES: [(&str, &str, Drive); 2] = [
@@ -31,7 +31,7 @@ const DRIVES: [(&str, &str, Drive); 2] = [
     ("zero-gradient", "No mean pressure gradient, as in the thesis", Drive::ZeroGradient),
 ];
 
-/// The droplet. What is not given stays as it is in the scene, by default as listed.
+/// The droplet, the first one of a scene. What is not given stays as it is in the scene, by default as listed.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct DropletFlags {
     /// Activity zeta delta-mu, negative: contractile [default: -2]
@@ -55,27 +55,41 @@ pub struct DropletFlags {
     /// Initial concentration [default: polarised]
     #[arg(long, value_parser = one_of(&STARTS))]
     pub initial: Option<Start>,
-    /// Seed of the random perturbation
-    #[arg(long, default_value_t = 1, value_parser = seed, allow_hyphen_values = true)]
-    pub seed: u64,
+    /// Seed of the random perturbation [default: 1]
+    #[arg(long, value_parser = seed, allow_hyphen_values = true)]
+    pub seed: Option<u64>,
 }
 
 impl DropletFlags {
-    /// Overrides the entries of a scene, those of droplets in its first one.
-    pub(crate) fn apply(&self, setup: &mut Setup) {
+    /// Overrides the entries of a scene, those of droplets in its first one, and says so where there are others.
+    ///
+    /// # Errors
+    /// A seed of a start that is not random.
+    pub(crate) fn apply(&self, setup: &mut Setup) -> Result<()> {
         let common = self.viscosity.unwrap_or(setup.viscosity);
         setup.viscosity = self.viscosity_out.unwrap_or(common);
-        let Some(droplet) = setup.droplets.first_mut() else { return };
+        let count = setup.droplets.len();
+        let Some(droplet) = setup.droplets.first_mut() else { return Ok(()) };
+        let before = droplet.clone();
         let DropletSetup { particles, viscosity, angle, .. } = droplet;
         *viscosity = self.viscosity_in.or(self.viscosity_out.map(|_| common)).or(*viscosity);
         *angle = self.angle.map_or(*angle, f64::to_radians);
-        let Some(particles) = particles else { return };
-        particles.activity = self.activity.unwrap_or(particles.activity);
-        particles.excluded_volume = self.excluded_volume.map_or(particles.excluded_volume, Exclusion::Step);
-        particles.start = match self.initial {
-            Some(Start::Perturbed { amplitude, .. }) => Start::Perturbed { amplitude, seed: self.seed },
-            start => start.unwrap_or(particles.start),
-        };
+        if let Some(particles) = particles {
+            particles.activity = self.activity.unwrap_or(particles.activity);
+            particles.excluded_volume = self.excluded_volume.map_or(particles.excluded_volume, Exclusion::Step);
+            particles.start = self.initial.unwrap_or(particles.start);
+            match (&mut particles.start, self.seed) {
+                (Start::Perturbed { seed, .. }, Some(given)) => *seed = given,
+                (_, Some(seed)) => {
+                    bail!("--seed {seed} means nothing without --initial perturbed: leave it out or give that")
+                }
+                (_, None) => {}
+            }
+        }
+        if count > 1 && *droplet != before {
+            eprintln!("note: of the {count} droplets of the scene, the flags change the first one alone");
+        }
+        Ok(())
     }
 }
 

@@ -85,7 +85,7 @@ impl MethodFlags {
             MethodKind::Integral => Method::Integral(self.integral(integral)?),
         };
         setup.step = self.dt.unwrap_or(setup.step);
-        droplet.apply(&mut setup);
+        droplet.apply(&mut setup)?;
         settle_contrast(&mut setup);
         Ok(setup)
     }

@@ -4,7 +4,7 @@ use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::SetupError;
 use motile::elastic_solids::Moduli;
-use motile::{ChannelShape, MeshKind, MethodKind, Setup, SolidSetup, Surface};
+use motile::{ChannelShape, MeshKind, MethodKind, Setup, SolidOutline, SolidSetup, Surface};
 
 use crate::parse::{one_of, positive};
 use crate::{AlongFlags, MethodFlags, Preset, SceneFlags};
@@ -87,7 +87,6 @@ impl SceneFlags<ElasticFlags> {
         let method = MethodFlags { method: Some(MethodKind::Grid), ..method.clone() };
         let height = walls.width + 2.0 * walls.wall_thickness;
         let mut setup = method.setup(droplet, None)?;
-        walls.along.apply(&mut setup, &method, x, (height, "width plus twice --wall-thickness"))?;
         setup.solids = SolidSetup::walls(shape, &walls.material()?);
         for solid in &mut setup.solids {
             if method.preset == Preset::Thesis {
@@ -96,8 +95,14 @@ impl SceneFlags<ElasticFlags> {
             solid.mesh = walls.mesh.unwrap_or(solid.mesh);
             solid.mesh_spacing = walls.mesh_spacing;
             let surface = walls.surface.or(preset.filter(|_| method.preset == Preset::Accurate));
-            solid.surface = surface.unwrap_or(solid.surface);
+            solid.surface = match surface.unwrap_or(solid.surface) {
+                // Islands are meshed as they are.
+                Surface::SetBack if matches!(solid.outline, SolidOutline::Island { .. }) => Surface::Plain,
+                surface => surface,
+            };
         }
+        walls.check_mesh(&setup, method.spacing(&setup))?;
+        walls.along.apply(&mut setup, &method, x, (height, "width plus twice --wall-thickness"))?;
         if let Err(SetupError::NoRoom { .. }) = setup.droplet(&setup.droplets[0]) {
             let AlongFlags { length, lateral_offset, .. } = walls.along;
             bail!(
@@ -106,7 +111,6 @@ impl SceneFlags<ElasticFlags> {
                 walls.width
             );
         }
-        walls.check_mesh(&setup, method.spacing(&setup))?;
         Ok(setup)
     }
 }

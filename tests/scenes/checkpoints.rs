@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{
-    Body, Checkpoint, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
+    AnyKernel, Body, Checkpoint, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
     checkpoint::CheckpointError,
 };
 use motile::stokes_grid::Drive;
@@ -236,6 +236,42 @@ fn a_checkpoint_of_another_scene_is_refused_and_changes_nothing() {
 }
 
 /// What differs is named with both values, whatever it is.
+#[test]
+fn what_is_seen_after_resuming_by_another_method_is_what_that_finds() {
+    let method = |spacing: f64, change: fn(&mut GridMethod)| {
+        let mut grid = GridMethod { marker_spacing: Some(0.1), ..GridMethod::of_spacing(spacing) };
+        change(&mut grid);
+        Setup { method: Method::Grid(grid), ..coarse() }
+    };
+    let build = |setup: &Setup| setup.build().expect("a scene");
+    for viscosity in [None, Some(1000.0)] {
+        let with = |setup: Setup| viscosity.map_or(setup.clone(), |inside| filled(inside, &setup));
+        let mut first = build(&with(method(0.2, |_| {})));
+        first.scene.run(0.5).go().expect("a run");
+        let speed = first.scene.observe(first.droplets[0]).expect("a droplet").speed();
+        let saved = first.scene.checkpoint("");
+        let others: [(f64, fn(&mut GridMethod)); 4] = [
+            (0.3, |_| {}),
+            (0.2, |grid| grid.corrected = false),
+            (0.2, |grid| grid.kernel = AnyKernel::Peskin4),
+            (0.2, |_| {}),
+        ];
+        for (number, (spacing, change)) in others.into_iter().enumerate() {
+            let Built { mut scene, droplets, .. } = build(&with(method(spacing, change)));
+            scene.resume(&saved).expect("the same physics");
+            let seen = scene.observe(droplets[0]).expect("a droplet").speed();
+            // The same state, handed over by its numbers alone.
+            let mut anew = build(&with(method(spacing, change)));
+            let mut state = Vec::new();
+            scene.system().write_state(&mut state);
+            anew.scene.system_mut().read_state(&state).expect("a state");
+            let exact = anew.scene.observe(anew.droplets[0]).expect("a droplet").speed();
+            assert!((seen / exact - 1.0).abs() < 2e-3, "{viscosity:?} {number}: {seen} {exact}");
+            assert_eq!(seen == speed, number == 3, "{viscosity:?} {number}: {seen} {speed}");
+        }
+    }
+}
+
 #[test]
 fn a_checkpoint_of_other_physics_is_refused_by_name() {
     let good = filled(20.0, &coarse());

@@ -20,7 +20,7 @@ pub enum InterfaceError {
         value: f64,
     },
     /// A curve whose end is not its start.
-    #[error("the curve is not closed: its end is {gap} away from its start; make it periodic in its parameter")]
+    #[error("the curve is not closed: its end is {gap:.3e} away from its start; make it periodic in its parameter")]
     NotClosed {
         /// Distance of end and start (length).
         gap: f64,
@@ -44,7 +44,7 @@ pub enum InterfaceError {
     },
     /// Points of very different distances.
     #[error(
-        "the longest distance between neighbouring points is {ratio} times the shortest, more than {bound}: space them evenly, \
+        "the longest distance between neighbouring points is {ratio:.4} times the shortest, more than {bound}: space them evenly, \
          for instance by Curve::through_points"
     )]
     UnevenSpacing {
@@ -54,7 +54,7 @@ pub enum InterfaceError {
         bound: f64,
     },
     /// A curve that encloses no area.
-    #[error("the curve encloses an area of {area}, too small for its length {length}")]
+    #[error("the curve encloses an area of {area:.3e}, too small for its length {length:.4}")]
     NoArea {
         /// Signed area (length squared).
         area: f64,
@@ -62,7 +62,7 @@ pub enum InterfaceError {
         length: f64,
     },
     /// A curve in polar form whose radius is not positive everywhere.
-    #[error("the radius is {radius} at the polar angle {angle}: make the amplitudes of the modes smaller")]
+    #[error("the radius is {radius:.3e} at the polar angle {angle:.4}: make the amplitudes of the modes smaller")]
     RadiusNotPositive {
         /// Where (radians).
         angle: f64,
@@ -70,7 +70,7 @@ pub enum InterfaceError {
         radius: f64,
     },
     /// An iteration did not converge.
-    #[error("{what} stopped at a residual of {residual:e}, above {tolerance:e}: {remedy}")]
+    #[error("{what} stopped at a residual of {residual:.1e}, above {tolerance:e}: {remedy}")]
     NoConvergence {
         /// The iteration.
         what: &'static str,

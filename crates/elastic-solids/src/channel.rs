@@ -4,7 +4,7 @@ mod shapes;
 mod width;
 
 use ib_core::Vec2;
-use ib_core::input::{InputError, finite, within};
+use ib_core::input::{finite, within};
 
 use crate::mesher::segments::Segments;
 use crate::{Interior, Mesher, Outline, SolidError, TriangleMesh};
@@ -172,7 +172,11 @@ impl Channel {
         Ok(Walls {
             lower: self.lower_wall(bottom, mesher)?,
             upper: self.upper_wall(top, mesher)?,
-            islands: (0..self.islands.len()).map(|number| self.island(number, mesher)).collect::<Result<_, _>>()?,
+            islands: self
+                .islands
+                .iter()
+                .map(|island| mesher.mesh(&Interior::new([island.clone()])?))
+                .collect::<Result<_, _>>()?,
         })
     }
 
@@ -181,7 +185,7 @@ impl Channel {
     /// # Errors
     /// Those of [`Mesher::mesh`].
     pub fn lower_wall(&self, bottom: f64, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
-        mesher.mesh(&Interior::new([self.level(&self.lower, bottom)?, self.lower.clone()])?)
+        mesher.mesh(&self.below(bottom)?)
     }
 
     /// The mesh of the wall from the upper line up to y = `top` (length) alone.
@@ -189,21 +193,31 @@ impl Channel {
     /// # Errors
     /// Those of [`Mesher::mesh`].
     pub fn upper_wall(&self, top: f64, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
-        mesher.mesh(&Interior::new([self.upper.clone(), self.level(&self.upper, top)?])?)
+        mesher.mesh(&self.above(top)?)
     }
 
-    /// The mesh of one island alone, by its number in [`Channel::islands`].
+    /// An island by its number.
     ///
     /// # Errors
-    /// An island beyond the last; those of [`Mesher::mesh`].
-    pub fn island(&self, number: usize, mesher: &Mesher) -> Result<TriangleMesh, SolidError> {
-        let found = self.islands.len();
-        let island = self.islands.get(number).ok_or(InputError::TooFew {
-            name: "islands",
-            found,
-            minimum: number.saturating_add(1),
-        })?;
-        mesher.mesh(&Interior::new([island.clone()])?)
+    /// [`SolidError::NoSuchIsland`].
+    pub fn island(&self, number: usize) -> Result<&Outline, SolidError> {
+        self.islands.get(number).ok_or(SolidError::NoSuchIsland { number, found: self.islands.len() })
+    }
+
+    /// The wall from y = `bottom` (length) up to the lower line.
+    ///
+    /// # Errors
+    /// A height that is not finite.
+    pub fn below(&self, bottom: f64) -> Result<Interior, SolidError> {
+        Interior::new([self.level(&self.lower, bottom)?, self.lower.clone()])
+    }
+
+    /// The wall from the upper line up to y = `top` (length).
+    ///
+    /// # Errors
+    /// A height that is not finite.
+    pub fn above(&self, top: f64) -> Result<Interior, SolidError> {
+        Interior::new([self.upper.clone(), self.level(&self.upper, top)?])
     }
 
     /// The flat outer surface of the wall at a side of the channel.

@@ -11,7 +11,7 @@ pub enum SolidError {
     Input(#[from] InputError),
     /// A deformation that inverts the material, flattens it, or is not finite.
     #[error(
-        "the deformation gradient [[{a11}, {a12}], [{a21}, {a22}]] has the determinant {jacobian}: it must be positive"
+        "the deformation gradient [[{a11:.4}, {a12:.4}], [{a21:.4}, {a22:.4}]] has the determinant {jacobian:.3e}: it must be positive"
     )]
     NotOrientationPreserving {
         /// Entry 11.
@@ -36,7 +36,7 @@ pub enum SolidError {
         points: usize,
     },
     /// A triangle without area.
-    #[error("triangle {triangle} near ({x}, {y}) has the area {area:e}: its points must not lie on a line")]
+    #[error("triangle {triangle} near ({x:.4}, {y:.4}) has the area {area:.1e}: its points must not lie on a line")]
     FlatTriangle {
         /// Which triangle.
         triangle: usize,
@@ -48,7 +48,7 @@ pub enum SolidError {
         area: f64,
     },
     /// A triangle of a periodic mesh whose corners cannot be told from their images.
-    #[error("triangle {triangle} is {width} wide, half the period {period} or more: use smaller triangles")]
+    #[error("triangle {triangle} is {width:.4} wide, half the period {period} or more: use smaller triangles")]
     TriangleTooWide {
         /// Which triangle.
         triangle: usize,
@@ -58,7 +58,7 @@ pub enum SolidError {
         period: f64,
     },
     /// A point that no triangle uses.
-    #[error("point {point} at ({x}, {y}) belongs to no triangle: leave it out")]
+    #[error("point {point} at ({x:.4}, {y:.4}) belongs to no triangle: leave it out")]
     LoosePoint {
         /// Which point.
         point: usize,
@@ -79,6 +79,16 @@ pub enum SolidError {
         /// One of the triangles.
         triangle: usize,
     },
+    /// An island that a channel does not have.
+    #[error(
+        "island {number} of a channel with {found}: islands are counted from 0, give the number of one that is there"
+    )]
+    NoSuchIsland {
+        /// Its number.
+        number: usize,
+        /// How many there are.
+        found: usize,
+    },
     /// Something that cannot be done.
     #[error("{what} is not possible: {remedy}")]
     Unsupported {
@@ -89,7 +99,7 @@ pub enum SolidError {
     },
     /// A line that does not return to its start.
     #[error(
-        "the outline ends at ({x}, {y}), {gap} from where it must: close it, or let a profile return to its first height"
+        "the outline ends at ({x:.4}, {y:.4}), {gap:.3e} from where it must: close it, or let a profile return to its first height"
     )]
     OpenOutline {
         /// x of its end (length).
@@ -100,7 +110,7 @@ pub enum SolidError {
         gap: f64,
     },
     /// A side or curve of an outline without length.
-    #[error("a side of the outline at ({x}, {y}) has no length: points that follow each other must differ")]
+    #[error("a side of the outline at ({x:.4}, {y:.4}) has no length: points that follow each other must differ")]
     NoLength {
         /// x of its start (length).
         x: f64,
@@ -119,7 +129,7 @@ pub enum SolidError {
     },
     /// A fillet that does not fit.
     #[error(
-        "a fillet of radius {radius} does not fit on the side of length {side} from ({x}, {y}): give at most {maximum}"
+        "a fillet of radius {radius} does not fit on the side of length {side:.4} from ({x:.4}, {y:.4}): give at most {maximum:.4}"
     )]
     FilletTooLarge {
         /// The radius (length).
@@ -149,7 +159,7 @@ pub enum SolidError {
     },
     /// Outlines that cross.
     #[error(
-        "outlines cross or touch near ({x}, {y}): move them apart, or use a smaller spacing where they only come close"
+        "outlines cross or touch near ({x:.4}, {y:.4}): move them apart, or use a smaller spacing where they only come close"
     )]
     Crossing {
         /// x of the place (length).
@@ -159,7 +169,7 @@ pub enum SolidError {
     },
     /// A line of a channel on the wrong side of the others.
     #[error(
-        "the line through ({x}, {y}) is not below the upper side of the channel and above the lower one: exchange or move them"
+        "the line through ({x:.4}, {y:.4}) is not below the upper side of the channel and above the lower one: exchange or move them"
     )]
     NotBetween {
         /// x of a point of it (length).
@@ -169,7 +179,7 @@ pub enum SolidError {
     },
     /// A hole that the mesh cannot resolve.
     #[error(
-        "the hole at ({x}, {y}) is {width} wide, less than the mesh spacing {spacing}: leave it out or use a smaller spacing"
+        "the hole at ({x:.4}, {y:.4}) is {width:.4} wide, less than the mesh spacing {spacing}: leave it out or use a smaller spacing"
     )]
     HoleTooSmall {
         /// x of a point of its outline (length).
@@ -183,7 +193,7 @@ pub enum SolidError {
     },
     /// A wall that the mesh cannot resolve.
     #[error(
-        "the wall at ({x}, {y}) is {thickness} thick, less than the mesh spacing {spacing}: make it thicker, round its tip, or use a smaller spacing"
+        "the solid at ({x:.4}, {y:.4}) is {thickness:.4} thick, less than the mesh spacing {spacing}: make it thicker, round its tip, or use a smaller spacing"
     )]
     WallTooThin {
         /// x of a point of its outline (length).
@@ -219,7 +229,7 @@ pub enum SolidError {
     },
     /// An inverted triangle.
     #[error(
-        "triangle {triangle} near ({x}, {y}) is inverted (area ratio {jacobian}): use a smaller time step or mesh spacing, or stiffer material"
+        "triangle {triangle} near ({x:.4}, {y:.4}) is inverted (area ratio {jacobian:.4}): use a smaller time step or mesh spacing, or stiffer material"
     )]
     Inverted {
         /// Which triangle.
@@ -233,7 +243,7 @@ pub enum SolidError {
     },
     /// Points that found no equilibrium.
     #[error(
-        "the inner points found no equilibrium, {residual:e} of the force is left: use a smaller strain or a stable material"
+        "the inner points found no equilibrium, {residual:.1e} of the force is left: use a smaller strain or a stable material"
     )]
     NotRelaxed {
         /// Force left over that at the boundary.

@@ -16,9 +16,11 @@ use crate::{
 
 /// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
 ///
-/// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. Time step, integrator,
-/// observers and resolution of the grid may be others then; what the scene is must be the same: the domain, what
-/// drives the fluid along it, the viscosities, the bodies and what they are made of ([`crate::Body::properties`]).
+/// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. What the scene is must be
+/// the same: the domain, what drives the fluid along it, the viscosities, the bodies and what they are made of
+/// ([`crate::Body::properties`], with the numbers of markers and points that they started with). How it is computed may
+/// be another then: time step, integrator and observers, grid spacing (with markers and meshes as before), kernel,
+/// corrections, transport of particles. The flow of the state is then computed anew.
 ///
 /// ```
 /// use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
@@ -49,6 +51,8 @@ pub struct Checkpoint {
     minimum_wall_gap: Option<f64>,
     minimum_gap: Option<f64>,
     domain: Domain,
+    /// Of the grid, if there was one (length).
+    spacing: Option<f64>,
     properties: Vec<(String, f64)>,
     bodies: Vec<Part>,
     flow: SavedState,
@@ -141,8 +145,9 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             time: system.time(),
             steps: system.steps() as u64,
             minimum_wall_gap: system.minimum_wall_gap(),
-            minimum_gap: system.minimum_gap(),
+            minimum_gap: system.narrowest_so_far(),
             domain: system.hydrodynamics().medium().domain,
+            spacing: system.hydrodynamics().medium().spacing,
             properties: system.properties(),
             bodies: system.all_bodies().map(|(_, body)| Part::of(body)).collect(),
             flow: system.hydrodynamics().save(),
@@ -212,7 +217,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             })?;
         }
         self.report = checkpoint.report.clone();
-        if let Some((velocities, report)) = &checkpoint.known {
+        let same = self.system().hydrodynamics().medium().spacing == checkpoint.spacing;
+        if let Some((velocities, report)) = checkpoint.known.as_ref().filter(|_| same) {
             let velocities = velocities.iter().copied().map(Vec2::from_array);
             self.system_mut().take_flow(&checkpoint.flow, velocities, *report)?;
         }

@@ -34,8 +34,8 @@ pub enum FlowError {
     },
     /// A marker lies beyond a wall.
     #[error(
-        "marker {marker} of body {body} at ({x}, {y}) is {depth} beyond the wall, more than {allowed}: \
-         use a smaller time step or a finer grid"
+        "marker {marker} of body {body} at ({x:.4}, {y:.4}) is {depth:.3e} beyond the wall, more than {allowed:.3e}: \
+         move it, or use a smaller time step or a finer grid"
     )]
     BeyondWall {
         /// Number of the body.
@@ -52,7 +52,9 @@ pub enum FlowError {
         allowed: f64,
     },
     /// An iteration did not converge.
-    #[error("{what} stopped at a relative residual of {residual:e} after {iterations} iterations, above {tolerance:e}")]
+    #[error(
+        "{what} stopped at a relative residual of {residual:.1e} after {iterations} iterations, above {tolerance:e}"
+    )]
     NoConvergence {
         /// The iteration.
         what: &'static str,
@@ -103,7 +105,7 @@ pub enum BodyError {
         second: usize,
     },
     /// A bound on a conserved quantity was exceeded.
-    #[error("{what} has changed by {change:e} of its value, more than {bound:e}: use a smaller time step or spacing")]
+    #[error("{what} has changed by {change:.1e} of its value, more than {bound:e}: use a smaller time step or spacing")]
     NotConserved {
         /// The quantity.
         what: &'static str,
@@ -188,18 +190,16 @@ pub enum SceneError {
         /// Viscosity of the exterior fluid (stress times time).
         exterior: f64,
     },
-    /// Two interfaces, or one and its own image in a periodic domain, have come to overlap.
+    /// An interface and another body, or its own image in a periodic domain, have come to overlap.
     #[error(
-        "at time {time} marker {marker} of {body} at ({x:.4}, {y:.4}) has crossed {other} by {depth:.3e}, more than {allowed:.3e}: use a \
-         smaller time step, a finer grid or a repulsion between the interfaces"
+        "at time {time} {body} has crossed {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: use a smaller time \
+         step, a finer grid or a repulsion between the interfaces"
     )]
     Crossing {
         /// Time at the start of the step.
         time: f64,
-        /// The body whose marker it is.
+        /// The body whose marker or corner it is.
         body: String,
-        /// Number of the marker in the body.
-        marker: usize,
         /// Its x coordinate (length).
         x: f64,
         /// Its y coordinate (length).

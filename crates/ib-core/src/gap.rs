@@ -2,48 +2,59 @@
 
 mod between;
 mod boundary;
+mod conflict;
 mod repulsion;
 mod solid_gap;
 mod wall_gap;
 
 pub(crate) use between::Outline;
 pub use boundary::Boundary;
+pub use conflict::Conflict;
 pub use repulsion::Repulsion;
 pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use wall_gap::wall_gap;
 
-use crate::{Body, Domain, Markers, Vec2};
+use crate::{Body, Domain, MarkerKind, Markers, Medium, Vec2};
 
 /// How far boundaries are looked for during steps, in units of what a contact is measured in.
 const REACH: f64 = 4.0;
-/// Markers of an interface that are asked whether they lie inside another one.
-const ASKED: usize = 16;
 
-/// The narrowest gap between a marker of an interface and the boundary of another body, or of its own image in a
-/// periodic domain.
+/// The narrowest gap between an interface and another body, or between an interface and its own image in a periodic
+/// domain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gap {
-    /// Number of the interface.
+    /// Number of the body whose corner it is measured from.
     pub(crate) body: usize,
-    /// Number of its marker.
-    pub(crate) marker: usize,
+    /// Where that corner is (length).
+    pub(crate) place: Vec2,
     /// Number of the other body.
     pub(crate) other: usize,
-    /// The gap (length); negative where the marker is inside the other body, or outside of the one that its interface
+    /// The gap (length); negative where the corner is inside the other body, or outside of the interface that its body
     /// lies in.
     pub(crate) width: f64,
 }
 
-/// The boundaries of all bodies; keeps its memory.
+/// The boundaries of all bodies, and what the bodies are; keeps its memory.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Gaps {
+pub struct Gaps {
     boundaries: Vec<Boundary>,
+    kinds: Vec<MarkerKind>,
 }
 
 impl Gaps {
+    /// Bodies that are no part of a scene yet.
+    #[must_use]
+    pub fn of(bodies: impl IntoIterator<Item = (Boundary, MarkerKind)>) -> Self {
+        let (mut boundaries, kinds): (Vec<Boundary>, _) = bodies.into_iter().unzip();
+        boundaries.iter_mut().for_each(Boundary::sort);
+        Self { boundaries, kinds }
+    }
+
     /// Looks at the bodies where they are now, with their markers.
     pub(crate) fn update(&mut self, bodies: &[Box<dyn Body>], markers: &Markers) {
         self.boundaries.resize_with(bodies.len(), Boundary::default);
+        self.kinds.clear();
+        self.kinds.extend(markers.groups().iter().map(|group| group.kind));
         for ((body, boundary), group) in bodies.iter().zip(&mut self.boundaries).zip(markers.groups()) {
             boundary.clear();
             body.write_boundary(&markers.positions[group.range.clone()], boundary);
@@ -51,81 +62,46 @@ impl Gaps {
         }
     }
 
-    /// Whether an interface lies inside another one, or inside one of its images: most of its markers do.
-    pub(crate) fn is_nested(&self, markers: &Markers, inner: usize, outer: usize, periods: [Option<f64>; 2]) -> bool {
-        let group = |index: usize| &markers.groups()[index];
-        if inner == outer || !(group(inner).kind.is_interface() && group(outer).kind.is_interface()) {
-            return false;
-        }
-        let [Some(small), Some(large)] = [inner, outer].map(|index| self.boundaries[index].frame()) else {
-            return false;
-        };
-        // A part of the inner one may have crossed.
-        if !small.is_inside(&large, periods, 0.5 * small.size()) {
-            return false;
-        }
-        let positions = &markers.positions[group(inner).range.clone()];
-        let asked = positions.iter().step_by(positions.len().div_ceil(ASKED).max(1));
-        let inside = |point: &&Vec2| self.boundaries[outer].distance(**point, periods) < 0.0;
-        2 * asked.clone().filter(inside).count() > asked.count()
+    /// Whether a body lies inside an interface, or inside one of its images.
+    fn lies_in(&self, inner: usize, outer: usize, periods: [Option<f64>; 2]) -> bool {
+        let around = inner != outer && self.kinds[outer].is_interface();
+        around && self.boundaries[inner].lies_in(&self.boundaries[outer], periods, 0.0)
     }
 
-    /// The narrowest gap of less than four times `scale` (length), if there is one.
-    pub(crate) fn narrowest(&self, markers: &Markers, domain: &Domain, scale: f64) -> Option<Gap> {
-        let reach = REACH * scale;
+    /// The narrowest gap of those that are looked at during steps, below four times what contacts are measured in.
+    pub(crate) fn narrowest_near(&self, medium: &Medium) -> Option<Gap> {
+        self.narrowest(&medium.domain, REACH * self.contact_scale(medium))
+    }
+
+    /// The narrowest gap below `reach` (length), if there is one: from the corners of interfaces to all bodies, and from
+    /// the corners of other bodies to interfaces.
+    pub(crate) fn narrowest(&self, domain: &Domain, reach: f64) -> Option<Gap> {
         let mut narrowest: Option<Gap> = None;
-        let interfaces = markers.groups().iter().enumerate().filter(|(_, group)| group.kind.is_interface());
-        for (body, group) in interfaces {
-            let Some(frame) = self.boundaries[body].frame() else { continue };
+        for (body, from) in self.boundaries.iter().enumerate() {
+            let Some(frame) = from.frame() else { continue };
             for (other, boundary) in self.boundaries.iter().enumerate() {
                 let Some(large) = boundary.frame() else { continue };
+                if !(self.kinds[body].is_interface() || self.kinds[other].is_interface()) {
+                    continue;
+                }
                 let periods = if other == body { [None; 2] } else { domain.periods };
                 for shift in shifts(domain, other == body).into_iter().flatten() {
                     if !frame.moved(shift).is_near(&large, periods, reach) {
                         continue;
                     }
-                    let sign = if self.is_nested(markers, body, other, periods) { -1.0 } else { 1.0 };
-                    for (marker, place) in markers.positions[group.range.clone()].iter().enumerate() {
+                    let sign = if self.lies_in(body, other, periods) { -1.0 } else { 1.0 };
+                    for place in from.corners() {
                         let distance = boundary.distance_within(place + shift, periods, reach);
                         if let Some(width) = distance.map(|distance| sign * distance)
                             && narrowest.is_none_or(|least| width < least.width)
                         {
-                            narrowest = Some(Gap { body, marker, other, width });
+                            narrowest = Some(Gap { body, place, other, width });
                         }
                     }
                 }
             }
         }
         narrowest
-    }
-
-    /// The deepest corner of a body other than an interface inside another such body: the numbers of both, the corner,
-    /// and how deep it is (length). `None` where none is inside.
-    pub(crate) fn deepest_overlap(
-        &self,
-        markers: &Markers,
-        periods: [Option<f64>; 2],
-    ) -> Option<(usize, usize, Vec2, f64)> {
-        let mut deepest: Option<(usize, usize, Vec2, f64)> = None;
-        let solids = || {
-            let boundaries = self.boundaries.iter().enumerate();
-            boundaries.filter(|(index, _)| !markers.groups()[*index].kind.is_interface())
-        };
-        for (body, boundary) in solids() {
-            for (other, around) in solids().filter(|(other, _)| *other != body) {
-                let (Some(frame), Some(large)) = (boundary.frame(), around.frame()) else { continue };
-                if !frame.is_near(&large, periods, 0.0) {
-                    continue;
-                }
-                for corner in boundary.corners() {
-                    let depth = -around.distance(corner, periods);
-                    if depth > deepest.map_or(0.0, |(.., depth)| depth) {
-                        deepest = Some((body, other, corner, depth));
-                    }
-                }
-            }
-        }
-        deepest
     }
 }
 

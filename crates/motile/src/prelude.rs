@@ -1,10 +1,11 @@
-//! What most programs need.
+//! What most programs need: all that descriptions are written with, and what looks at the scenes that are built.
 
 pub use crate::{
-    Built, ChannelShape, DropletSetup, DropletShape, GridMethod, Hold, IntegralMethod, Material, Method, Particles,
-    Region, Setup, SolidOutline, SolidSetup, Start,
+    AnyFlow, Axis, Built, ChannelShape, Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold,
+    IntegralMethod, MarkerMotion, Material, MeshKind, Method, Particles, Region, RepulsionSetup, Setup, SetupError,
+    SolidOutline, SolidSetup, Squeezed, Start, Surface,
 };
-pub use active_interface::{ActiveDroplet, Curve};
+pub use active_interface::{ActiveDroplet, Curve, Flux};
 pub use elastic_solids::Solid;
-pub use ib_core::{Every, Hydrodynamics, Scene, StepSize, Vec2};
+pub use ib_core::{AnyKernel, Checkpoint, Every, Handle, Hydrodynamics, Scene, SceneError, StepSize, System, Vec2};
 pub use stokes_grid::Drive;

@@ -35,14 +35,20 @@ pub enum SetupError {
         /// What to give instead, and why.
         remedy: String,
     },
-    /// A droplet that the region does not hold.
+    /// What is wrong with an entry of the description.
+    #[error("{key}: {source}")]
+    Entry {
+        /// Where it stands in the description, with its name if it has one of its own.
+        key: String,
+        /// What is wrong with it.
+        source: Box<Self>,
+    },
+    /// A body that the region does not hold beside its images.
     #[error(
-        "a region of {length} x {width} does not hold {name}: move it to the middle, make it smaller, or give a longer or \
+        "a region of {length} x {width} does not hold it: move it to the middle, make it smaller, or give a longer or \
          wider region"
     )]
     NoRoom {
-        /// The droplet.
-        name: String,
         /// Length of the region in x.
         length: f64,
         /// Length of the region in y, or distance of its walls.
@@ -54,15 +60,39 @@ pub enum SetupError {
         /// The line and what is wrong with it.
         problem: String,
     },
-    /// A droplet that starts inside a wall.
-    #[error("the droplet reaches {depth} into a wall at ({x}, {y}): move it or make the channel wider there")]
+    /// A body that starts inside another one, or where another one is.
+    #[error(
+        "{key} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move them apart or make one of \
+         them smaller"
+    )]
     Overlap {
+        /// Where it stands in the description, with its name if it has one of its own.
+        key: String,
+        /// The same of the other body.
+        other: String,
         /// Where, in x.
         x: f64,
         /// Where, in y.
         y: f64,
         /// How deep (length).
         depth: f64,
+        /// How deep it may be (length).
+        allowed: f64,
+    },
+    /// A droplet inside another one whose fluid has a viscosity of its own.
+    #[error(
+        "{inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has {exterior}: move it \
+         out, or give the outer droplet no viscosity of its own"
+    )]
+    Nested {
+        /// The droplet inside, where it stands in the description.
+        inner: String,
+        /// The same of the one around it.
+        outer: String,
+        /// Viscosity of the fluid inside the outer one (stress times time).
+        interior: f64,
+        /// Viscosity of the exterior fluid (stress times time).
+        exterior: f64,
     },
     /// An error that no settings were measured for.
     #[error("no settings are known for an error of {target:e}: ask for one from {smallest:e} to {largest}")]
@@ -77,6 +107,14 @@ pub enum SetupError {
 }
 
 impl SetupError {
+    /// The same with the place of what it is about, unless it says so itself.
+    pub(crate) fn of(self, key: &str) -> Self {
+        match self {
+            Self::Value { .. } | Self::Entry { .. } => self,
+            other => Self::Entry { key: key.to_owned(), source: Box::new(other) },
+        }
+    }
+
     /// Something that boundary integrals do not have.
     pub(crate) fn needs_a_grid(what: &str) -> Self {
         let remedy = format!("{what} need a grid: give the method of immersed boundaries");

@@ -97,6 +97,18 @@ fn flags_override_a_scene_file_and_leave_the_rest() {
 }
 
 #[test]
+fn a_seed_is_that_of_a_random_start() {
+    let start =
+        |file: Option<Setup>, line: &str| over(file, line).map(|setup| setup.droplets[0].particles.unwrap().start);
+    let perturbed = |seed| Ok(Start::Perturbed { amplitude: 0.05, seed });
+    assert_eq!(start(None, "--initial perturbed"), perturbed(1));
+    assert_eq!(start(None, "--initial perturbed --seed 3"), perturbed(3));
+    assert_eq!(start(Some(setup("--initial perturbed").unwrap()), "--seed 4"), perturbed(4));
+    let refused = start(None, "--seed 3").unwrap_err();
+    assert_eq!(refused, "--seed 3 means nothing without --initial perturbed: leave it out or give that");
+}
+
+#[test]
 fn the_method_follows_from_the_flags() {
     let method = |line: &str| setup(line).map(|setup| setup.method.kind());
     for line in ["", "--nodes 64", "--spacing 0.1 --method boundary-integral", "--nodes 64 --spacing 0.1"] {

@@ -20,6 +20,7 @@ fn walls_that_do_not_hold_their_mesh_are_refused_with_the_flag_to_change() {
         ("--mesh-spacing 0.001", "give --mesh-spacing 0.0039 or more"),
         ("--wall-thickness 0.1 --mesh-spacing 0.15", "give 0.15 or more, or a smaller --mesh-spacing"),
         ("--wall-thickness 0.05 --surface set-back", "give 0.0675 or more, or a smaller --spacing"),
+        ("--wall-thickness 0.01", "give 0.05 or more, or a smaller --spacing"),
         ("--width 0.1", "give a larger --width"),
         ("--bulk-modulus 3", "leave --bulk-modulus out"),
     ] {
@@ -29,4 +30,12 @@ fn walls_that_do_not_hold_their_mesh_are_refused_with_the_flag_to_change() {
     for line in ["", "--mesh-spacing 2 --wall-thickness 3", "--wall-thickness 0.1 --length 3", "--mesh-spacing 0.01"] {
         assert!(channel(line).is_ok(), "{line}");
     }
+}
+
+#[test]
+fn flags_that_say_the_same_are_named() {
+    let line = ["test", "--stiffness", "1e3", "--shear-modulus", "10"];
+    let error = Flags::try_parse_from(line).unwrap_err();
+    let said = crate::command_line::sentence(&error, &<Flags as clap::CommandFactory>::command());
+    assert_eq!(said, "--stiffness and --shear-modulus say the same in two ways: give one of them");
 }

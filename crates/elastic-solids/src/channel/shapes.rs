@@ -10,7 +10,7 @@ use crate::{Channel, Outline, SolidError};
 /// Shapes of channels between two walls, centred on the origin, periodic in x.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
 pub enum ChannelShape {
     /// Between two straight walls.
     Straight {
@@ -28,7 +28,8 @@ pub enum ChannelShape {
         throat_length: f64,
         /// Length r of each ramp (length).
         ramp: f64,
-        /// Middle of the passage in x (length).
+        /// Middle of the passage in x (length); 0 in a file that gives none.
+        #[cfg_attr(feature = "serde", serde(default))]
         centre: f64,
     },
     /// With two triangular teeth that almost meet (thesis figure 5.1).
@@ -39,9 +40,11 @@ pub enum ChannelShape {
         gap: f64,
         /// Width of the base of a tooth (length).
         base: f64,
-        /// Radius by which the tips and feet are rounded (length); 0 for sharp ones.
+        /// Radius by which the tips and feet are rounded (length); 0 for sharp ones, as in a file that gives none.
+        #[cfg_attr(feature = "serde", serde(default))]
         radius: f64,
-        /// Tips in x (length).
+        /// Tips in x (length); 0 in a file that gives none.
+        #[cfg_attr(feature = "serde", serde(default))]
         centre: f64,
     },
     /// Of asymmetric teeth (thesis figure 5.2).
@@ -55,7 +58,8 @@ pub enum ChannelShape {
         /// Part of a tooth over which the channel narrows, going to larger x (0 to 1, both excluded); 1/2 is
         /// symmetric.
         rise: f64,
-        /// Straight flanks with sharp edges instead of cosine ramps.
+        /// Straight flanks with sharp edges instead of cosine ramps, as in a file only where it says so.
+        #[cfg_attr(feature = "serde", serde(default))]
         sharp: bool,
     },
     /// With sinusoidal sides `-w/2 - a cos(k x)` and `w/2 + a cos(k x + phase)`.
@@ -67,7 +71,8 @@ pub enum ChannelShape {
         /// Number of waves in a period, at most 200.
         waves: usize,
         /// Phase of the upper side against the lower one (radians): 0 for a channel that narrows and widens, pi for one
-        /// of constant width that winds.
+        /// of constant width that winds. 0 in a file that gives none.
+        #[cfg_attr(feature = "serde", serde(default))]
         phase: f64,
     },
     /// That splits in two around an island and joins again. The island's outline is `x = l/2 sin(t)`,
@@ -93,6 +98,19 @@ impl ChannelShape {
     /// That of thesis figure 4.18, in units of the droplet's radius and for a period of 12: width 2, throat 1 over a
     /// length of 4, ramps of 1.
     pub const THESIS: Self = Self::Constriction { width: 2.0, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 0.0 };
+
+    /// The name of the shape, as it stands in a file.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Straight { .. } => "straight",
+            Self::Constriction { .. } => "constriction",
+            Self::Valve { .. } => "valve",
+            Self::Ratchet { .. } => "ratchet",
+            Self::Sinusoidal { .. } => "sinusoidal",
+            Self::Branching { .. } => "branching",
+        }
+    }
 
     /// The width of the undivided channel between its narrow parts (length).
     #[must_use]

@@ -1,7 +1,10 @@
 //! What is solid.
 
+use ib_core::Vec2;
+use ib_core::gap::Boundary;
 use ib_core::input::at_least;
 
+use crate::mesher::segments::Segments;
 use crate::{Mesher, Outline, SolidError, TriangleMesh};
 
 /// The solid between outlines: a point is solid where a line upwards from it crosses an odd number of them. One closed
@@ -43,6 +46,34 @@ impl Interior {
     #[must_use]
     pub fn period(&self) -> Option<f64> {
         self.period
+    }
+
+    /// The boundary by points at about `spacing` (length), the solid to the left of its sides: where the solid lies,
+    /// before there is a mesh of it.
+    ///
+    /// # Errors
+    /// Those of [`Outline::resampled`]; outlines that cross.
+    pub fn boundary(&self, spacing: f64) -> Result<Boundary, SolidError> {
+        let lines = self.outlines.iter().map(|outline| outline.resampled(spacing)).collect::<Result<Vec<_>, _>>()?;
+        let periodic = self.outlines.iter().zip(&lines).find(|(outline, _)| outline.period().is_some());
+        let start = periodic.map(|(outline, line)| (line[0].x, outline.period().unwrap_or_default()));
+        let segments = Segments::new(&lines, start, 2.0 * spacing);
+        if let Some(place) = segments.first_crossing() {
+            return Err(SolidError::Crossing { x: place.x, y: place.y });
+        }
+        let mut boundary = Boundary::default();
+        for (outline, line) in self.outlines.iter().zip(&lines) {
+            let around = Vec2::new(outline.period().unwrap_or(0.0), 0.0);
+            let ends = line[1..].iter().copied().chain(std::iter::once(line[0] + around));
+            let sides: Vec<[Vec2; 2]> = line.iter().copied().zip(ends).map(|(from, to)| [from, to]).collect();
+            let [from, to] = sides[0];
+            let mut beside = 0.5 * (from + to) + 1e-6 * (to - from).perp();
+            beside.x -= start.map_or(0.0, |(start, period)| period * ((beside.x - start) / period).floor());
+            let solid_left = segments.inside(beside);
+            sides.iter().for_each(|&[a, b]| if solid_left { boundary.push(a, b) } else { boundary.push(b, a) });
+        }
+        boundary.sort();
+        Ok(boundary)
     }
 
     /// A uniform mesh of spacing `spacing` (length), by [`Mesher`] with its defaults.

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use crate::{
     Body, BodyError, MarkerKind, Medium, Vec2,
     body::{StepLimit, StepLimits},
+    input::{InputError, all_points_finite, not_negative},
 };
 
 /// Forces from positions, or rates from positions and velocities, marker by marker.
@@ -35,7 +36,7 @@ type Motion = Box<dyn FnMut(&[Vec2], &[Vec2], &mut [Vec2]) + Send>;
 ///             forces[k - 1] += pull;
 ///         }
 ///     })
-///     .with_stiffness(4.0 * stiffness),
+///     .with_stiffness(4.0 * stiffness)?,
 /// );
 /// scene.run(5.0).go()?;
 /// let end = scene.body(fibre)?.positions()[19];
@@ -97,10 +98,12 @@ impl MarkerBody {
     /// their radius of gyration r and the smallest width L of the domain, or that of one alone with the grid spacing
     /// for r, whichever is faster. It is an estimate from above: the mobility of a point of radius a in a square box
     /// is `(ln(L/a) - 1.31)/(4 pi eta)` (Hasimoto 1959).
-    #[must_use]
-    pub fn with_stiffness(mut self, stiffness: f64) -> Self {
-        self.stiffness = Some(stiffness);
-        self
+    ///
+    /// # Errors
+    /// A stiffness that is negative or not finite.
+    pub fn with_stiffness(mut self, stiffness: f64) -> Result<Self, InputError> {
+        self.stiffness = Some(not_negative("the stiffness", stiffness)?);
+        Ok(self)
     }
 
     /// Where the markers are (length).
@@ -150,7 +153,7 @@ impl Body for MarkerBody {
     fn write_forces(&mut self, _medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
         forces.fill(Vec2::ZERO);
         (self.forces)(&self.positions, forces);
-        Ok(())
+        all_points_finite("the forces", forces).map_err(|error| BodyError::Other(error.into()))
     }
 
     fn state_len(&self) -> usize {

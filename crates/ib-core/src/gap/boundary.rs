@@ -196,8 +196,18 @@ impl Boundary {
         self.levels.last()?.first().copied()
     }
 
-    /// Where the sides start: the corners of closed polygons.
-    pub(crate) fn corners(&self) -> impl Iterator<Item = Vec2> {
+    /// The sides, each with its start and end.
+    pub(super) fn sides(&self) -> &[[Vec2; 2]] {
+        &self.sides
+    }
+
+    /// The longest side (length).
+    pub(super) fn longest_side(&self) -> f64 {
+        self.sides.iter().map(|[start, end]| (end - start).length()).fold(0.0, f64::max)
+    }
+
+    /// Where the sides start (length): the corners of closed polygons.
+    pub fn corners(&self) -> impl Iterator<Item = Vec2> {
         self.sides.iter().map(|[start, _]| *start)
     }
 
@@ -213,6 +223,9 @@ impl Boundary {
 
     /// The same if it is below `reach` (length).
     pub(crate) fn distance_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<f64> {
+        if self.frame()?.squared_distance(point, periods) > reach * reach {
+            return None;
+        }
         let mut found = Nearest { squared: reach * reach, height: 0.0 };
         self.search(self.levels.len().checked_sub(1)?, 0, point, periods, &mut found);
         // What is on a side has no height and is at no distance.

@@ -32,7 +32,7 @@ pub struct SolidGap {
 /// An interface that has entered a solid.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
-    "marker {marker} of {interface} at ({x}, {y}) is {depth} inside a solid, more than {allowed}: {}",
+    "marker {marker} of {interface} at ({x:.4}, {y:.4}) is {depth:.3e} inside a solid, more than {allowed:.3e}: {}",
     if *at_start { "move them apart" } else { "use a smaller time step or a finer grid" }
 )]
 pub struct SolidEntered {

@@ -19,6 +19,11 @@ use crate::{
 };
 use forces::write_forces;
 
+/// Velocities at the same state by the same method differ by at most this part of the fastest one, on any machine, and by
+/// this multiple of the residual where they are iterated.
+const SAME_FLOW: f64 = 1e-9;
+const REACHED: f64 = 10.0;
+
 /// The bodies of a scene, the fluid between them, and the time.
 ///
 /// Integrators advance it, observers look at it.
@@ -100,9 +105,7 @@ impl<H: Hydrodynamics> System<H> {
         self.steps += 1;
         self.bodies.iter_mut().for_each(|body| body.keep_step());
         self.record_wall_gap();
-        if let Some(Gap { width, .. }) = self.narrowest {
-            self.minimum_gap = Some(self.minimum_gap.map_or(width, |least| least.min(width)));
-        }
+        self.record_gap();
     }
 
     /// What computes the flow.
@@ -168,11 +171,12 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// Takes over velocities that were computed at the present state, if there is one for each marker.
+    /// Takes over velocities that were computed at the present state, if they are those that are found here: another
+    /// grid, kernel or treatment of surfaces has others.
     pub(crate) fn take_flow(
         &mut self,
         flow: &SavedState,
-        velocities: impl ExactSizeIterator<Item = Vec2>,
+        velocities: impl ExactSizeIterator<Item = Vec2> + Clone,
         report: FlowReport,
     ) -> Result<(), SceneError> {
         if velocities.len() != self.markers.len() {
@@ -184,10 +188,15 @@ impl<H: Hydrodynamics> System<H> {
         // to the tolerance of its iterations, so those that were found take their place, and so does what the next
         // iteration starts from.
         self.compute_flow()?;
-        self.hydrodynamics.load(flow);
-        self.markers.velocities.iter_mut().zip(velocities).for_each(|(to, from)| *to = from);
-        self.report = report;
         self.current = true;
+        let here = &self.markers.velocities;
+        let fastest = here.iter().map(|velocity| velocity.length()).fold(0.0, f64::max);
+        let bound = fastest * (SAME_FLOW + REACHED * report.residual.max(self.report.residual));
+        if here.iter().zip(velocities.clone()).all(|(here, there)| (here - there).length() <= bound) {
+            self.hydrodynamics.load(flow);
+            self.markers.velocities.iter_mut().zip(velocities).for_each(|(to, from)| *to = from);
+            self.report = report;
+        }
         Ok(())
     }
 

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings, forcing};
 use elastic_solids::Solid;
-use ib_core::{Body, Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2, gap::Boundary};
+use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
@@ -34,26 +34,25 @@ const FILM: f64 = 0.05;
 const FLATTEST: f64 = 0.1;
 /// Most markers of an interface.
 pub(super) const MOST_MARKERS: f64 = 1e6;
-/// How deep a droplet may start inside a solid, over the grid spacing.
-const OVERLAP: f64 = 0.25;
 
 impl Setup {
     /// Makes the scene. Nothing large is allocated before [`Setup::check`] has passed.
     ///
     /// # Errors
-    /// What [`Setup::check`] refuses, a droplet that does not fit into the region or reaches into a solid, shapes that cannot
-    /// be meshed.
+    /// What [`Setup::check`] refuses; before anything is meshed, bodies that do not fit into the region or overlap one
+    /// another or their images ([`SetupError::NoRoom`], [`SetupError::Overlap`], [`SetupError::Nested`]); shapes that
+    /// cannot be meshed.
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;
-        let droplets = self.droplets.iter().enumerate().map(|(number, droplet)| {
-            let made = self.droplet(droplet)?;
-            self.fits(number, made.markers())?;
-            Ok(made)
-        });
-        let droplets = droplets.collect::<Result<Vec<_>, SetupError>>()?;
-        let solids = self.solids.iter().map(|solid| solid.build(self)).collect::<Result<Vec<_>, _>>()?;
-        self.check_overlap(&droplets, &solids)?;
-        let mut scene = Scene::new(self.flow()?).with_step_size(self.step);
+        let keyed = |body: usize| move |error: SetupError| error.of(&self.key(body));
+        let droplets = self.droplets.iter().enumerate().map(|(k, droplet)| self.droplet(droplet).map_err(keyed(k)));
+        let droplets = droplets.collect::<Result<Vec<_>, _>>()?;
+        let solids = || self.solids.iter().zip(self.droplets.len()..);
+        let regions = solids().map(|(solid, k)| solid.enclosed(&self.region, 0.0).map_err(keyed(k)));
+        let (regions, flow) = (regions.collect::<Result<Vec<_>, _>>()?, self.flow()?);
+        self.check_places(&droplets, &regions, &flow.medium())?;
+        let solids = solids().map(|(solid, k)| solid.build(self).map_err(keyed(k))).collect::<Result<Vec<_>, _>>()?;
+        let mut scene = Scene::new(flow).with_step_size(self.step);
         if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
             scene = scene.with_repulsion(ib_core::Repulsion::new(strength, range).map_err(ib_core::FlowError::from)?);
         }
@@ -190,67 +189,30 @@ impl Setup {
     fn shape(&self, droplet: &DropletSetup) -> Result<DropletShape, SetupError> {
         let &DropletShape::Round { radius } = &droplet.shape else { return Ok(droplet.shape.clone()) };
         let y = droplet.centre[1];
+        let [length, width] = self.region.lengths();
         // Walls of solids bound the channel where there are some; they know nothing of a film unless they are corrected.
-        let sides = self.solids.iter().filter_map(|solid| Some((solid, solid.side()?)));
-        let beside = sides.map(|(solid, side)| {
+        let sides = || self.solids.iter().filter_map(|solid| Some((solid, solid.side()?)));
+        let beside = sides().map(|(solid, side)| {
             (if side < 0.0 { y - side } else { side - y }, if solid.surface == Surface::Corrected { FILM } else { 0.0 })
         });
         let (room, film, to) = match (beside.reduce(|a, b| if b.0 < a.0 { b } else { a }), &self.method, self.region) {
             (Some((room, film)), ..) => (room, film, Squeezed::Stadium),
-            (None, Method::Integral(_), Region::Channel { width, .. }) => {
-                (0.5 * width - y.abs(), FILM, Squeezed::Ellipse)
-            }
+            (None, Method::Integral(_), Region::Channel { .. }) => (0.5 * width - y.abs(), FILM, Squeezed::Ellipse),
             _ => return Ok(droplet.shape.clone()),
         };
-        if room >= radius * (1.0 - 1e-12) + film * radius {
+        let below = sides().map(|(_, side)| side).filter(|side| *side < 0.0).fold(-0.5 * width, f64::max);
+        let above = sides().map(|(_, side)| side).filter(|side| *side > 0.0).fold(0.5 * width, f64::min);
+        let least = radius * (1.0 - 1e-12);
+        // Where the circle has room elsewhere in the channel it is misplaced, which is not for this to mend.
+        let misplaced = room < least && 0.5 * (above - below) >= least + film * radius;
+        if room >= least + film * radius || misplaced {
             return Ok(droplet.shape.clone());
         }
         let half_height = room - FILM * radius;
-        let [length, width] = self.region.lengths();
         if half_height <= FLATTEST * radius {
-            return Err(SetupError::NoRoom { name: droplet.name.clone(), length, width });
+            return Err(SetupError::NoRoom { length, width });
         }
         Ok(DropletShape::Squeezed { radius, half_height, to })
-    }
-
-    /// Refuses a droplet that reaches beyond the region or overlaps its own images.
-    fn fits(&self, number: usize, markers: &[Vec2]) -> Result<(), SetupError> {
-        let (mut low, mut high) = (markers[0], markers[0]);
-        for marker in markers {
-            (low, high) = (low.min(*marker), high.max(*marker));
-        }
-        let [length, width] = self.region.lengths();
-        let extent = high - low;
-        // The polygon of the markers has the area of its curve and so stands out of it a little.
-        let slack = 4.0 * extent.length() / (markers.len() * markers.len()) as f64;
-        let fits = match self.region {
-            Region::Plane => true,
-            Region::Box { .. } => extent.x < length && extent.y < width,
-            Region::Channel { .. } => extent.x < length && high.y.max(-low.y) <= 0.5 * width + slack,
-        };
-        if fits {
-            return Ok(());
-        }
-        Err(SetupError::NoRoom { name: self.droplets[number].name.clone(), length, width })
-    }
-
-    fn check_overlap(&self, droplets: &[ActiveDroplet], solids: &[Solid]) -> Result<(), SetupError> {
-        let (Method::Grid(grid), false) = (&self.method, solids.is_empty()) else { return Ok(()) };
-        let mut surfaces = Boundary::default();
-        solids.iter().for_each(|solid| solid.write_boundary(&[], &mut surfaces));
-        surfaces.sort();
-        let [length, width] = self.region.lengths();
-        let periods = [Some(length), matches!(self.region, Region::Box { .. }).then_some(width)];
-        let set_back = self.set_back();
-        for droplet in droplets {
-            let Some((gap, marker)) = surfaces.smallest(droplet.markers(), periods) else { continue };
-            // A solid inside a droplet is a nucleus, and no marker is near it.
-            if gap < set_back - OVERLAP * grid.spacing {
-                let place = droplet.markers()[marker];
-                return Err(SetupError::Overlap { x: place.x, y: place.y, depth: -gap });
-            }
-        }
-        Ok(())
     }
 
     /// How far the meshed surfaces of the walls lie behind those where they stop the fluid (length), see

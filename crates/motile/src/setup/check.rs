@@ -1,11 +1,12 @@
 //! What descriptions must be, checked before any work.
 
+use elastic_solids::channel::ChannelShape;
 use ib_core::StepSize;
 use stokes_grid::Drive;
 
 use super::{
     Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion, Method,
-    Region, Setup, SolidOutline, SolidSetup, Start,
+    Region, Setup, SolidOutline, SolidSetup, Start, Surface,
 };
 use crate::SetupError;
 
@@ -62,13 +63,16 @@ impl Setup {
         match self.region {
             Region::Plane => {}
             Region::Box { lengths } => {
-                lengths.into_iter().try_for_each(|length| top.positive("region.box.lengths", length))?;
+                top.positive("region.box.lengths[0]", lengths[0])?;
+                top.positive("region.box.lengths[1]", lengths[1])?;
             }
             Region::Channel { length, width, drive } => {
                 top.positive("region.channel.length", length)?;
                 top.positive("region.channel.width", width)?;
-                if let Drive::Gradient(value) | Drive::Flux(value) = drive {
-                    top.finite("region.channel.drive", value)?;
+                match drive {
+                    Drive::Gradient(value) => top.finite("region.channel.drive.gradient", value)?,
+                    Drive::Flux(value) => top.finite("region.channel.drive.flux", value)?,
+                    Drive::ZeroGradient | Drive::ZeroFlux => {}
                 }
             }
         }
@@ -220,8 +224,10 @@ impl DropletSetup {
         checked.finite("particles.activity", particles.activity)?;
         checked.not_negative("particles.diffusion", particles.diffusion)?;
         checked.positive("particles.concentration", particles.concentration)?;
-        if let Exclusion::Step(strength) | Exclusion::Quadratic(strength) = particles.excluded_volume {
-            checked.not_negative("particles.excluded-volume", strength)?;
+        match particles.excluded_volume {
+            Exclusion::None => {}
+            Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
+            Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
         }
         let Start::Perturbed { amplitude, .. } = particles.start else { return Ok(()) };
         let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));
@@ -245,14 +251,25 @@ impl SolidSetup {
             SolidOutline::WallBelow(shape)
             | SolidOutline::WallAbove(shape)
             | SolidOutline::Island { of: shape, .. } => {
+                let outline = match &self.outline {
+                    SolidOutline::WallBelow(_) => "outline.wall-below".to_owned(),
+                    SolidOutline::WallAbove(_) => "outline.wall-above".to_owned(),
+                    _ => "outline.island.of".to_owned(),
+                };
                 if !matches!(setup.region, Region::Channel { .. }) {
                     checked.refuse("outline", &"a wall or an island", "give a region that is a channel")?;
                 }
                 let (width, height) = (shape.width(), setup.region.lengths()[1]);
-                checked.positive("outline.width", width)?;
-                across("outline.width", height.max(setup.region.lengths()[0]))?;
+                let key = format!("{outline}.{}.width", shape.name());
+                checked.positive(&key, width)?;
+                across(&key, height.max(setup.region.lengths()[0]))?;
                 let remedy = format!("give less than {height}, the width of the region, so that the walls have room");
-                checked.require(self.side().is_none() || width < height, "outline.width", width, &remedy)?;
+                checked.require(self.side().is_none() || width < height, &key, width, &remedy)?;
+                let islands = usize::from(matches!(shape, ChannelShape::Branching { .. }));
+                if let SolidOutline::Island { number, .. } = self.outline {
+                    let remedy = format!("a {} channel has {islands}, counted from 0", shape.name());
+                    checked.require(number < islands, "outline.island.number", number as f64, &remedy)?;
+                }
             }
             SolidOutline::Disc { centre, radius } => {
                 checked.all_finite("outline.disc.centre", centre)?;
@@ -278,6 +295,9 @@ impl SolidSetup {
             let remedy = "only walls reach the rigid walls of the region: give tethered or free";
             checked.refuse("hold", &"pinned", remedy)?;
         }
+        if self.surface == Surface::SetBack && self.side().is_none() {
+            checked.refuse("surface", &"set-back", "only walls are set back: give corrected or plain")?;
+        }
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;
         }
@@ -297,17 +317,21 @@ impl SolidSetup {
 
 impl super::Material {
     fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
-        checked.positive("material.shear", self.shear())?;
+        let (name, bulk) = match *self {
+            Self::Springs { .. } => ("springs", None),
+            Self::NeoHookean { bulk, .. } => ("neo-hookean", Some(bulk)),
+            Self::SaintVenantKirchhoff { bulk, .. } => ("saint-venant-kirchhoff", Some(bulk)),
+            Self::MooneyRivlin { bulk, .. } => ("mooney-rivlin", Some(bulk)),
+        };
+        let key = |entry: &str| format!("material.{name}.{entry}");
+        checked.positive(&key("shear"), self.shear())?;
+        bulk.map_or(Ok(()), |bulk| checked.positive(&key("bulk"), bulk))?;
         match *self {
-            Self::Springs { .. } => Ok(()),
-            Self::NeoHookean { bulk, .. } | Self::SaintVenantKirchhoff { bulk, .. } => {
-                checked.positive("material.bulk", bulk)
-            }
-            Self::MooneyRivlin { bulk, fraction, .. } => {
-                checked.positive("material.bulk", bulk)?;
+            Self::MooneyRivlin { fraction, .. } => {
                 let holds = (0.0..=1.0).contains(&fraction);
-                checked.require(holds, "material.fraction", fraction, "give a number from 0 to 1")
+                checked.require(holds, &key("fraction"), fraction, "give a number from 0 to 1")
             }
+            _ => Ok(()),
         }
     }
 }

@@ -34,8 +34,8 @@ pub struct DropletSetup {
     pub area_constraint: bool,
     /// Its shape at the start.
     pub shape: DropletShape,
-    /// The active particles on the interface; `None` for a passive droplet.
-    #[cfg_attr(feature = "serde", serde(default))]
+    /// The active particles on the interface; `None` for a passive droplet, in a file `particles = "none"`.
+    #[cfg_attr(feature = "serde", serde(with = "super::file::particles"))]
     pub particles: Option<Particles>,
 }
 
@@ -43,7 +43,7 @@ impl Default for DropletSetup {
     /// An active droplet of activity -2 and radius 1 in the origin.
     fn default() -> Self {
         Self {
-            name: "droplet".to_owned(),
+            name: Self::NAME.to_owned(),
             centre: [0.0, 0.0],
             angle: 0.0,
             viscosity: None,
@@ -57,6 +57,9 @@ impl Default for DropletSetup {
 }
 
 impl DropletSetup {
+    /// Its name unless it has one of its own.
+    pub(super) const NAME: &str = "droplet";
+
     /// The default droplet with this activity zeta delta-mu (force times length; negative if contractile).
     #[must_use]
     pub fn active(activity: f64) -> Self {
@@ -183,7 +186,7 @@ impl Default for MarkerMotion {
 /// The shape of a droplet at the start, about its centre.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
 pub enum DropletShape {
     /// A circle, squeezed between walls where it has no room: by boundary integrals to an ellipse that leaves a film of a
     /// twentieth of the radius, between elastic walls to a stadium that leaves such a film, with the area and the

@@ -4,8 +4,8 @@ use super::Setup;
 use crate::SetupError;
 
 impl Setup {
-    /// The description in a TOML text. What is left out is as in [`Setup::default`], but droplets that are not named are not
-    /// there.
+    /// The description in a TOML text. What is left out is as in [`Setup::default`] and [`crate::DropletSetup::default`],
+    /// but droplets that are not named are not there. A droplet is active unless it says `particles = "none"`.
     ///
     /// ```
     /// use motile::Setup;
@@ -29,10 +29,49 @@ impl Setup {
     /// The description as a TOML text, all entries written out, from which [`Setup::from_toml`] makes it again.
     ///
     /// # Errors
-    /// A seed above 2^63 - 1, which TOML has no number for.
+    /// None that is known: [`SetupError::File`] with what the writer of TOML says.
     pub fn to_toml(&self) -> Result<String, SetupError> {
         // By way of a table: the serializer of documents would be compiled for every part of the description.
         let table = toml::Table::try_from(self).map_err(|error| SetupError::File { problem: error.to_string() })?;
         Ok(table.to_string())
+    }
+}
+
+/// Particles in a file: a table of their own, or "none".
+pub(super) mod particles {
+    use std::fmt;
+
+    use serde::de::{Error, MapAccess, Unexpected, Visitor, value::MapAccessDeserializer};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use crate::Particles;
+
+    const NONE: &str = "none";
+
+    pub(crate) fn serialize<S: Serializer>(particles: &Option<Particles>, to: S) -> Result<S::Ok, S::Error> {
+        match particles {
+            None => to.serialize_str(NONE),
+            Some(particles) => particles.serialize(to),
+        }
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Particles>, D::Error> {
+        struct Entry;
+        impl<'de> Visitor<'de> for Entry {
+            type Value = Option<Particles>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a table of particles, or \"none\" for a passive droplet")
+            }
+
+            fn visit_str<E: Error>(self, text: &str) -> Result<Self::Value, E> {
+                if text == NONE { Ok(None) } else { Err(E::invalid_value(Unexpected::Str(text), &self)) }
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, table: A) -> Result<Self::Value, A::Error> {
+                Particles::deserialize(MapAccessDeserializer::new(table)).map(Some)
+            }
+        }
+        from.deserialize_any(Entry)
     }
 }

@@ -6,6 +6,7 @@ mod droplet;
 #[cfg(feature = "serde")]
 mod file;
 mod method;
+mod places;
 mod region;
 mod solid;
 

@@ -12,7 +12,6 @@ use crate::SetupError;
 ///
 /// ```
 /// use motile::prelude::*;
-/// use motile::{Axis, Grading};
 ///
 /// // A soft channel of width 2, stiffening along x, in a region of 12 x 5 whose rigid walls hold the outermost rows.
 /// let material = Material::NeoHookean { shear: 200.0, bulk: 400.0 };
@@ -66,13 +65,13 @@ pub struct SolidSetup {
 
 #[cfg(feature = "serde")]
 fn solid_name() -> String {
-    "solid".to_owned()
+    SolidSetup::NAME.to_owned()
 }
 
 /// Outlines of solids, in their reference state.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
 pub enum SolidOutline {
     /// The wall from the lower rigid wall of the region up to the lower side of a channel.
     WallBelow(ChannelShape),
@@ -191,9 +190,10 @@ pub enum Surface {
     /// start in touch with the walls starts squeezed a little, beside a film.
     #[default]
     Corrected,
-    /// Walls are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first order, of a few tenths of
-    /// a grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for long, such as
-    /// the mouth of a constriction, where in time they enter corrected surfaces or invert a triangle of springs.
+    /// Walls, and only they, are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first order, of a
+    /// few tenths of a grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for
+    /// long, such as the mouth of a constriction, where in time they enter corrected surfaces or invert a triangle of
+    /// springs.
     SetBack,
     /// Nothing, as in the thesis.
     Plain,
@@ -229,7 +229,7 @@ impl SolidSetup {
     #[must_use]
     pub fn new(outline: SolidOutline, material: Material) -> Self {
         Self {
-            name: "solid".to_owned(),
+            name: Self::NAME.to_owned(),
             mesh: MeshKind::default(),
             mesh_spacing: None,
             surface: Surface::default(),
@@ -307,32 +307,37 @@ impl SolidSetup {
 }
 
 impl SolidSetup {
+    /// Its name unless it has one of its own.
+    pub(super) const NAME: &str = "solid";
+
     /// The solid of this description in a scene.
     pub(super) fn build(&self, setup: &Setup) -> Result<Solid, SetupError> {
         let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
-        let [period, height] = setup.region.lengths();
-        let mesher = self.mesher(grid)?;
-        let closed = |outline: Outline| mesher.mesh(&Interior::new([outline])?);
+        let enclosed = self.enclosed(&setup.region, self.set_back(grid))?;
+        self.on_mesh(self.mesher(grid)?.mesh(&enclosed)?, &setup.region)
+    }
+
+    /// What it fills, a wall set back by that much (length); islands are as they are.
+    pub(super) fn enclosed(&self, region: &Region, set_back: f64) -> Result<Interior, SetupError> {
+        let [period, height] = region.lengths();
         let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
-        let set_back = self.set_back(grid);
-        // Islands are meshed as they are.
         let channel = |shape: &ChannelShape| {
             let channel = shape.channel(period)?;
             if set_back > 0.0 { channel.widened(2.0 * set_back) } else { Ok(channel) }
         };
-        let mesh = match &self.outline {
-            SolidOutline::WallBelow(shape) => channel(shape)?.lower_wall(-0.5 * height, &mesher)?,
-            SolidOutline::WallAbove(shape) => channel(shape)?.upper_wall(0.5 * height, &mesher)?,
-            SolidOutline::Island { of, number } => of.channel(period)?.island(*number, &mesher)?,
-            &SolidOutline::Disc { centre, radius } => closed(Outline::circle(vector(centre), radius)?)?,
-            &SolidOutline::Ellipse { centre, half_axes } => closed(Outline::ellipse(vector(centre), half_axes)?)?,
+        let closed = match &self.outline {
+            SolidOutline::WallBelow(shape) => return Ok(channel(shape)?.below(-0.5 * height)?),
+            SolidOutline::WallAbove(shape) => return Ok(channel(shape)?.above(0.5 * height)?),
+            SolidOutline::Island { of, number } => of.channel(period)?.island(*number)?.clone(),
+            &SolidOutline::Disc { centre, radius } => Outline::circle(vector(centre), radius)?,
+            &SolidOutline::Ellipse { centre, half_axes } => Outline::ellipse(vector(centre), half_axes)?,
             SolidOutline::Polygon { corners, fillet } => {
                 let corners: Vec<Vec2> = corners.iter().copied().map(vector).collect();
                 let outline = Outline::polygon(&corners)?;
-                closed(if *fillet > 0.0 { outline.filleted(*fillet)? } else { outline })?
+                if *fillet > 0.0 { outline.filleted(*fillet)? } else { outline }
             }
         };
-        self.on_mesh(mesh, &setup.region)
+        Ok(Interior::new([closed])?)
     }
 
     /// The solid on a mesh, at rest and not held.

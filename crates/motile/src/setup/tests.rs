@@ -4,7 +4,6 @@ use stokes_grid::Drive;
 
 use super::*;
 use crate::ChannelShape;
-use crate::SetupError;
 
 fn channel(width: f64) -> Region {
     Region::Channel { length: 6.0, width, drive: Drive::ZeroGradient }
@@ -23,10 +22,8 @@ fn elastic(width: f64, surface: Surface) -> Setup {
 /// Key, value and remedy of what is wrong.
 fn refused(setup: &Setup) -> String {
     match setup.build() {
-        Err(error @ (SetupError::Value { .. } | SetupError::NoRoom { .. } | SetupError::Overlap { .. })) => {
-            error.to_string()
-        }
-        other => panic!("{setup:?}: {other:?}"),
+        Err(error) => error.to_string(),
+        Ok(built) => panic!("{setup:?}: {built:?}"),
     }
 }
 
@@ -39,7 +36,7 @@ fn what_makes_no_scene_is_refused_with_its_key() {
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         let cases = [
             ("viscosity =", Setup { viscosity: bad, ..Setup::default() }),
-            ("region.box.lengths =", Setup { region: Region::Box { lengths: [6.0, bad] }, ..Setup::default() }),
+            ("region.box.lengths[1] =", Setup { region: Region::Box { lengths: [6.0, bad] }, ..Setup::default() }),
             ("region.channel.width =", Setup { region: channel(bad), ..Setup::default() }),
             ("step.fixed =", Setup { step: StepSize::Fixed(bad), ..Setup::default() }),
             ("step.of-limit =", Setup { step: StepSize::OfLimit(bad), ..Setup::default() }),
@@ -54,7 +51,7 @@ fn what_makes_no_scene_is_refused_with_its_key() {
             }),
             ("droplets[0].particles.diffusion =", with(Particles { diffusion: bad, ..Particles::default() })),
             ("droplets[0].particles.concentration =", with(Particles { concentration: bad, ..Particles::default() })),
-            ("droplets[0].particles.excluded-volume =", {
+            ("droplets[0].particles.excluded-volume.step =", {
                 with(Particles { excluded_volume: Exclusion::Step(bad), ..Particles::default() })
             }),
         ];
@@ -78,10 +75,10 @@ fn what_makes_no_scene_is_refused_with_its_key() {
             Setup { droplets: vec![contrast], ..grid(GridMethod { contrast: Contrast::Arithmetic, ..coarse }) }
         }),
         ("repulsion", Setup { repulsion: Some(RepulsionSetup { strength: 1.0, range: 0.1 }), ..Setup::default() }),
-        ("a region of 1.9 x 6 does not hold droplet", {
+        ("droplets[0]: a region of 1.9 x 6 does not hold it: move it", {
             Setup { region: Region::Box { lengths: [1.9, 6.0] }, ..Setup::default() }
         }),
-        ("a region of 6 x 3 does not hold droplet", {
+        ("droplets[0]: a region of 6 x 3 does not hold it: move it", {
             let off = DropletSetup { centre: [0.0, 1.45], ..DropletSetup::default() };
             Setup { region: channel(3.0), droplets: vec![off], ..Setup::default() }
         }),
@@ -95,18 +92,23 @@ fn what_makes_no_scene_is_refused_with_its_key() {
 fn solids_that_make_no_scene_are_refused() {
     let base = elastic(3.0, Surface::Corrected);
     let wall = base.solids[0].clone();
+    let set_back = SolidSetup { surface: Surface::SetBack, ..disc(0.0, 0.0, 0.3) };
     let disc = SolidOutline::Disc { centre: [0.0, 0.0], radius: 0.3 };
     let along = |factors: Vec<[f64; 2]>| Grading::Along { axis: Axis::X, factors };
     let cases = [
-        ("solids[0].material.shear = -1", SolidSetup { material: Material::Springs { shear: -1.0 }, ..wall.clone() }),
-        ("solids[0].material.bulk = NaN", {
+        (
+            "solids[0].material.springs.shear = -1",
+            SolidSetup { material: Material::Springs { shear: -1.0 }, ..wall.clone() },
+        ),
+        ("solids[0].material.neo-hookean.bulk = NaN", {
             SolidSetup { material: Material::NeoHookean { shear: 1.0, bulk: f64::NAN }, ..wall.clone() }
         }),
         ("solids[0].mesh-spacing = 0", SolidSetup { mesh_spacing: Some(0.0), ..wall.clone() }),
-        ("solids[0].outline.width", SolidSetup { mesh_spacing: Some(1e-9), ..wall.clone() }),
-        ("solids[0].outline.width = 5", {
+        ("solids[0].outline.wall-below.straight.width", SolidSetup { mesh_spacing: Some(1e-9), ..wall.clone() }),
+        ("solids[0].outline.wall-below.straight.width = 5", {
             SolidSetup { outline: SolidOutline::WallBelow(ChannelShape::Straight { width: 5.0 }), ..wall.clone() }
         }),
+        ("solids[0].surface = set-back: only walls are set back", set_back),
         ("solids[0].hold = pinned", SolidSetup { outline: disc, ..wall.clone() }),
         (
             "solids[0].hold.tethered.stiffness = 0",
@@ -120,6 +122,101 @@ fn solids_that_make_no_scene_are_refused() {
     for (start, solid) in cases {
         let setup = Setup { solids: vec![solid], ..base.clone() };
         assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
+    }
+}
+
+/// A disc that is not held.
+fn disc(x: f64, y: f64, radius: f64) -> SolidSetup {
+    let material = Material::Springs { shear: 100.0 };
+    SolidSetup { hold: Hold::Free, ..SolidSetup::new(SolidOutline::Disc { centre: [x, y], radius }, material) }
+}
+
+#[test]
+fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
+    let grid = Method::Grid(GridMethod::of_spacing(0.1));
+    let round = |x: f64, radius: f64, viscosity| DropletSetup {
+        centre: [x, 0.0],
+        shape: DropletShape::Round { radius },
+        viscosity,
+        ..DropletSetup::default()
+    };
+    let scene = |method, droplets: Vec<_>, solids| Setup { method, droplets, solids, ..Setup::default() };
+    let only = |solids| Setup { region: channel(6.0), ..scene(grid, Vec::new(), solids) };
+    for method in [grid, Method::default()] {
+        let pair = |x: f64, radius: f64, viscosity| {
+            scene(method, vec![round(0.0, 1.0, viscosity), round(x, radius, None)], Vec::new())
+        };
+        // At one place, through periods too; nearly so; crossing; crossing over the edge.
+        for (x, depth) in [(0.0, ""), (6.0, ""), (1e-4, ""), (1.5, " by 5."), (4.5, " by 5.")] {
+            let (said, start) = (refused(&pair(x, 1.0, None)), format!("droplets[1] overlaps droplets[0]{depth}"));
+            assert!(said.starts_with(&start) && said.contains("move them apart"), "{x}: {said}");
+        }
+        let nested = refused(&pair(0.2, 0.5, Some(50.0)));
+        let start = "droplets[1] lies inside droplets[0], whose fluid has the viscosity 50 where the exterior has 100";
+        assert!(nested.starts_with(start), "{nested}");
+        assert!(pair(0.2, 0.5, None).build().is_ok() && pair(2.2, 1.0, Some(50.0)).build().is_ok());
+    }
+    let named = |name: &str, solid: SolidSetup| SolidSetup { name: name.to_owned(), ..solid };
+    let mut walls = elastic(3.0, Surface::Plain).solids;
+    let material = Material::Springs { shear: 10.0 };
+    let long = SolidOutline::Ellipse { centre: [0.0, 0.0], half_axes: [4.0, 0.5] };
+    let cases = [
+        ("solids[1] overlaps solids[0] by", only(vec![disc(0.0, 0.0, 1.0), disc(0.0, 0.0, 1.0)])),
+        ("solids[1] overlaps solids[0] by", only(vec![disc(0.0, 0.0, 0.5), disc(5.2, 0.0, 0.5)])),
+        ("solids[1] (lower wall) overlaps solids[0] (lower wall) by", only(vec![walls[0].clone(), walls[0].clone()])),
+        ("solids[1] (disc) overlaps solids[0] (lower wall) by", {
+            only(vec![walls.remove(0), named("disc", disc(1.0, -1.4, 1.0))])
+        }),
+        ("solids[0]: a region of 6 x 6 does not hold it", scene(grid, Vec::new(), vec![disc(0.0, 0.0, 3.2)])),
+        ("solids[0]: a region of 6 x 6 does not hold it", {
+            only(vec![SolidSetup { hold: Hold::Free, ..SolidSetup::new(long, material) }])
+        }),
+        ("solids[0]: a region of 6 x 6 does not hold it", only(vec![disc(0.0, 2.7, 0.5)])),
+        ("solids[0] overlaps droplets[0] by", scene(grid, vec![round(0.0, 1.0, None)], vec![disc(1.2, 0.0, 0.5)])),
+        ("solids[0] overlaps droplets[0] by", scene(grid, vec![round(0.0, 0.5, None)], vec![disc(0.0, 0.0, 2.0)])),
+        ("solids[0] overlaps droplets[0] by", scene(grid, vec![round(3.0, 1.0, None)], vec![disc(-3.0, 0.5, 0.8)])),
+    ];
+    for (start, setup) in cases {
+        assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
+    }
+    // A nucleus is where it may be.
+    assert!(scene(grid, vec![round(0.0, 1.0, Some(50.0))], vec![disc(0.1, 0.0, 0.5)]).build().is_ok());
+}
+
+#[test]
+fn messages_name_the_entry_and_short_numbers() {
+    let modes = DropletShape::Modes { radius: 1.0, cosines: vec![0.0, 1.25], sines: Vec::new() };
+    let bent = Setup { droplets: vec![DropletSetup { shape: modes, ..DropletSetup::default() }], ..Setup::default() };
+    assert!(
+        refused(&bent).starts_with("droplets[0]: the radius is -5.721e-4 at the polar angle"),
+        "{}",
+        refused(&bent)
+    );
+    let base = elastic(3.0, Surface::Plain);
+    let island = SolidOutline::Island { of: ChannelShape::Straight { width: 3.0 }, number: 3 };
+    let crossing =
+        SolidOutline::WallBelow(ChannelShape::Sinusoidal { width: 2.0, amplitude: 1.2, waves: 2, phase: 0.0 });
+    let thin = SolidOutline::Disc { centre: [2.0, 0.0], radius: 0.01 };
+    let of = |outline| {
+        let hold = if matches!(outline, SolidOutline::WallBelow(_)) { Hold::Pinned } else { Hold::Free };
+        Setup {
+            solids: vec![SolidSetup { outline, hold, ..base.solids[0].clone() }],
+            droplets: Vec::new(),
+            ..base.clone()
+        }
+    };
+    for (start, setup) in [
+        ("solids[0].outline.island.number = 3: a straight channel has 0", of(island)),
+        ("solids[0] (lower wall): outlines cross or touch near (", of(crossing)),
+        ("solids[0] (lower wall): the solid at (2.01", of(thin)),
+        ("region.channel.drive.gradient = NaN", {
+            let region = Region::Channel { length: 6.0, width: 3.0, drive: Drive::Gradient(f64::NAN) };
+            Setup { region, ..Setup::default() }
+        }),
+    ] {
+        let said = refused(&setup);
+        let long = said.split(|c: char| !(c.is_ascii_digit() || c == '.')).any(|number| number.len() > 7);
+        assert!(said.starts_with(start) && !long, "{start}: {said}");
     }
 }
 
@@ -165,6 +262,24 @@ fn round_droplets_are_squeezed_where_they_have_no_room() {
         // The area of the circle, but for what a polygon of 128 and more corners misses.
         assert!((area / std::f64::consts::PI - 1.0).abs() < 1e-3, "{area}");
     }
+}
+
+#[test]
+fn a_misplaced_droplet_is_refused_and_not_squeezed() {
+    let at = |width: f64, y: f64| Setup {
+        region: channel(width),
+        droplets: vec![DropletSetup { centre: [0.0, y], ..DropletSetup::default() }],
+        ..Setup::default()
+    };
+    for y in [0.7, -0.9, 1.2] {
+        assert!(refused(&at(3.0, y)).starts_with("droplets[0]: a region of 6 x 3 does not hold it"), "{y}");
+        let mut elastic = Setup { droplets: at(3.0, y).droplets, ..elastic(3.0, Surface::Corrected) };
+        assert!(refused(&elastic).contains(" overlaps droplets[0] by"), "{y}: {}", refused(&elastic));
+        elastic.solids.clear();
+        assert!(elastic.build().is_ok());
+    }
+    // Where no place has room for the circle it is squeezed wherever it is.
+    assert!(at(2.0, 0.3).build().is_ok() && at(3.0, 0.5).build().is_ok());
 }
 
 #[test]
@@ -229,7 +344,7 @@ mod file {
         setup.droplets.push(DropletSetup { centre: [12.0, 0.0], ..DropletSetup::passive(3.0) });
         setup.droplets[1].particles = Some(Particles {
             excluded_volume: Exclusion::Quadratic(0.1),
-            start: Start::Perturbed { amplitude: 0.05, seed: 7 },
+            start: Start::Perturbed { amplitude: 0.05, seed: u64::MAX },
             ..Particles::default()
         });
         let graded = Grading::Along { axis: Axis::X, factors: vec![[0.0, 1.0], [3.0, 2.0]] };
@@ -248,7 +363,8 @@ mod file {
 
     #[test]
     fn what_is_written_is_read() {
-        for setup in [Setup::default(), Setup::thesis(), elastic(2.0, Surface::Plain), varied()] {
+        let passive = Setup { droplets: vec![DropletSetup::passive(3.0)], ..Setup::default() };
+        for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, Surface::Plain), varied()] {
             let text = setup.to_toml().unwrap();
             assert_eq!(Setup::from_toml(&text).unwrap(), setup, "{text}");
         }
@@ -259,8 +375,17 @@ mod file {
         let text = "[[droplets]]\n[droplets.particles]\n";
         assert_eq!(Setup::from_toml(text).unwrap(), Setup::default());
         assert_eq!(Setup::from_toml("").unwrap(), Setup { droplets: Vec::new(), ..Setup::default() });
-        let passive = Setup::from_toml("[[droplets]]\ntension = 3.0\n").unwrap();
+        let active = Setup::from_toml("[[droplets]]\ntension = 3.0\n").unwrap();
+        assert_eq!(active.droplets, [DropletSetup { tension: 3.0, ..DropletSetup::default() }]);
+        let passive = Setup::from_toml("[[droplets]]\ntension = 3.0\nparticles = \"none\"\n").unwrap();
         assert_eq!(passive.droplets, [DropletSetup::passive(3.0)]);
+        let constriction = "{ width = 3.0, throat = 1.0, throat-length = 2.0, ramp = 1.0 }";
+        let text = format!(
+            "region.channel = {{ length = 12.0, width = 5.0 }}\nmethod.grid = {{}}\n[[solids]]\n\
+             outline.wall-below.constriction = {constriction}\nmaterial.springs.shear = 10.0"
+        );
+        let shape = ChannelShape::Constriction { width: 3.0, throat: 1.0, throat_length: 2.0, ramp: 1.0, centre: 0.0 };
+        assert_eq!(Setup::from_toml(&text).unwrap().solids[0].outline, SolidOutline::WallBelow(shape));
     }
 
     #[test]
@@ -268,6 +393,11 @@ mod file {
         for (text, parts) in [
             ("viscosty = 3.0", &["line 1", "unknown field `viscosty`", "`viscosity`"][..]),
             ("[[droplets]]\nparticles.activty = -1.0", &["line 2", "unknown field `activty`"]),
+            ("[[droplets]]\nparticles = \"nothing\"", &["line 2", "\"none\" for a passive droplet"]),
+            (
+                "[[droplets]]\nshape.ellipse.half_axes = [1.0, 1.0]",
+                &["line 2", "half_axes", "available keys: half-axes"],
+            ),
             ("[method.grid]\nspacing = \"fine\"", &["line 2", "spacing"]),
             ("[region.pipe]\nlength = 3.0", &["unknown variant `pipe`", "channel"]),
             ("[region.channel]\nlength = 3.0", &["missing field `width`"]),

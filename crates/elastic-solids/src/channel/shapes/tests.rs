@@ -122,11 +122,8 @@ fn a_channel_that_branches_around_an_island() {
     let mesher = Mesher::new(0.08).unwrap();
     assert_eq!(channel.lower_wall(-3.0, &mesher).unwrap(), walls.lower);
     assert_eq!(channel.upper_wall(3.0, &mesher).unwrap(), walls.upper);
-    assert_eq!(channel.island(0, &mesher).unwrap(), walls.islands[0]);
-    assert!(matches!(
-        channel.island(1, &mesher),
-        Err(SolidError::Input(InputError::TooFew { found: 1, minimum: 2, .. }))
-    ));
+    assert_eq!(channel.island(0).unwrap().mesh(0.08).unwrap(), walls.islands[0]);
+    assert!(matches!(channel.island(1), Err(SolidError::NoSuchIsland { number: 1, found: 1 })));
 }
 
 #[test]

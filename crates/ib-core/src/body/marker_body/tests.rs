@@ -16,6 +16,7 @@ fn tethered(count: usize, radius: f64) -> MarkerBody {
         }
     })
     .with_stiffness(3.0)
+    .unwrap()
 }
 
 #[test]
@@ -47,4 +48,17 @@ fn moves_as_it_is_told() {
     assert!((place - Vec2::new(1.0_f64.cos(), 1.0_f64.sin())).length() < 1e-4, "{place}");
     scene.body_mut(handle).unwrap().positions_mut()[0].x = f64::NAN;
     assert!(scene.step(0.01).is_err());
+}
+
+#[test]
+fn what_is_no_stiffness_and_no_force_is_refused_by_name() {
+    for bad in [-3.0, f64::NAN, f64::INFINITY] {
+        let refused = tethered(1, 0.0).with_stiffness(bad).unwrap_err().to_string();
+        assert!(refused.starts_with("the stiffness is "), "{refused}");
+    }
+    let mut scene = scene();
+    scene.add(tethered(3, 0.2));
+    scene.add(MarkerBody::new("bead", vec![Vec2::ZERO], |_, forces| forces[0].y = f64::NAN));
+    let error = scene.run(0.1).go().unwrap_err().explanation();
+    assert_eq!(error, "at time 0 bead went wrong: entry 0 of the forces is NaN: all entries must be finite");
 }

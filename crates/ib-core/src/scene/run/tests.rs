@@ -43,7 +43,7 @@ fn times<I: Integrator>(scene: &mut Scene<Flow, I>, until: f64, step: StepSize, 
 fn reports_are_exact_or_after_a_step() {
     for step in [StepSize::Fixed(0.7), StepSize::OfLimit(0.5), StepSize::Adaptive { tolerance: 1e-3 }] {
         let mut scene = empty();
-        scene.add(drawn().with_stiffness(1.5));
+        scene.add(drawn().with_stiffness(1.5).unwrap());
         let every = [Every::Time(2.0), Every::StepAfter(2.0), Every::Time(0.9)];
         let seen = times(&mut scene, 6.5, step, &every);
         assert_eq!(seen[0], [0.0, 2.0, 4.0, 6.0, 6.5]);
@@ -116,7 +116,7 @@ fn a_run_needs_a_bound_on_its_steps() {
     }
     // A bound that a body states, and a scene in which nothing moves.
     let mut scene = empty();
-    let point = scene.add(drawn().with_stiffness(100.0));
+    let point = scene.add(drawn().with_stiffness(100.0).unwrap());
     scene.run(1.0).go().unwrap();
     assert!(scene.body(point).unwrap().positions()[0].length() < 1e-3);
     let mut scene = empty();
@@ -150,7 +150,7 @@ impl Integrator for Euler {
 #[test]
 fn adaptive_steps_need_an_estimate_of_errors() {
     let mut scene = empty().advanced_by(Euler);
-    let point = scene.add(drawn().with_stiffness(100.0));
+    let point = scene.add(drawn().with_stiffness(100.0).unwrap());
     let adaptive = StepSize::Adaptive { tolerance: 1e-4 };
     let error = scene.run(1.0).step_size(adaptive).go().unwrap_err();
     assert!(matches!(error, SceneError::NoErrorEstimate { integrator: "Euler's method" }), "{error}");

@@ -1,12 +1,9 @@
 //! How near the bodies come to one another and to walls.
 
 use super::System;
-use crate::gap::{Gap, Outline, wall_gap};
-use crate::{Body, Handle, Hydrodynamics, Medium, Repulsion, SceneError, Warning};
+use crate::gap::{Boundary, Conflict, Gap, Gaps, Outline, wall_gap};
+use crate::{Body, Handle, Hydrodynamics, Medium, Repulsion, SceneError, Vec2, Warning};
 
-/// How deep a marker may be inside another body, in grid spacings: films that drain at rest come to this by the
-/// round-off of a grid.
-const CONTACT: f64 = 0.25;
 /// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
 /// neighbouring nodes of an interface where there is no grid.
 const RESOLVED_CELLS: f64 = 1.0;
@@ -48,20 +45,20 @@ impl<H: Hydrodynamics> System<H> {
         self.minimum_wall_gap
     }
 
-    /// The smallest gap between two interfaces, or one and its own image in a periodic domain, since the start
-    /// (length), where it was small enough to be looked for; negative where they overlap.
+    /// The smallest gap between an interface and another body, or between an interface and its own image in a periodic
+    /// domain (length): of the present state, and of the states at the ends of steps where it was so narrow that a step
+    /// looks for it, below four grid spacings (without a grid four times the distance of markers). Negative where
+    /// bodies overlap; `None` where there is no such gap. Needs no evaluation, but memory and time.
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
-        self.minimum_gap
+        let gaps = Gaps::of(self.bodies.iter().map(|body| (Boundary::of(body.as_ref()), body.kind())));
+        let present = gaps.narrowest(&self.hydrodynamics.medium().domain, f64::INFINITY).map(|gap| gap.width);
+        [self.minimum_gap, present].into_iter().flatten().reduce(f64::min)
     }
 
-    /// The length that contacts are measured in: the grid spacing, and without a grid the largest distance of
-    /// neighbouring markers of an interface (length).
-    fn contact_scale(&self) -> f64 {
-        let groups = self.markers.groups().iter().filter(|group| group.kind.is_interface());
-        let distances = groups.flat_map(|group| self.markers.positions[group.range.clone()].windows(2));
-        let finest = || distances.map(|pair| (pair[1] - pair[0]).length()).fold(0.0, f64::max);
-        self.hydrodynamics.medium().spacing.unwrap_or_else(finest)
+    /// The same over the states that steps have looked at alone.
+    pub(crate) fn narrowest_so_far(&self) -> Option<f64> {
+        self.minimum_gap
     }
 
     /// What a user should know of the present state, though a run can go on from it: what the bodies warn of, and films
@@ -69,8 +66,7 @@ impl<H: Hydrodynamics> System<H> {
     pub fn warnings(&mut self) -> Vec<Warning> {
         let medium = self.hydrodynamics.medium();
         let mut warnings: Vec<Warning> = self.bodies.iter().flat_map(|body| body.warnings(&medium)).collect();
-        let name = |index: usize| self.bodies[index].name().to_owned();
-        let between = self.narrowest.map(|gap| (gap.width, name(gap.body), name(gap.other)));
+        let between = self.narrowest.map(|gap| (gap.width, self.name_of(gap.body), self.name_of(gap.other)));
         let walls = self.wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
         let resolved = self.resolved_film();
         for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
@@ -114,18 +110,19 @@ impl<H: Hydrodynamics> System<H> {
             return Ok(());
         }
         let (time, allowed) = (self.time, self.find_gaps()?);
-        let name = |index: usize| self.bodies[index].name().to_owned();
-        if let Some(Gap { body, marker, other, width }) = self.narrowest.filter(|gap| gap.width < -allowed) {
-            let place = self.markers.positions[self.markers.groups()[body].range.start + marker];
-            let (body, other, [x, y]) = (name(body), name(other), [place.x, place.y]);
-            return Err(SceneError::Overlap { time, body, x, y, other, depth: -width, allowed });
+        let overlap = |body: usize, other: usize, place: Vec2, depth: f64| {
+            let ([body, other], [x, y]) = ([body, other].map(|index| self.name_of(index)), place.into());
+            Err(SceneError::Overlap { time, body, x, y, other, depth, allowed })
+        };
+        if let Some(Gap { body, place, other, width }) = self.narrowest.filter(|gap| gap.width < -allowed) {
+            return overlap(body, other, place, -width);
         }
-        let periods = self.hydrodynamics.medium().domain.periods;
-        let solids = self.gaps.deepest_overlap(&self.markers, periods);
-        if let Some((body, other, place, depth)) = solids.filter(|(.., depth)| *depth > allowed) {
-            let (body, other, [x, y]) = (name(body), name(other), [place.x, place.y]);
-            return Err(SceneError::Overlap { time, body, x, y, other, depth, allowed });
+        if let Some(Conflict::Overlap { body, other, place, depth, .. }) =
+            self.gaps.conflict(&self.hydrodynamics.medium())
+        {
+            return overlap(body, other, place, depth);
         }
+        self.record_gap();
         self.apart = true;
         Ok(())
     }
@@ -135,15 +132,15 @@ impl<H: Hydrodynamics> System<H> {
     pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
         let any = self.bodies.iter().any(|body| body.kind().is_interface());
         let (time, allowed) = (self.time, if any { self.find_gaps()? } else { 0.0 });
-        let name = |index: usize| self.bodies[index].name().to_owned();
-        if let Some(Gap { body, marker, other, width }) = self.narrowest {
+        if let Some(Gap { body, place, other, width }) = self.narrowest {
+            let names = || [body, other].map(|index| self.name_of(index));
             if width < -allowed {
-                let place = self.markers.positions[self.markers.groups()[body].range.start + marker];
-                let (body, other, [x, y]) = (name(body), name(other), [place.x, place.y]);
-                return Err(SceneError::Crossing { time, body, marker, x, y, other, depth: -width, allowed });
+                let ([body, other], [x, y]) = (names(), place.into());
+                return Err(SceneError::Crossing { time, body, x, y, other, depth: -width, allowed });
             }
             if let Some(bound) = self.least_gap.filter(|&bound| width < bound) {
-                return Err(SceneError::Gap { time, body: name(body), other: name(other), gap: width, bound });
+                let [body, other] = names();
+                return Err(SceneError::Gap { time, body, other, gap: width, bound });
             }
         }
         if let Some(bound) = self.least_gap
@@ -156,32 +153,32 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// Finds the narrowest gap of the present state and refuses nested interfaces; how deep a marker may be inside
-    /// another body (length).
+    /// Finds the narrowest gap of the present state and refuses nested interfaces; how deep a body may be inside another
+    /// one (length).
     fn find_gaps(&mut self) -> Result<f64, SceneError> {
         self.place_markers();
-        let Medium { domain, viscosity, .. } = self.hydrodynamics.medium();
+        let medium = self.hydrodynamics.medium();
         self.gaps.update(&self.bodies, &self.markers);
-        self.check_nesting(domain.periods, viscosity)?;
-        let scale = self.contact_scale();
-        self.narrowest = self.gaps.narrowest(&self.markers, &domain, scale);
-        Ok(CONTACT * scale)
+        if let Some(Conflict::Nested { inner, outer, interior, exterior }) = self.gaps.nested(&medium) {
+            let [inner, outer] = [inner, outer].map(|index| self.name_of(index));
+            return Err(SceneError::NestedInterfaces { time: self.time, inner, outer, interior, exterior });
+        }
+        self.narrowest = self.gaps.narrowest_near(&medium);
+        Ok(self.gaps.allowed(&medium))
     }
 
-    /// Refuses an interface inside another one whose fluid has a viscosity of its own: the jumps of viscosity would be
-    /// taken against the exterior fluid.
-    fn check_nesting(&self, periods: [Option<f64>; 2], exterior: f64) -> Result<(), SceneError> {
-        for (outer, group) in self.markers.groups().iter().enumerate() {
-            let Some(interior) = group.kind.viscosity_inside().filter(|interior| *interior != exterior) else {
-                continue;
-            };
-            let inside = |inner: &usize| self.gaps.is_nested(&self.markers, *inner, outer, periods);
-            if let Some(inner) = (0..self.bodies.len()).find(inside) {
-                let [inner, outer] = [inner, outer].map(|index| self.bodies[index].name().to_owned());
-                return Err(SceneError::NestedInterfaces { time: self.time, inner, outer, interior, exterior });
-            }
+    /// Takes the gap that was found last into the smallest one.
+    pub(super) fn record_gap(&mut self) {
+        if let Some(Gap { width, .. }) = self.narrowest {
+            self.minimum_gap = Some(self.minimum_gap.map_or(width, |least| least.min(width)));
         }
-        Ok(())
+    }
+
+    /// The name of a body, with its number where another one has the same.
+    pub(super) fn name_of(&self, index: usize) -> String {
+        let name = self.bodies[index].name();
+        let shared = self.bodies.iter().filter(|body| body.name() == name).count() > 1;
+        if shared { format!("{name} (body {index})") } else { name.to_owned() }
     }
 
     pub(super) fn record_wall_gap(&mut self) {

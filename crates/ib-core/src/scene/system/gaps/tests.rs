@@ -255,3 +255,42 @@ fn the_bound_of_the_repulsion_is_that_of_its_decay() {
     let rate = (near - far) / 0.01;
     assert!((0.06..0.12).contains(&(rate * limit / 2.0)), "{rate} {limit}");
 }
+
+#[test]
+fn the_minimum_gap_is_at_most_the_present_one() {
+    // A sharp corner between two markers of a cell, seen from the corner alone.
+    let mut scene = scene();
+    let cell = scene.add(ring("cell", Vec2::ZERO, 1.0, None, Vec2::ZERO));
+    let tip = [(0.93, 0.04), (0.3, 0.4), (0.3, -0.3)].map(|(x, y)| Vec2::new(x, y));
+    let nucleus = scene.add(Disc(tip.to_vec()));
+    scene.run(0.1).go().unwrap();
+    let present = scene.system().gap(cell, nucleus).unwrap().unwrap();
+    assert!(present < 0.08 && scene.system().minimum_gap().unwrap() <= present);
+    // Also where nothing looks for it: here far, then nearer than ever, then far again.
+    let mut far = self::scene();
+    let left = far.add(ring("left", Vec2::new(-0.8, 0.0), 0.3, None, Vec2::new(0.1, 0.0)));
+    let right = far.add(ring("right", Vec2::new(0.8, 0.0), 0.3, None, Vec2::ZERO));
+    for until in [0.0, 1.0, 2.0] {
+        far.run(until).go().unwrap();
+        let present = far.system().gap(left, right).unwrap().unwrap();
+        assert!((present - (1.0 - 0.1 * until)).abs() < 5e-3, "{present}");
+        assert_eq!(far.system().minimum_gap(), Some(present));
+    }
+    // The start counts too.
+    let mut parting = self::scene();
+    parting.add(ring("left", Vec2::new(-0.4, 0.0), 0.3, None, Vec2::new(-0.5, 0.0)));
+    parting.add(ring("right", Vec2::new(0.4, 0.0), 0.3, None, Vec2::ZERO));
+    parting.run(0.5).go().unwrap();
+    assert!((parting.system().minimum_gap().unwrap() - 0.2).abs() < 5e-3);
+}
+
+#[test]
+fn bodies_of_the_same_name_are_told_apart() {
+    let mut scene = scene();
+    scene.add(Disc(circle(Vec2::ZERO, 0.5)));
+    scene.add(Disc(circle(Vec2::ZERO, 0.5)));
+    let error = scene.run(0.1).go().unwrap_err();
+    let SceneError::Overlap { body, other, depth, .. } = &error else { panic!("{error}") };
+    assert_eq!((body.as_str(), other.as_str()), ("disc (body 1)", "disc (body 0)"));
+    assert!((depth - 0.5).abs() < 0.02, "{depth}");
+}

@@ -1,0 +1,157 @@
+//! Bodies that lie in one another before anything is computed for them.
+
+use super::boundary::Frame;
+use super::{Boundary, Gaps};
+use crate::{Medium, Vec2};
+
+/// How deep a body may be inside another one, in grid spacings: films that drain at rest come to this by the round-off
+/// of a grid.
+const CONTACT: f64 = 0.25;
+/// Sides of a body, and depths below each over the size of the body, from which its inside is looked at.
+const SIDES: usize = 16;
+const DEPTHS: [f64; 4] = [0.5, 0.25, 0.125, 0.0625];
+
+/// Two bodies, by their numbers, that cannot lie as they do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Conflict {
+    /// They have more in common than contact allows.
+    Overlap {
+        /// The later one.
+        body: usize,
+        /// The earlier one.
+        other: usize,
+        /// Where it is deepest (length).
+        place: Vec2,
+        /// How deep (length).
+        depth: f64,
+        /// What is allowed (length).
+        allowed: f64,
+    },
+    /// An interface lies inside another one whose fluid has a viscosity of its own, which is not solved: the jumps of
+    /// viscosity would be taken against the exterior fluid.
+    Nested {
+        /// The interface inside.
+        inner: usize,
+        /// The one around it.
+        outer: usize,
+        /// Viscosity of the fluid inside the outer one (stress times time).
+        interior: f64,
+        /// Viscosity of the exterior fluid (stress times time).
+        exterior: f64,
+    },
+}
+
+impl Gaps {
+    /// The first two bodies that cannot lie as they do; images of one and the same body are not looked at.
+    ///
+    /// ```
+    /// use ib_core::gap::{Boundary, Conflict, Gaps};
+    /// use ib_core::{Domain, MarkerKind, Medium, Vec2};
+    ///
+    /// let square = |x: f64| {
+    ///     let mut square = Boundary::default();
+    ///     square.push_loop(&[(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0), (x, 1.0)].map(|(x, y)| Vec2::new(x, y)));
+    ///     (square, MarkerKind::Points)
+    /// };
+    /// let domain = Domain { origin: [0.0; 2], periods: [Some(6.0), None], walls: None };
+    /// let medium = Medium {
+    ///     domain, viscosity: 1.0, spacing: Some(0.1), shape_modes: None, interface_stiffness: 1.0, mobility_deficit: None,
+    /// };
+    /// assert_eq!(Gaps::of([square(0.0), square(2.0)]).conflict(&medium), None);
+    /// // the image of the third overlaps the first
+    /// let Some(Conflict::Overlap { body, other, depth, .. }) =
+    ///     Gaps::of([square(0.0), square(2.0), square(5.5)]).conflict(&medium)
+    /// else {
+    ///     panic!()
+    /// };
+    /// assert_eq!((body, other, depth), (2, 0, 0.25));
+    /// ```
+    #[must_use]
+    pub fn conflict(&self, medium: &Medium) -> Option<Conflict> {
+        let periods = medium.domain.periods;
+        let allowed = self.allowed(medium);
+        let pairs = (0..self.boundaries.len()).flat_map(|body| (0..body).map(move |other| [body, other]));
+        let mut overlaps = pairs.filter_map(|[body, other]| {
+            let (place, depth) = self.overlap(body, other, periods, allowed).filter(|(_, depth)| *depth > allowed)?;
+            Some(Conflict::Overlap { body, other, place, depth, allowed })
+        });
+        self.nested(medium).or_else(|| overlaps.next())
+    }
+
+    /// How deep a body may be inside another one (length).
+    pub(crate) fn allowed(&self, medium: &Medium) -> f64 {
+        CONTACT * self.contact_scale(medium)
+    }
+
+    /// The length that contacts are measured in: the grid spacing, and without a grid the longest side of an interface
+    /// (length).
+    pub(crate) fn contact_scale(&self, medium: &Medium) -> f64 {
+        let interfaces = self.boundaries.iter().zip(&self.kinds).filter(|(_, kind)| kind.is_interface());
+        medium.spacing.unwrap_or_else(|| interfaces.map(|(boundary, _)| boundary.longest_side()).fold(0.0, f64::max))
+    }
+
+    /// An interface inside another one whose fluid has a viscosity of its own.
+    pub(crate) fn nested(&self, medium: &Medium) -> Option<Conflict> {
+        let exterior = medium.viscosity;
+        self.kinds.iter().enumerate().find_map(|(outer, kind)| {
+            let interior = kind.viscosity_inside().filter(|interior| *interior != exterior)?;
+            let inside =
+                |inner: &usize| self.kinds[*inner].is_interface() && self.lies_in(*inner, outer, medium.domain.periods);
+            (0..self.kinds.len()).find(inside).map(|inner| Conflict::Nested { inner, outer, interior, exterior })
+        })
+    }
+
+    /// The deepest place that two bodies have in common, and how deep it is in both (length); for what lies inside an
+    /// interface, the place where it reaches out furthest.
+    fn overlap(&self, a: usize, b: usize, periods: [Option<f64>; 2], film: f64) -> Option<(Vec2, f64)> {
+        let [first, second] = [&self.boundaries[a], &self.boundaries[b]];
+        if !first.frame()?.is_near(&second.frame()?, periods, 0.0) {
+            return None;
+        }
+        let deepest = |places: &mut dyn Iterator<Item = (Vec2, f64)>| places.max_by(|a, b| a.1.total_cmp(&b.1));
+        for (outer, inner, kind) in [(first, second, self.kinds[a]), (second, first, self.kinds[b])] {
+            if kind.is_interface() && inner.lies_in(outer, periods, film) {
+                return deepest(&mut inner.corners().map(|corner| (corner, outer.distance(corner, periods))));
+            }
+        }
+        let corners = |of: &Boundary, inside: &Boundary| {
+            deepest(&mut of.corners().map(|corner| (corner, -inside.distance(corner, periods))))
+        };
+        // Where both are the same no corner is inside the other one, but everything is.
+        let both = |place: Vec2| -first.distance(place, periods).max(second.distance(place, periods));
+        let inside = |of: &Boundary| deepest(&mut of.inner_places().map(|place| (place, both(place))));
+        let places = [corners(first, second), corners(second, first), inside(first), inside(second)];
+        deepest(&mut places.into_iter().flatten())
+    }
+}
+
+impl Boundary {
+    /// Whether the body lies inside another one, or inside one of its images: most of its corners do, some of them
+    /// deeper than `film` (length).
+    pub(super) fn lies_in(&self, outer: &Self, periods: [Option<f64>; 2], film: f64) -> bool {
+        let [Some(small), Some(large)] = [self, outer].map(Self::frame) else { return false };
+        // A part of the inner one may have crossed.
+        if !small.is_inside(&large, periods, 0.5 * small.size()) {
+            return false;
+        }
+        let asked = || self.some_sides().map(|[start, _]| outer.distance(start, periods));
+        2 * asked().filter(|distance| *distance < 0.0).count() > asked().count() && asked().any(|d| d < -film)
+    }
+
+    /// Places below its sides, some of them far inside.
+    fn inner_places(&self) -> impl Iterator<Item = Vec2> {
+        let size = self.frame().map_or(0.0, |frame| Frame::size(&frame));
+        self.some_sides().flat_map(move |[start, end]| {
+            let inwards = (end - start).perp().normalize_or_zero();
+            DEPTHS.map(|depth| 0.5 * (start + end) + size * depth * inwards)
+        })
+    }
+
+    /// At most [`SIDES`] of its sides, spread over it.
+    fn some_sides(&self) -> impl Iterator<Item = [Vec2; 2]> {
+        self.sides().iter().step_by(self.sides().len().div_ceil(SIDES).max(1)).copied()
+    }
+}
+
+#[cfg(test)]
+mod tests;
