@@ -4,10 +4,10 @@ use allocation_counter::measure;
 use motile::ib_core::{
     CubicQuadratic, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2,
 };
-use motile::stokes_grid::{Grid, PeriodicStokes};
-use motile::{DropletSetup, Region, Setup};
+use motile::stokes_grid::{Drive, Grid, PeriodicStokes};
+use motile::{DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
 use motile_tests::validation::contrast::{Droplet, Errors, Exact, exact_flow, field_errors};
-use motile_tests::validation::scene::{on_grid, open_channel, reference};
+use motile_tests::validation::scene::{flow, on_grid, open_channel, reference};
 use motile_tests::validation::swimmers::{speeds, steady};
 use motile_tests::validation::{Reference, ReferenceFile, order, relaxation};
 
@@ -91,6 +91,26 @@ fn a_smeared_viscosity_is_first_order() {
             }
             last = fine.speed;
         }
+    }
+}
+
+/// What the contrast adds to the mean pressure gradient that keeps the flux at zero.
+#[test]
+fn the_mean_pressure_gradient_is_that_of_the_contrast() {
+    let region = Region::Channel { length: 6.0, width: 3.0, drive: Drive::ZeroFlux };
+    let gradient = |method: Method, spacing: f64, ratio: f64| {
+        let mut markers = Markers::new();
+        Droplet::ellipse(ratio).at(0.1, 0.2).push_even(spacing, &mut markers).unwrap();
+        flow(region, method, 1.0, 1e-10).unwrap().velocities(&mut markers).unwrap().mean_pressure_gradient[0]
+    };
+    let integral = Method::Integral(IntegralMethod { nodes: 128, cells: 512 });
+    for ratio in [0.05, 20.0] {
+        let exact = gradient(integral, 0.0125, ratio);
+        let errors =
+            SPACINGS.map(|h| (gradient(Method::Grid(GridMethod::of_spacing(h)), 0.5 * h, ratio) - exact).abs());
+        // The contrast changes it by more than that.
+        let change = (gradient(integral, 0.0125, 1.0) - exact).abs();
+        assert!(errors[2] < 1e-3 * change && order(&SPACINGS, &errors) > 1.9, "{ratio}: {errors:?} {exact} {change}");
     }
 }
 

@@ -2,8 +2,8 @@ use std::f64::consts::TAU;
 
 use crate::gap::Boundary;
 use crate::{
-    Body, BodyError, CubicQuadratic, ImmersedBoundary, MarkerBody, MarkerKind, Medium, Scene, SceneError, StepSize,
-    Vec2, body::StepLimits,
+    Body, BodyError, CubicQuadratic, ImmersedBoundary, MarkerBody, MarkerKind, Medium, Repulsion, Scene, SceneError,
+    StepSize, Vec2, body::StepLimits,
 };
 use stokes_grid::{Grid, PeriodicStokes};
 
@@ -234,4 +234,63 @@ fn bodies_of_the_same_name_are_told_apart() {
     let SceneError::Overlap { body, other, depth, .. } = &error else { panic!("{error}") };
     assert_eq!((body.as_str(), other.as_str()), ("disc (body 1)", "disc (body 0)"));
     assert!((depth - 0.5).abs() < 0.02, "{depth}");
+}
+
+/// A long interface along either diagonal of the box comes near its own image there.
+#[test]
+fn images_across_the_corners_are_looked_at() {
+    for sign in [1.0, -1.0] {
+        let tip = 2.2;
+        let markers = (0..200).map(|k| TAU * f64::from(k) / 200.0).map(|t| {
+            let [along, across] = [tip * t.cos(), 0.3 * t.sin()].map(|x| x * 0.5_f64.sqrt());
+            Vec2::new(along - sign * across, sign * along + across)
+        });
+        let mut scene = scene();
+        scene.add(
+            MarkerBody::new("long", markers.collect(), |_, _| {})
+                .with_kind(MarkerKind::Interface { viscosity_inside: None })
+                .with_motion(|_, _, rates| rates.fill(Vec2::ZERO)),
+        );
+        scene.run(0.1).go().unwrap();
+        let gap = scene.system().minimum_gap().unwrap();
+        assert!((gap - (3.2 * 2.0_f64.sqrt() - 2.0 * tip)).abs() < 2e-3, "{sign}: {gap}");
+    }
+}
+
+/// Of an interface that passes another one.
+#[test]
+fn the_smallest_gap_is_that_of_the_nearest_approach() {
+    let mut scene = scene();
+    scene.add(ring("still", Vec2::new(-0.4, 0.0), 0.4, None, Vec2::ZERO));
+    scene.add(ring("passing", Vec2::new(0.5, -0.35), 0.4, None, Vec2::new(0.0, 1.0)));
+    scene.run(0.7).go().unwrap();
+    let gap = scene.system().minimum_gap().unwrap();
+    assert!((gap - 0.1).abs() < 5e-3, "{gap}");
+}
+
+/// The bound on the step is for flat interfaces; the repulsion of circles, which face each other along a fifth of their
+/// length, decays at a tenth of that rate.
+#[test]
+fn the_bound_of_the_repulsion_is_that_of_its_decay() {
+    let approach = |gap: f64| {
+        let mut scene = scene().with_repulsion(Repulsion::new(50.0, 0.4).unwrap());
+        let free = |x: f64| {
+            MarkerBody::new("free", circle(Vec2::new(x, 0.0), 0.6), |_, _| {})
+                .with_kind(MarkerKind::Interface { viscosity_inside: None })
+        };
+        let [left, right] = [-0.6 - 0.5 * gap, 0.6 + 0.5 * gap].map(|x| scene.add(free(x)));
+        let (limit, ..) = scene.step_limit().unwrap();
+        scene.system_mut().evaluate().unwrap();
+        let [left, right] = [left, right].map(|handle| {
+            let flow = scene.system().flow_at(handle).unwrap();
+            flow.velocities
+                .iter()
+                .map(|velocity| velocity.x)
+                .fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a })
+        });
+        (right - left, limit)
+    };
+    let ((near, limit), (far, _)) = (approach(0.02), approach(0.03));
+    let rate = (near - far) / 0.01;
+    assert!((0.06..0.12).contains(&(rate * limit / 2.0)), "{rate} {limit}");
 }
