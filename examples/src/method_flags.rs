@@ -66,7 +66,8 @@ pub struct MethodFlags {
 }
 
 impl MethodFlags {
-    /// Settings that go together, or the scene of a file, with these flags and those of the droplet in place of its entries.
+    /// Settings that go together, or the scene of a file, with these flags and those of the droplet in place of its
+    /// entries.
     ///
     /// # Errors
     /// A flag that the method has no use for; fewer cells than nodes.

@@ -15,8 +15,8 @@ const PATIENCE: f64 = 0.5;
 /// Whether and when a steady state was reached.
 ///
 /// The final speed is the mean over the last fifth of the run. The state is steady from the time on after which the
-/// speed stays within 0.1 % of it, or after which it stays below 1e-5 D/R0 (at rest), provided that this is at least the
-/// last fifth of the run and at least half a diffusion time R0^2/D.
+/// speed stays within 0.1 % of it, or after which it stays below 1e-5 D/R0 (at rest), provided that this is at least
+/// the last fifth of the run and at least half a diffusion time R0^2/D.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Steadiness {
     /// Since when the state has been steady; `None` if it is not.

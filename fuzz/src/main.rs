@@ -1,8 +1,8 @@
 //! Fuzzing without libFuzzer and with a stable compiler: random changes of valid inputs.
 //!
-//! `cargo run --release --bin motile-fuzz -- TARGET SECONDS` in this directory, TARGET being checkpoint, gmsh, scene or flags;
-//! with `corpus` in place of the seconds it writes the valid inputs to `corpus/TARGET/` for `cargo fuzz`. Tells how
-//! many inputs it has tried; a panic ends it, and the input is then in `crash-TARGET`.
+//! `cargo run --release --bin motile-fuzz -- TARGET SECONDS` in this directory, TARGET being checkpoint, gmsh, scene or
+//! flags; with `corpus` in place of the seconds it writes the valid inputs to `corpus/TARGET/` for `cargo fuzz`. Tells
+//! how many inputs it has tried; a panic ends it, and the input is then in `crash-TARGET`.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};

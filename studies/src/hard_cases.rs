@@ -1,7 +1,7 @@
 //! Scenes that are hard to compute, and what becomes of them.
 //!
-//! `cargo run --release -p studies -- hard_cases` runs the long version of the suite in `tests/src/hard_cases`, prints a
-//! table (case, method, outcome, steps, changes of area and particles, seconds), and writes to `out/hard_cases/` a
+//! `cargo run --release -p studies -- hard_cases` runs the long version of the suite in `tests/src/hard_cases`, prints
+//! a table (case, method, outcome, steps, changes of area and particles, seconds), and writes to `out/hard_cases/` a
 //! picture of the last state of each run, `table.md` and `summary.json`. `--case N` runs one case, `--quick` the short
 //! version. `--help` lists the flags.
 

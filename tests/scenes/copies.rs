@@ -25,7 +25,8 @@ fn all_but_scenes_can_be_copied() {
     is_clone::<(Setup, DropletSetup, SolidSetup, Recommendation)>();
 }
 
-/// Markers of an ellipse that is ten times as viscous as what is around it, drawn out along x, and of a point beside it.
+/// Markers of an ellipse that is ten times as viscous as what is around it, drawn out along x, and of a point beside
+/// it.
 fn markers(axis: f64) -> Markers {
     let mut markers = Markers::new();
     markers.push_group(64, MarkerKind::Interface { viscosity_inside: Some(10.0) });

@@ -1,12 +1,13 @@
 //! Elastic solids in the plane, for channels with soft walls and any other geometry.
 //!
 //! A [`Solid`] is a triangle mesh of its reference state and a law for its forces (thesis chapter 4): springs along the
-//! edges, a hyperelastic material, or a law of your own. It is a body of a scene ([`ib_core::Body`]): its points put the
-//! forces on the fluid and move with it.
+//! edges, a hyperelastic material, or a law of your own. It is a body of a scene ([`ib_core::Body`]): its points put
+//! the forces on the fluid and move with it.
 //!
 //! # Example
 //!
-//! The lower wall of the thesis' constriction, stiffer to the right, held by its lowest row and squeezed by a twentieth:
+//! The lower wall of the thesis' constriction, stiffer to the right, held by its lowest row and squeezed by a
+//! twentieth:
 //! ```
 //! use elastic_solids::channel::ChannelShape;
 //! use elastic_solids::{Mesher, Moduli, NeoHookean, Solid, SolidError};
@@ -33,10 +34,10 @@
 //!
 //! * **Shapes**: [`Outline`] from polygons, circles, functions and profiles y(x), with fillets; [`Interior`] for what
 //!   lies between them; [`Channel`] for two walls with islands between them, and ready ones in [`channel`].
-//! * **Meshes**: [`Mesher`] for any interior, lattices and Gmsh files in [`mesh`]; [`TriangleMesh::quality`] says how even
-//!   they are.
-//! * **Materials**: [`NeoHookean`] (the thesis'), others in [`material`], or an [`EnergyDensity`] of your own; [`Moduli`]
-//!   converts between constants, the thesis' spring constant among them.
+//! * **Meshes**: [`Mesher`] for any interior, lattices and Gmsh files in [`mesh`]; [`TriangleMesh::quality`] says how
+//!   even they are.
+//! * **Materials**: [`NeoHookean`] (the thesis'), others in [`material`], or an [`EnergyDensity`] of your own;
+//!   [`Moduli`] converts between constants, the thesis' spring constant among them.
 //! * **Forces** of a mesh by themselves ([`forces`]), and what every law of your own must satisfy ([`check`]).
 //! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid, [`Solid::surface_corrected`] for a
 //!   surface that the flow knows to a few hundredths of a grid spacing instead of a third.

@@ -197,12 +197,12 @@ impl Solid {
     ///
     /// Spreading and interpolation round off the kink that tangential forces at the surface leave in the velocity, so
     /// that points at the distance d from it lack `(h/eta) phi(d/h) f_t`, f_t being the force per length along the
-    /// surface and `phi(0)` the deficit of a flat interface ([`ib_core::MobilityDeficit::flat`], and the grid's harmonic where
-    /// the surface runs along the grid). Points within some four grid spacings of the surface are moved by that, by a
-    /// flow without divergence, and by an operator that is symmetric and positive in the forces. Measured with the
-    /// default kernel: a stiff wall stops the fluid 0.31 to 0.44 h in front of its surface, with the correction within
-    /// 0.017 h of it at h = 0.1 and 0.007 h at 0.05 for a channel of width 1 (`tests/stokes_flow.rs`). Stable time
-    /// steps stay the same.
+    /// surface and `phi(0)` the deficit of a flat interface ([`ib_core::MobilityDeficit::flat`], and the grid's
+    /// harmonic where the surface runs along the grid). Points within some four grid spacings of the surface are moved
+    /// by that, by a flow without divergence, and by an operator that is symmetric and positive in the forces. Measured
+    /// with the default kernel: a stiff wall stops the fluid 0.31 to 0.44 h in front of its surface, with the
+    /// correction within 0.017 h of it at h = 0.1 and 0.007 h at 0.05 for a channel of width 1
+    /// (`tests/stokes_flow.rs`). Stable time steps stay the same.
     ///
     /// Only the solid's own points are corrected, not markers of others that come within reach; surfaces closer than
     /// that to each other or to a no-slip wall are corrected as if they stood alone.

@@ -73,8 +73,8 @@ impl Gaps {
         self.narrowest(&medium.domain, REACH * self.contact_scale(medium))
     }
 
-    /// The narrowest gap below `reach` (length), if there is one: from the corners of interfaces to all bodies, and from
-    /// the corners of other bodies to interfaces.
+    /// The narrowest gap below `reach` (length), if there is one: from the corners of interfaces to all bodies, and
+    /// from the corners of other bodies to interfaces.
     pub(crate) fn narrowest(&self, domain: &Domain, reach: f64) -> Option<Gap> {
         let mut narrowest: Option<Gap> = None;
         for (body, from) in self.boundaries.iter().enumerate() {

@@ -52,8 +52,8 @@ pub trait Integrator: std::fmt::Debug + Send {
     }
 
     /// Largest error of a step, in the measure of [`crate::StepSize::Adaptive`], that runs with
-    /// [`crate::StepSize::OfLimit`] accept; needs [`Integrator::error_constant`]; by default none is estimated. For integrators whose stability limit is so
-    /// long that it says nothing of accuracy.
+    /// [`crate::StepSize::OfLimit`] accept; needs [`Integrator::error_constant`]; by default none is estimated. For
+    /// integrators whose stability limit is so long that it says nothing of accuracy.
     fn error_bound(&self) -> Option<f64> {
         None
     }

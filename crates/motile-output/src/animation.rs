@@ -39,8 +39,8 @@ pub struct Film {
 }
 
 impl Film {
-    /// A film of the rectangle of `raster`, with fields on its cells or, where these are more than 120 in a direction, on
-    /// larger ones.
+    /// A film of the rectangle of `raster`, with fields on its cells or, where these are more than 120 in a direction,
+    /// on larger ones.
     #[must_use]
     pub fn new(look: Look, raster: Raster) -> Self {
         Self { look, raster: raster.coarsened(FRAME_CELLS), frames: Vec::new() }

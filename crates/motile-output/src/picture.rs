@@ -138,8 +138,8 @@ impl Look {
     /// that time.
     ///
     /// # Errors
-    /// [`Error::Write`], [`Error::Streamlines`]; [`Error::Count`] for a snapshot of your own with other than one sample a
-    /// cell.
+    /// [`Error::Write`], [`Error::Streamlines`]; [`Error::Count`] for a snapshot of your own with other than one sample
+    /// a cell.
     pub fn write_picture(&self, seen: &Snapshot, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), Error> {
         let legends = self.legends(std::slice::from_ref(seen));
         self.draw(seen, &legends, tracks, &Format::STILL)?.write_png(path.as_ref())

@@ -52,8 +52,8 @@ impl CsvTable {
         Ok(Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new(), file, path })
     }
 
-    /// As [`CsvTable::create`], but goes on with the rows of the file whose first value is below `from`, if it is a table
-    /// of the same columns: for what is resumed.
+    /// As [`CsvTable::create`], but goes on with the rows of the file whose first value is below `from`, if it is a
+    /// table of the same columns: for what is resumed.
     ///
     /// # Errors
     /// As [`CsvTable::create`].

@@ -41,8 +41,8 @@ pub struct TrajectoryCsv {
 }
 
 impl TrajectoryCsv {
-    /// A recorder of a droplet that writes to `path`. Where the system is past time 0, as after resuming, the rows before
-    /// its time that the file has stay.
+    /// A recorder of a droplet that writes to `path`. Where the system is past time 0, as after resuming, the rows
+    /// before its time that the file has stay.
     ///
     /// # Errors
     /// [`Error::Write`]; [`Error::Observer`]: a state that cannot be measured.

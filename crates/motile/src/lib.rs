@@ -3,9 +3,9 @@
 //! A droplet is a closed fluid interface that carries active particles. The particles raise its tension; differences of
 //! tension drive flow along the interface; the flow gathers the particles. Above a threshold of activity the droplet
 //! polarises and swims. motile computes this in unbounded fluid, in periodic boxes, in channels with rigid walls and
-//! between elastic solids, by boundary integrals or by the immersed boundary method on a staggered grid with a correction
-//! that makes velocities on interfaces second-order accurate. The model is that of Natasha Cowley, "Effects of mechanical
-//! properties of the environment on cell migration", PhD thesis, University of Sheffield ("the thesis").
+//! between elastic solids, by boundary integrals or by the immersed boundary method on a staggered grid with a
+//! correction that makes velocities on interfaces second-order accurate. The model is that of Natasha Cowley, "Effects
+//! of mechanical properties of the environment on cell migration", PhD thesis, University of Sheffield ("the thesis").
 //!
 //! A scene is data, a [`Setup`]:
 //!
@@ -45,8 +45,8 @@
 //!
 //! # Features
 //!
-//! `serde`: descriptions are read from and written to TOML. `rayon`: several threads for large grids and many markers, with
-//! bitwise identical results.
+//! `serde`: descriptions are read from and written to TOML. `rayon`: several threads for large grids and many markers,
+//! with bitwise identical results.
 
 pub mod prelude;
 mod recommend;

@@ -55,12 +55,12 @@ pub struct Recommendation {
 }
 
 /// The cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to give the steady
-/// speed of a droplet with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of scene by
-/// a method; the grid spacing is that for a radius of one.
+/// speed of a droplet with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of
+/// scene by a method; the grid spacing is that for a radius of one.
 ///
-/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the units of
-/// the defaults (-1 with a contrast, -2 on a grid in a channel); a sharper edge of the concentration needs more cells
-/// ([`ib_core::Warnings`] tell).
+/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the units
+/// of the defaults (-1 with a contrast, -2 on a grid in a channel); a sharper edge of the concentration needs more
+/// cells ([`ib_core::Warnings`] tell).
 ///
 /// ```
 /// use motile::prelude::*;

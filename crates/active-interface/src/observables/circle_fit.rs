@@ -6,9 +6,9 @@ use ib_core::input::{all_points_finite, at_least};
 
 use crate::InterfaceError;
 
-/// Signed curvature (1/length) of the circle with the least sum of squared distances, times `weights`, from the points of an open arc, in
-/// their order: positive where the arc turns to the left, as a convex interface in counter-clockwise order does,
-/// negative where it turns to the right, zero for points on a line.
+/// Signed curvature (1/length) of the circle with the least sum of squared distances, times `weights`, from the points
+/// of an open arc, in their order: positive where the arc turns to the left, as a convex interface in counter-clockwise
+/// order does, negative where it turns to the right, zero for points on a line.
 ///
 /// The circle A r^2 + B x + C y + D = 0 with B^2 + C^2 - 4 A D = 1 includes straight lines (A = 0), its curvature is 2
 /// A; Gauss-Newton iterations start from the turning of the arc about its middle.

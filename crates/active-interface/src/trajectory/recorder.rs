@@ -83,8 +83,8 @@ impl TrajectoryRecorder {
         self
     }
 
-    /// The same recorder, recording also the fluxes past the droplet (see [`crate::observables::gap_flow`]). This costs a sampling
-    /// of the flow a record, a little more than half a time step, and works in channels only.
+    /// The same recorder, recording also the fluxes past the droplet (see [`crate::observables::gap_flow`]). This costs
+    /// a sampling of the flow a record, a little more than half a time step, and works in channels only.
     #[must_use]
     pub fn with_gap_flow(mut self) -> Self {
         self.with_gap_flow = true;
@@ -97,8 +97,8 @@ impl TrajectoryRecorder {
         &self.records
     }
 
-    /// The values of the entry `name` (see [`TrajectoryRecord::entries`]), record by record; `None` for an unknown name or
-    /// without records.
+    /// The values of the entry `name` (see [`TrajectoryRecord::entries`]), record by record; `None` for an unknown name
+    /// or without records.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<Vec<Option<f64>>> {
         let place = self.records.first()?.entries().iter().position(|entry| entry.0 == name)?;

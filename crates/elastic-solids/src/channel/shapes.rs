@@ -128,8 +128,8 @@ impl ChannelShape {
     /// The channel of that shape and period in x (length).
     ///
     /// # Errors
-    /// Lengths that are not positive, or more than the period together; a gap or throat not below the width; no waves or
-    /// teeth or more than 200, a rise not between 0 and 1, a radius too large for the teeth; sides that touch.
+    /// Lengths that are not positive, or more than the period together; a gap or throat not below the width; no waves
+    /// or teeth or more than 200, a rise not between 0 and 1, a radius too large for the teeth; sides that touch.
     pub fn channel(&self, period: f64) -> Result<Channel, SolidError> {
         positive("the period", period)?;
         positive("the width of the channel", self.width())?;

@@ -27,8 +27,8 @@ pub fn equilateral_strip(corner: Vec2, columns: usize, rows: usize, spacing: f64
 /// (length), the number of columns that which stretches the triangles least.
 ///
 /// # Errors
-/// Sizes or a spacing that are not positive, a corner that is not finite, fewer than three columns or one row, more than 1e6
-/// columns times rows.
+/// Sizes or a spacing that are not positive, a corner that is not finite, fewer than three columns or one row, more
+/// than 1e6 columns times rows.
 pub fn fitted_strip(corner: Vec2, size: [f64; 2], spacing: f64) -> Result<TriangleMesh, SolidError> {
     length("the lattice spacing", spacing)?;
     length("the period", size[0])?;

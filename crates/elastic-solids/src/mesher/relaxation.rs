@@ -23,8 +23,9 @@ const STEP: f64 = 0.15;
 /// of 100. At 0.9 points are thrown across the boundary.
 const MOMENTUM: f64 = 0.8;
 
-/// Moves the points towards equal edges and returns the triangles and how often a point was moved. Every edge is a spring, and in every sweep each
-/// inner point moves along the force on it, each boundary point but the corners along its outline.
+/// Moves the points towards equal edges and returns the triangles and how often a point was moved. Every edge is a
+/// spring, and in every sweep each inner point moves along the force on it, each boundary point but the corners along
+/// its outline.
 ///
 /// First the edges all push; the lattice they make resists shear little and finds its order. Then their rest length is
 /// their mean length, so that the variance of the lengths falls to its minimum for these triangles.

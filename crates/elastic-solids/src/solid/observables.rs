@@ -17,8 +17,8 @@ pub struct Observables {
     pub drift: Vec2,
     /// Mean position, weighted by reference area (length): the centre of mass.
     pub centroid: Vec2,
-    /// Elastic energy (energy), without that of the tethers; infinite where a triangle is inverted and the energy is not
-    /// defined for it.
+    /// Elastic energy (energy), without that of the tethers; infinite where a triangle is inverted and the energy is
+    /// not defined for it.
     pub elastic_energy: f64,
     /// Energy of the tethers (energy).
     pub tether_energy: f64,

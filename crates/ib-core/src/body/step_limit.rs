@@ -5,8 +5,8 @@
 pub enum StepCause {
     /// A mode that decays at the rate `2/dt`: an integrator with a longer interval of stability takes longer steps.
     Decay,
-    /// A mode that a stabiliser ([`crate::body::StepInfo::stabilised`]) has slowed down to what this bound allows, and that
-    /// decays at the rate `2/bare` without it.
+    /// A mode that a stabiliser ([`crate::body::StepInfo::stabilised`]) has slowed down to what this bound allows, and
+    /// that decays at the rate `2/bare` without it.
     Stabilised {
         /// The bound without the stabiliser (time).
         bare: f64,

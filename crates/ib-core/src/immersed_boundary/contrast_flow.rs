@@ -282,8 +282,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(())
     }
 
-    /// Finds the forces that take the place of the other viscosities: the droplets' own, reduced by the exterior viscosity
-    /// over the largest mean of both, and those of the flow that remains. Net forces and torques are those of
+    /// Finds the forces that take the place of the other viscosities: the droplets' own, reduced by the exterior
+    /// viscosity over the largest mean of both, and those of the flow that remains. Net forces and torques are those of
     /// the droplets' own.
     fn find_equivalent(&mut self, flow: &mut ContrastFlow<K>) -> Result<Outcome, FlowError> {
         let viscosity = self.solver.viscosity();

@@ -19,8 +19,8 @@ use crate::{
 };
 use forces::write_forces;
 
-/// Velocities at the same state by the same method differ by at most this part of the fastest one, on any machine, and by
-/// this multiple of the residual where they are iterated.
+/// Velocities at the same state by the same method differ by at most this part of the fastest one, on any machine, and
+/// by this multiple of the residual where they are iterated.
 const SAME_FLOW: f64 = 1e-9;
 const REACHED: f64 = 10.0;
 

@@ -24,8 +24,8 @@ const STAGNANT: f64 = 1e-4;
 /// the flow the lines move along. In periodic directions lines run on beyond the borders, unwrapped.
 ///
 /// # Errors
-/// [`Error::Streamlines`]: a spacing that is not positive and finite, or so small that there would be more than a million
-/// cells of it.
+/// [`Error::Streamlines`]: a spacing that is not positive and finite, or so small that there would be more than a
+/// million cells of it.
 pub fn streamlines(field: &Samples<Vec2>, spacing: f64, anchor: Vec2) -> Result<Vec<Vec<Vec2>>, Error> {
     let raster = &field.raster;
     let size = raster.size;

@@ -190,7 +190,8 @@ impl Setup {
         let &DropletShape::Round { radius } = &droplet.shape else { return Ok(droplet.shape.clone()) };
         let y = droplet.centre[1];
         let [length, width] = self.region.lengths();
-        // Walls of solids bound the channel where there are some; they know nothing of a film unless they are corrected.
+        // Walls of solids bound the channel where there are some; they know nothing of a film unless they are
+        // corrected.
         let sides = || self.solids.iter().filter_map(|solid| Some((solid, solid.side()?)));
         let beside = sides().map(|(solid, side)| {
             (if side < 0.0 { y - side } else { side - y }, if solid.surface == Surface::Corrected { FILM } else { 0.0 })

@@ -52,8 +52,8 @@ impl Checked<'_> {
 }
 
 impl Setup {
-    /// Refuses a description that makes no scene: values out of their range, and values that do not fit together. What only
-    /// shows when shapes are made is refused by [`Setup::build`].
+    /// Refuses a description that makes no scene: values out of their range, and values that do not fit together. What
+    /// only shows when shapes are made is refused by [`Setup::build`].
     ///
     /// # Errors
     /// [`SetupError::Value`] with the key, the value and what to give instead.

@@ -80,9 +80,9 @@ impl DropletSetup {
         Self { tension, particles: None, ..Self::default() }
     }
 
-    /// The default droplet by the thesis' method: markers that move with the fluid and are inserted and removed, an area
-    /// constraint. What the thesis does not state is a reading of it: a first-order upwind flux; diffusion is implicit
-    /// as in the default.
+    /// The default droplet by the thesis' method: markers that move with the fluid and are inserted and removed, an
+    /// area constraint. What the thesis does not state is a reading of it: a first-order upwind flux; diffusion is
+    /// implicit as in the default.
     #[must_use]
     pub fn thesis() -> Self {
         Self {
@@ -188,8 +188,8 @@ impl Default for MarkerMotion {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
 pub enum DropletShape {
-    /// A circle, squeezed between walls where it has no room: by boundary integrals to an ellipse that leaves a film of a
-    /// twentieth of the radius, between elastic walls to a stadium that leaves such a film, with the area and the
+    /// A circle, squeezed between walls where it has no room: by boundary integrals to an ellipse that leaves a film of
+    /// a twentieth of the radius, between elastic walls to a stadium that leaves such a film, with the area and the
     /// particles of the circle.
     Round {
         /// Radius of the circle (length).
@@ -262,7 +262,8 @@ impl DropletShape {
     }
 }
 
-/// Half the length of the straight sides of the stadium with ends of radius `half` (length) that has the area of a circle.
+/// Half the length of the straight sides of the stadium with ends of radius `half` (length) that has the area of a
+/// circle.
 fn straight(radius: f64, half: f64) -> f64 {
     0.25 * PI * (radius * radius - half * half) / half
 }

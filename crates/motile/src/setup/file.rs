@@ -4,8 +4,9 @@ use super::Setup;
 use crate::SetupError;
 
 impl Setup {
-    /// The description in a TOML text. What is left out is as in [`Setup::default`] and [`crate::DropletSetup::default`],
-    /// but droplets that are not named are not there. A droplet is active unless it says `particles = "none"`.
+    /// The description in a TOML text. What is left out is as in [`Setup::default`] and
+    /// [`crate::DropletSetup::default`], but droplets that are not named are not there. A droplet is active unless it
+    /// says `particles = "none"`.
     ///
     /// ```
     /// use motile::Setup;
@@ -18,8 +19,8 @@ impl Setup {
     /// ```
     ///
     /// # Errors
-    /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::File`], with the line), and
-    /// what [`Setup::check`] refuses.
+    /// A text that is no TOML, keys that do not exist, values of the wrong type ([`SetupError::File`], with the line),
+    /// and what [`Setup::check`] refuses.
     pub fn from_toml(text: &str) -> Result<Self, SetupError> {
         let setup: Self = toml::from_str(text).map_err(|error| SetupError::File { problem: error.to_string() })?;
         setup.check()?;

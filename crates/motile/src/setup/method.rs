@@ -9,8 +9,8 @@ use ib_core::AnyKernel;
 pub enum Method {
     /// Boundary integrals ([`boundary_integral`]): no grid, spectrally accurate; for scenes of interfaces only.
     Integral(IntegralMethod),
-    /// The immersed boundary method on a grid ([`ib_core`]): second order in the grid spacing; for any scene in a box or a
-    /// channel.
+    /// The immersed boundary method on a grid ([`ib_core`]): second order in the grid spacing; for any scene in a box
+    /// or a channel.
     Grid(GridMethod),
 }
 
@@ -43,8 +43,8 @@ pub enum MethodKind {
 /// Resolution of boundary integrals.
 ///
 /// With the default all observables (speed, shape, stresslet, squirmer coefficients, active region, largest
-/// concentration) were within a per cent in boxes at activities of -4 and -5, and in a channel of width 2 at -4 except the
-/// stresslet (1.6 per cent). For the speed alone a third of it will do ([`crate::recommend`]).
+/// concentration) were within a per cent in boxes at activities of -4 and -5, and in a channel of width 2 at -4 except
+/// the stresslet (1.6 per cent). For the speed alone a third of it will do ([`crate::recommend`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(default, deny_unknown_fields, rename_all = "kebab-case"))]
@@ -72,11 +72,11 @@ pub struct GridMethod {
     pub marker_spacing: Option<f64>,
     /// Regularised delta function.
     pub kernel: AnyKernel,
-    /// Whether interface velocities are corrected to second order ([`ib_core::ImmersedBoundary`]). Needs markers of equal
-    /// spacing ([`crate::MarkerMotion::Equidistributed`]), and a sharp contrast where viscosities differ.
+    /// Whether interface velocities are corrected to second order ([`ib_core::ImmersedBoundary`]). Needs markers of
+    /// equal spacing ([`crate::MarkerMotion::Equidistributed`]), and a sharp contrast where viscosities differ.
     pub corrected: bool,
-    /// Whether modes of an interface that are shorter than the kernel are filtered after each step; without it they grow in
-    /// long runs. Concerns markers of equal spacing only.
+    /// Whether modes of an interface that are shorter than the kernel are filtered after each step; without it they
+    /// grow in long runs. Concerns markers of equal spacing only.
     pub filter: bool,
     /// How interfaces between fluids of different viscosity are treated.
     pub contrast: Contrast,
@@ -96,8 +96,8 @@ impl Default for GridMethod {
 }
 
 impl GridMethod {
-    /// The thesis' grid: Peskin's 4-point function, no mobility correction, a smooth viscosity field, h = 0.05, markers h/2
-    /// apart.
+    /// The thesis' grid: Peskin's 4-point function, no mobility correction, a smooth viscosity field, h = 0.05, markers
+    /// h/2 apart.
     #[must_use]
     pub fn thesis() -> Self {
         Self {

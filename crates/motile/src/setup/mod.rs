@@ -20,10 +20,10 @@ use ib_core::StepSize;
 
 /// A scene as data: what there is, where, and how it is computed. [`Setup::build`] makes the scene.
 ///
-/// Descriptions are plain structs and enums: they are written as literals, compared, printed, cloned, and with the feature
-/// `serde` read from and written to TOML (`Setup::from_toml`, `Setup::to_toml`). No field is ignored: what only one
-/// method needs stands inside that method's variant. Quantities may have any consistent units; those of the defaults are
-/// R0 = 10 um for length, gamma0/10 for force, 10 s for time (`active_interface::Units` converts).
+/// Descriptions are plain structs and enums: they are written as literals, compared, printed, cloned, and with the
+/// feature `serde` read from and written to TOML (`Setup::from_toml`, `Setup::to_toml`). No field is ignored: what only
+/// one method needs stands inside that method's variant. Quantities may have any consistent units; those of the
+/// defaults are R0 = 10 um for length, gamma0/10 for force, 10 s for time (`active_interface::Units` converts).
 ///
 /// What data cannot say (a tension law in code, a body of one's own, walls from a closure) is added to the scene that
 /// has been built.
@@ -97,9 +97,9 @@ impl Default for Setup {
 }
 
 impl Setup {
-    /// The default scene by the method of the thesis (Natasha Cowley, "Effects of mechanical properties of the environment
-    /// on cell migration", PhD thesis, University of Sheffield): [`GridMethod::thesis`], [`DropletSetup::thesis`], steps of
-    /// 1e-3. Walls by its method are [`SolidSetup::thesis`].
+    /// The default scene by the method of the thesis (Natasha Cowley, "Effects of mechanical properties of the
+    /// environment on cell migration", PhD thesis, University of Sheffield): [`GridMethod::thesis`],
+    /// [`DropletSetup::thesis`], steps of 1e-3. Walls by its method are [`SolidSetup::thesis`].
     #[must_use]
     pub fn thesis() -> Self {
         Self {

@@ -14,8 +14,8 @@ pub enum Region {
         /// Periods in x and y (length).
         lengths: [f64; 2],
     },
-    /// A channel between rigid no-slip walls at y = -width/2 and width/2, periodic in x. Elastic walls fill it from these
-    /// walls inwards.
+    /// A channel between rigid no-slip walls at y = -width/2 and width/2, periodic in x. Elastic walls fill it from
+    /// these walls inwards.
     Channel {
         /// Period in x (length).
         length: f64,

@@ -181,19 +181,19 @@ pub enum MeshKind {
     Unstructured,
 }
 
-/// What is done about the smearing of a solid's surface over the grid, by which a stiff one stops the fluid 0.31 to 0.44
-/// grid spacings in front of its surface (with the default kernel).
+/// What is done about the smearing of a solid's surface over the grid, by which a stiff one stops the fluid 0.31 to
+/// 0.44 grid spacings in front of its surface (with the default kernel).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Surface {
-    /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order. A round droplet that would
-    /// start in touch with the walls starts squeezed a little, beside a film.
+    /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order. A round droplet that
+    /// would start in touch with the walls starts squeezed a little, beside a film.
     #[default]
     Corrected,
-    /// Walls, and only they, are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first order, of a
-    /// few tenths of a grid spacing where droplets keep away, but bears droplets that are pressed against a bent wall for
-    /// long, such as the mouth of a constriction, where in time they enter corrected surfaces or invert a triangle of
-    /// springs.
+    /// Walls, and only they, are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first
+    /// order, of a few tenths of a grid spacing where droplets keep away, but bears droplets that are pressed against a
+    /// bent wall for long, such as the mouth of a constriction, where in time they enter corrected surfaces or invert a
+    /// triangle of springs.
     SetBack,
     /// Nothing, as in the thesis.
     Plain,
@@ -218,14 +218,15 @@ pub enum Hold {
 
 /// Angle by which the seeds of unstructured meshes are turned (radians).
 const TURN: f64 = 0.2;
-/// Offset of the plane where a stiff wall stops the fluid, over the deficit of its surface and the grid spacing: 0.315 grid
-/// spacings for the default kernel. Measured offsets are 0.31 to 0.44, depending on where the surface lies between grid
-/// lines; this value gives droplets in films of 0.1 R0 between walls of k = 1e6 and h = 0.05 the speed they have between
-/// rigid walls within 2 %.
+/// Offset of the plane where a stiff wall stops the fluid, over the deficit of its surface and the grid spacing: 0.315
+/// grid spacings for the default kernel. Measured offsets are 0.31 to 0.44, depending on where the surface lies between
+/// grid lines; this value gives droplets in films of 0.1 R0 between walls of k = 1e6 and h = 0.05 the speed they have
+/// between rigid walls within 2 %.
 const OFFSET: f64 = 1.35;
 
 impl SolidSetup {
-    /// A solid that is pinned to the rigid walls of the region, on a lattice as fine as the grid, its surface corrected.
+    /// A solid that is pinned to the rigid walls of the region, on a lattice as fine as the grid, its surface
+    /// corrected.
     #[must_use]
     pub fn new(outline: SolidOutline, material: Material) -> Self {
         Self {
@@ -258,15 +259,15 @@ impl SolidSetup {
         solids
     }
 
-    /// The same by the method of the thesis (section 4.1): springs on an unstructured mesh (where the material is springs),
-    /// nothing done about the surface, and triangles may be inverted.
+    /// The same by the method of the thesis (section 4.1): springs on an unstructured mesh (where the material is
+    /// springs), nothing done about the surface, and triangles may be inverted.
     #[must_use]
     pub fn thesis(self) -> Self {
         Self { mesh: MeshKind::Unstructured, surface: Surface::Plain, may_invert: true, ..self }
     }
 
-    /// How far the meshed surface of a wall lies behind the one where it stops the fluid (length), on a grid; islands and
-    /// other closed outlines are meshed as they are.
+    /// How far the meshed surface of a wall lies behind the one where it stops the fluid (length), on a grid; islands
+    /// and other closed outlines are meshed as they are.
     #[must_use]
     pub fn set_back(&self, grid: &GridMethod) -> f64 {
         let wall = matches!(self.outline, SolidOutline::WallBelow(_) | SolidOutline::WallAbove(_));

@@ -2,8 +2,8 @@
 
 use num_complex::Complex64;
 
-/// Coordinates of the nodes of a curve and their circular and hyperbolic functions. Every array is stored twice in a row, so that a cyclic
-/// shift is a slice.
+/// Coordinates of the nodes of a curve and their circular and hyperbolic functions. Every array is stored twice in a
+/// row, so that a cyclic shift is a slice.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Nodes {
     nodes: usize,

@@ -62,9 +62,9 @@ impl PairSums {
         self.kress[0]
     }
 
-    /// Visits all pairs of nodes of a target and a source curve, the `same` one or not: `apply` adds the flow of a shift
-    /// at the targets and at the sources, the latter in an array twice as long. On the same curve the kernel is to be
-    /// added the weight of Kress that `apply` is given.
+    /// Visits all pairs of nodes of a target and a source curve, the `same` one or not: `apply` adds the flow of a
+    /// shift at the targets and at the sources, the latter in an array twice as long. On the same curve the kernel is
+    /// to be added the weight of Kress that `apply` is given.
     pub(crate) fn visit(
         &mut self,
         same: bool,

@@ -153,8 +153,8 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// Finds the narrowest gap of the present state and refuses nested interfaces; how deep a body may be inside another
-    /// one (length).
+    /// Finds the narrowest gap of the present state and refuses nested interfaces; how deep a body may be inside
+    /// another one (length).
     fn find_gaps(&mut self) -> Result<f64, SceneError> {
         self.place_markers();
         let medium = self.hydrodynamics.medium();
