@@ -43,8 +43,8 @@ pub enum Motion {
     /// With the fluid's normal velocity (its mean removed, so that the area stays) and a tangential velocity W of their
     /// own that keeps them equally spaced; the default (docs/method.md, section 4). The mobility correction needs it.
     Equidistributed {
-        /// Rate at which unequal spacing relaxes, in units of the rate at which the flow moves the markers: the root
-        /// mean square of their velocities over the radius of a circle of the same perimeter.
+        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi R
+        /// the perimeter; where nothing diffuses, of the root mean square of the markers' velocities over R.
         relaxation: f64,
         /// Whether modes of the markers shorter than the kernel are filtered after each step; without it they grow in
         /// long runs. Only on a grid.
@@ -57,7 +57,7 @@ pub enum Motion {
 
 impl Default for Motion {
     fn default() -> Self {
-        Self::Equidistributed { relaxation: 20.0, filter: true }
+        Self::Equidistributed { relaxation: 50.0, filter: true }
     }
 }
 

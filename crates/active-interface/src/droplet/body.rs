@@ -104,7 +104,10 @@ impl Body for ActiveDroplet {
         self.slip.resize(count, 0.0);
         match self.motion {
             Motion::Equidistributed { relaxation, .. } => {
-                self.relaxation = relaxation * motion_rate(&self.shape.geometry, velocities);
+                let radius = self.shape.geometry.perimeter / TAU;
+                let diffusion = self.transport.as_ref().map_or(0.0, |_| self.diffusion) / (radius * radius);
+                let unit = if diffusion > 0.0 { diffusion } else { motion_rate(&self.shape.geometry, velocities) };
+                self.relaxation = relaxation * unit;
                 let (relaxation, motions, slip) = (self.relaxation, &mut self.motions, &mut self.slip);
                 match self.spectral.as_mut() {
                     Some(curve) => curve.equidistribute(&self.shape.geometry, velocities, relaxation, motions, slip),
@@ -242,12 +245,12 @@ impl Body for ActiveDroplet {
         if self.transport.is_some() {
             push("the diffusion constant", self.diffusion);
         }
+        push("the number of markers at the start", self.initial_markers as f64);
         let mean = self.initial_number / (2.0 * (PI * self.initial_area).sqrt());
         for sample in LAW_SAMPLES {
             let name = format!("the tension at {sample} times the mean concentration at the start");
             push(&name, self.tension.value(sample * if mean > 0.0 { mean } else { 1.0 }));
         }
-        push("the number of markers at the start", self.initial_markers as f64);
         properties
     }
 

@@ -169,8 +169,8 @@ pub enum Start {
 pub enum MarkerMotion {
     /// At a velocity of their own that keeps them equally spaced.
     Equidistributed {
-        /// Rate at which unequal spacing relaxes, in units of the rate at which the flow moves the markers
-        /// ([`active_interface::Motion::Equidistributed`]).
+        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi R
+        /// the perimeter; where nothing diffuses, of the root mean square of the markers' velocities over R.
         relaxation: f64,
     },
     /// With the fluid, as in the thesis; markers are inserted where they thin out and removed where they crowd.
@@ -179,7 +179,7 @@ pub enum MarkerMotion {
 
 impl Default for MarkerMotion {
     fn default() -> Self {
-        Self::Equidistributed { relaxation: 20.0 }
+        Self::Equidistributed { relaxation: 50.0 }
     }
 }
 

@@ -30,7 +30,7 @@ impl Setup {
     /// The description as a TOML text, all entries written out, from which [`Setup::from_toml`] makes it again.
     ///
     /// # Errors
-    /// None that is known: [`SetupError::File`] with what the writer of TOML says.
+    /// [`SetupError::File`]: a seed above 9223372036854775807, which TOML has no number for.
     pub fn to_toml(&self) -> Result<String, SetupError> {
         // By way of a table: the serializer of documents would be compiled for every part of the description.
         let table = toml::Table::try_from(self).map_err(|error| SetupError::File { problem: error.to_string() })?;

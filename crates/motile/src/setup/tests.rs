@@ -344,7 +344,7 @@ mod file {
         setup.droplets.push(DropletSetup { centre: [12.0, 0.0], ..DropletSetup::passive(3.0) });
         setup.droplets[1].particles = Some(Particles {
             excluded_volume: Exclusion::Quadratic(0.1),
-            start: Start::Perturbed { amplitude: 0.05, seed: u64::MAX },
+            start: Start::Perturbed { amplitude: 0.05, seed: i64::MAX as u64 },
             ..Particles::default()
         });
         let graded = Grading::Along { axis: Axis::X, factors: vec![[0.0, 1.0], [3.0, 2.0]] };
