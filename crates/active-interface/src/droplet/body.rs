@@ -104,10 +104,9 @@ impl Body for ActiveDroplet {
         self.slip.resize(count, 0.0);
         match self.motion {
             Motion::Equidistributed { relaxation, .. } => {
-                let radius = self.shape.geometry.perimeter / TAU;
-                let diffusion = self.transport.as_ref().map_or(0.0, |_| self.diffusion) / (radius * radius);
-                let unit = if diffusion > 0.0 { diffusion } else { motion_rate(&self.shape.geometry, velocities) };
-                self.relaxation = relaxation * unit;
+                if self.transport.is_none() && self.tensions.iter().all(|&tension| tension == 0.0) {
+                    self.relaxation = relaxation * motion_rate(&self.shape.geometry, velocities);
+                }
                 let (relaxation, motions, slip) = (self.relaxation, &mut self.motions, &mut self.slip);
                 match self.spectral.as_mut() {
                     Some(curve) => curve.equidistribute(&self.shape.geometry, velocities, relaxation, motions, slip),
@@ -139,6 +138,13 @@ impl Body for ActiveDroplet {
     }
 
     fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
+        if let Motion::Equidistributed { relaxation, .. } = self.motion {
+            let radius = self.shape.geometry.perimeter / TAU;
+            let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
+            let surface = tension / (self.mean_viscosity(medium) * radius);
+            let diffusion = self.diffusion / (radius * radius);
+            self.relaxation = relaxation * if self.transport.is_some() { diffusion } else { surface };
+        }
         let count = self.shape.markers.len();
         self.fit(medium);
         self.diffusivities.resize(count, 0.0);
