@@ -235,10 +235,12 @@ fn a_checkpoint_of_another_scene_is_refused_and_changes_nothing() {
     }
 }
 
-/// What differs is named with both values, whatever it is.
+/// A change of the grid's settings.
+type Change = fn(&mut GridMethod);
+
 #[test]
 fn what_is_seen_after_resuming_by_another_method_is_what_that_finds() {
-    let method = |spacing: f64, change: fn(&mut GridMethod)| {
+    let method = |spacing: f64, change: Change| {
         let mut grid = GridMethod { marker_spacing: Some(0.1), ..GridMethod::of_spacing(spacing) };
         change(&mut grid);
         Setup { method: Method::Grid(grid), ..coarse() }
@@ -250,7 +252,7 @@ fn what_is_seen_after_resuming_by_another_method_is_what_that_finds() {
         first.scene.run(0.5).go().expect("a run");
         let speed = first.scene.observe(first.droplets[0]).expect("a droplet").speed();
         let saved = first.scene.checkpoint("");
-        let others: [(f64, fn(&mut GridMethod)); 4] = [
+        let others: [(f64, Change); 4] = [
             (0.3, |_| {}),
             (0.2, |grid| grid.corrected = false),
             (0.2, |grid| grid.kernel = AnyKernel::Peskin4),
@@ -272,6 +274,7 @@ fn what_is_seen_after_resuming_by_another_method_is_what_that_finds() {
     }
 }
 
+/// What differs is named with both values, whatever it is.
 #[test]
 fn a_checkpoint_of_other_physics_is_refused_by_name() {
     let good = filled(20.0, &coarse());
