@@ -26,16 +26,6 @@ impl Base {
         let normals = profile.tangents()?.iter().map(|t| outward(*t)).collect();
         Ok(Self { positions: profile.positions.clone(), normals })
     }
-
-    /// The same curve after a rigid motion.
-    pub(crate) fn moved(&self, height: f64, angle: f64) -> Self {
-        let turn = Vec2::from_angle(angle);
-        let shift = Vec2::new(0.0, height);
-        Self {
-            positions: self.positions.iter().map(|x| turn.rotate(*x) + shift).collect(),
-            normals: self.normals.iter().map(|n| turn.rotate(*n)).collect(),
-        }
-    }
 }
 
 /// Unit normal to the right of a tangent.
@@ -224,10 +214,5 @@ impl Model {
             *rate = -value.re;
         }
         Ok((&self.offset_rates, &self.density_rates))
-    }
-
-    /// Flow at points, of the present state.
-    pub(crate) fn flow(&mut self) -> &mut InterfaceFlow {
-        &mut self.flow
     }
 }

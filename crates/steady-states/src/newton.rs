@@ -135,8 +135,7 @@ impl System {
                 }
                 let size = correction.state.amax();
                 let found = if size < LARGEST_STEP {
-                    let next = if self.is_far(&trial) { self.rebased(&trial, 0.0) } else { Ok(trial) };
-                    next.and_then(|next| Ok((self.residual(&next)?, next)))
+                    self.residual(&trial).map(|rates| (rates, trial))
                 } else {
                     Err(SteadyError::NoConvergence { residual: last, iterations: count, remedy: REMEDY })
                 };
@@ -149,6 +148,11 @@ impl System {
                         }
                         step *= (USUAL_STEP / size).clamp(0.5, 2.0);
                         (*point, rates, last) = (next, next_rates, residual);
+                        if self.is_far(point) {
+                            *point = self.rebased(point, crowding)?;
+                            rates = self.residual(point)?;
+                            last = rates.amax();
+                        }
                         break;
                     }
                     _ if step > 1e-6 * unit => {

@@ -110,6 +110,23 @@ impl Profile {
         }
     }
 
+    /// Arc length from the first node (length) and concentration (particles per length) at the nodes.
+    ///
+    /// # Errors
+    /// A curve that is not finite.
+    pub fn concentrations(&self) -> Result<(Vec<f64>, Vec<f64>), SteadyError> {
+        let rates: Vec<f64> = self.tangents()?.iter().map(|t| t.length()).collect();
+        let mut series = PeriodicSeries::new(self.nodes());
+        series.analyse(rates.iter().map(|&rate| Complex64::new(rate, 0.0)))?;
+        let mean = series.coefficients()[0].re;
+        series.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { Complex64::new(0.0, -1.0 / wave) });
+        let periodic = series.values();
+        let step = TAU / rates.len() as f64;
+        let lengths =
+            periodic.iter().enumerate().map(|(k, z)| mean * step * k as f64 + z.re - periodic[0].re).collect();
+        Ok((lengths, self.density.iter().zip(&rates).map(|(m, rate)| m / rate).collect()))
+    }
+
     /// Derivative of the positions by the parameter.
     pub(crate) fn tangents(&self) -> Result<Vec<Vec2>, SteadyError> {
         let mut series = PeriodicSeries::new(self.nodes());
@@ -136,7 +153,8 @@ impl Profile {
             let concentration: Vec<f64> = places.iter().zip(&lengths).map(|(place, g)| place.density / g).collect();
             let mean = concentration.iter().sum::<f64>() / fine as f64;
             let slopes = derivative(&mut series, &concentration)?;
-            let steep = slopes.iter().zip(&lengths).map(|(slope, g)| (1.0 + (crowding * slope / (g * mean)).powi(2)).sqrt());
+            let steep =
+                slopes.iter().zip(&lengths).map(|(slope, g)| (1.0 + (crowding * slope / (g * mean)).powi(2)).sqrt());
             series.analyse(steep.map(|value| Complex64::new(value, 0.0)))?;
             series.scale(|m| (-(m as f64 / SMOOTH_WAVES).powi(2)).exp());
             for (weight, smooth) in weights.iter_mut().zip(series.values()) {
@@ -179,52 +197,6 @@ impl Profile {
         }
         Ok(result)
     }
-
-    /// This droplet on lines along normals of another curve: the offsets along them, and the density by the parameter
-    /// of that curve; none where it is too far from that curve.
-    pub(crate) fn over(&self, origins: &[Vec2], normals: &[Vec2]) -> Result<Option<(Vec<f64>, Vec<f64>)>, SteadyError> {
-        let sampler = Sampler::new(self)?;
-        let count = origins.len();
-        let (mut parameters, mut offsets, mut density) = (Vec::new(), Vec::new(), Vec::new());
-        let mut parameter = 0.0;
-        for k in 0..count {
-            let (origin, normal) = (origins[k], normals[k]);
-            let place_of = |j: usize| sampler.at(TAU * j as f64 / (2 * count) as f64).position;
-            if k == 0 {
-                let distance = |j: &usize| (place_of(*j) - origin).length_squared();
-                let nearest = (0..2 * count).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
-                parameter = TAU * nearest as f64 / (2 * count) as f64;
-            }
-            let mut converged = false;
-            for _ in 0..MOST_ITERATIONS {
-                let Place { position, tangent, .. } = sampler.at(parameter);
-                let step = -(position - origin).perp_dot(normal) / tangent.perp_dot(normal);
-                parameter += step.clamp(-0.5, 0.5);
-                if step.abs() < 1e-14 {
-                    converged = true;
-                    break;
-                }
-            }
-            let place = sampler.at(parameter);
-            if !(converged && place.tangent.perp_dot(normal) < 0.0) {
-                return Ok(None);
-            }
-            offsets.push((place.position - origin).dot(normal));
-            density.push(place.density);
-            parameters.push(parameter);
-            parameter += TAU / count as f64;
-        }
-        let step = TAU / count as f64;
-        let excess: Vec<f64> = parameters.iter().enumerate().map(|(k, p)| p - step * k as f64).collect();
-        let rates = derivative(&mut PeriodicSeries::new(count), &excess)?;
-        if rates.iter().any(|rate| *rate <= -1.0) {
-            return Ok(None);
-        }
-        for (value, rate) in density.iter_mut().zip(&rates) {
-            *value *= 1.0 + rate;
-        }
-        Ok(Some((offsets, density)))
-    }
 }
 
 /// Centroid and aspect ratio of an area.
@@ -243,7 +215,8 @@ impl Profile {
             fine.positions.iter().zip(&tangents).map(|(x, t)| of(*x, *t) * step).sum()
         };
         let area = integral(&|x, t| 0.5 * x.perp_dot(t));
-        let centroid = Vec2::new(integral(&|x, t| 0.5 * x.x * x.x * t.y), integral(&|x, t| -0.5 * x.y * x.y * t.x)) / area;
+        let centroid =
+            Vec2::new(integral(&|x, t| 0.5 * x.x * x.x * t.y), integral(&|x, t| -0.5 * x.y * x.y * t.x)) / area;
         let along = integral(&|x, t| (x.x - centroid.x).powi(3) * t.y / 3.0);
         let across = integral(&|x, t| -(x.y - centroid.y).powi(3) * t.x / 3.0);
         Ok(AreaMoments { centroid, aspect_ratio: (along / across).sqrt() })
@@ -269,7 +242,8 @@ impl Profile {
         let step = TAU / count as f64;
         let extremum = |sign: f64| {
             let value = |parameter: f64| sign * at(parameter);
-            let best = (0..count).max_by(|a, b| value(*a as f64 * step).total_cmp(&value(*b as f64 * step))).unwrap_or(0);
+            let best =
+                (0..count).max_by(|a, b| value(*a as f64 * step).total_cmp(&value(*b as f64 * step))).unwrap_or(0);
             // The parabola through three points that are close.
             let (mut middle, mut width) = (best as f64 * step, step);
             for _ in 0..4 {

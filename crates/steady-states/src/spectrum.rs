@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use crate::SteadyError;
 use crate::modes::Part;
 use crate::system::{Point, System};
-use crate::SteadyError;
 
 /// Symmetry of a disturbance under the mirror image at the x axis, of a state that is its own mirror image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,7 +45,7 @@ pub struct Eigenmode {
 pub struct Spectrum {
     /// The eigenvalues.
     pub modes: Vec<Eigenmode>,
-    /// Largest rate of change (1/time) of a rigid motion of unit size that should have none: an error estimate.
+    /// Largest growth rate (1/time) of a rigid motion, which should have none: an error estimate.
     pub neutral: f64,
 }
 
@@ -69,6 +69,16 @@ impl Spectrum {
     }
 }
 
+/// The shape of an eigenmode, as complex amplitudes at the nodes of its steady state: the disturbance is the real part of
+/// the amplitude times exp(value t). Its largest Fourier coefficient is 1 (in units of the radius or of c0).
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModeShape {
+    /// Offsets along the outward normal (length).
+    pub offsets: Vec<Complex64>,
+    /// Changes of the concentration at the nodes (particles per length).
+    pub concentrations: Vec<Complex64>,
+}
+
 /// A part of the linearised equations, without what is conserved and without rigid motions.
 pub(crate) struct Reduced {
     pub(crate) matrix: DMatrix<f64>,
@@ -84,7 +94,7 @@ impl System {
         self.load(point)?;
         let (_, generators) = self.generators(&point.base, part)?;
         let conserved = self.conserved_gradients(&point.base, part)?;
-        let neutral = generators.iter().map(|g| (&jacobian * g).amax() / g.norm()).fold(0.0, f64::max);
+        let neutral = generators.iter().map(|g| (g.dot(&(&jacobian * g)) / g.norm_squared()).abs()).fold(0.0, f64::max);
         let conserved = conserved.into_iter().filter(|gradient| gradient.norm() > 1e-6);
         let removed: Vec<DVector<f64>> = conserved.chain(generators).collect();
         let n = jacobian.nrows();
@@ -130,6 +140,45 @@ impl System {
         }
         modes.sort_by(|a, b| b.value.re.total_cmp(&a.value.re));
         Ok(Spectrum { modes, neutral })
+    }
+}
+
+/// Size of the disturbance for the change of the concentration.
+const SMALL: f64 = 1e-5;
+
+impl System {
+    /// The shape of a mode.
+    pub(crate) fn mode_shape(&mut self, point: &Point, mode: &Eigenmode) -> Result<ModeShape, SteadyError> {
+        let part = match mode.symmetry {
+            Symmetry::Symmetric => Part::Even,
+            Symmetry::Antisymmetric => Part::Odd,
+            Symmetry::None => Part::Full,
+        };
+        let Reduced { matrix, basis, .. } = self.reduced(point, part)?;
+        let (_, vector) = eigenvector(&matrix, mode.value)?;
+        let state = basis.map(|v| Complex64::new(v, 0.0)) * vector;
+        let largest = state.iter().copied().fold(Complex64::ZERO, |a, b| if b.norm() > a.norm() { b } else { a });
+        let range = self.modes.part(part);
+        let [real, imaginary] = [0, 1].map(|which| {
+            let mut full = DVector::zeros(self.modes.len());
+            for (k, value) in state.iter().enumerate() {
+                let value = value / largest;
+                full[range.start + k] = if which == 0 { value.re } else { value.im };
+            }
+            full
+        });
+        let mut change = |state: &DVector<f64>| -> Result<(Vec<f64>, Vec<f64>), SteadyError> {
+            let mut sides = Vec::new();
+            for amount in [SMALL, -SMALL] {
+                self.load(&Point { state: &point.state + amount * state, ..point.clone() })?;
+                sides.push(self.model.concentrations.clone());
+            }
+            let change = sides[0].iter().zip(&sides[1]).map(|(above, below)| (above - below) / (2.0 * SMALL)).collect();
+            Ok((self.modes.synthesise(state).0, change))
+        };
+        let ((h, c), (h_imaginary, c_imaginary)) = (change(&real)?, change(&imaginary)?);
+        let complex = |re: &[f64], im: &[f64]| re.iter().zip(im).map(|(re, im)| Complex64::new(*re, *im)).collect();
+        Ok(ModeShape { offsets: complex(&h, &h_imaginary), concentrations: complex(&c, &c_imaginary) })
     }
 }
 

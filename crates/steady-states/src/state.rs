@@ -7,11 +7,11 @@ use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::{Convention, Observables, observe};
 use motile::ib_core::Vec2;
 
-use crate::modes::Part;
 use crate::model::FrameMotion;
+use crate::modes::Part;
 use crate::newton::{Outcome, centred};
 use crate::profile::Sampler;
-use crate::spectrum::Spectrum;
+use crate::spectrum::{Eigenmode, ModeShape, Spectrum};
 use crate::system::{Point, System};
 use crate::{Profile, SteadyError};
 
@@ -34,7 +34,6 @@ pub struct SteadyState {
     profile: Profile,
     outcome: Outcome,
     mirror: bool,
-    crowding: f64,
 }
 
 /// What is measured of a steady state.
@@ -113,23 +112,17 @@ impl SteadyState {
         let mut point = system.point(&profile, frame)?;
         let part = if mirror { Part::Even } else { Part::Full };
         let outcome = system.newton(&mut point, part, None)?;
-        Self::of(&system, point, outcome, mirror, crowding)
+        Self::of(&system, point, outcome, mirror)
     }
 
-    pub(crate) fn of(
-        system: &System,
-        point: Point,
-        outcome: Outcome,
-        mirror: bool,
-        crowding: f64,
-    ) -> Result<Self, SteadyError> {
+    pub(crate) fn of(system: &System, point: Point, outcome: Outcome, mirror: bool) -> Result<Self, SteadyError> {
         let profile = system.profile(&point);
         for (what, tail) in profile.tails()? {
             if tail > LONGEST_TAIL {
                 return Err(SteadyError::Unresolved { what, nodes: profile.nodes(), tail });
             }
         }
-        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror, crowding })
+        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror })
     }
 
     /// The description.
@@ -182,6 +175,14 @@ impl SteadyState {
         System::new(&self.setup)?.spectrum(&self.point, self.mirror)
     }
 
+    /// The shape of a mode of [`SteadyState::spectrum`].
+    ///
+    /// # Errors
+    /// A value that is no eigenvalue.
+    pub fn mode_shape(&self, mode: &Eigenmode) -> Result<ModeShape, SteadyError> {
+        System::new(&self.setup)?.mode_shape(&self.point, mode)
+    }
+
     /// What is measured, to spectral accuracy.
     ///
     /// # Errors
@@ -196,7 +197,8 @@ impl SteadyState {
         let tangents = self.profile.tangents()?;
         let mut dipole = [[0.0; 2]; 2];
         for (k, x) in self.profile.positions.iter().enumerate() {
-            let (r, f, v, n) = (*x - moments.centroid, model.forces[k], model.velocities[k], -tangents[k].perp() * step);
+            let (r, f, v, n) =
+                (*x - moments.centroid, model.forces[k], model.velocities[k], -tangents[k].perp() * step);
             let (r, f, v, n) = (r.to_array(), f.to_array(), v.to_array(), n.to_array());
             for i in 0..2 {
                 for j in 0..2 {
@@ -248,14 +250,6 @@ impl SteadyState {
             },
             Convention::FarField,
         )?)
-    }
-
-    pub(crate) fn point(&self) -> &Point {
-        &self.point
-    }
-
-    pub(crate) fn crowding(&self) -> f64 {
-        self.crowding
     }
 }
 

@@ -264,7 +264,8 @@ impl Equations {
             let largest = row.amax();
             row /= largest;
         }
-        let norm = |matrix: &DMatrix<f64>| matrix.column_iter().map(|c| c.iter().map(|v| v.abs()).sum()).fold(0.0, f64::max);
+        let norm =
+            |matrix: &DMatrix<f64>| matrix.column_iter().map(|c| c.iter().map(|v| v.abs()).sum()).fold(0.0, f64::max);
         let size = norm(&scaled);
         scaled.try_inverse().map_or(f64::INFINITY, |inverse| size * norm(&inverse))
     }
