@@ -1,8 +1,8 @@
 //! A steady swimmer and its stability, without a run.
 //!
 //! `cargo run --release --example steady_state` finds the droplet that a run of the same flags settles to, by Newton's
-//! method, prints what was measured, and writes to `out/steady_state/`: `summary.json`, the results; `spectrum.csv`, the
-//! eigenvalues; `steady_state.svg` (also as PNG), shape, concentration and the leading mode. `--help` lists the flags.
+//! method, prints what was measured, and writes to `out/steady_state/`: `summary.json`, the results; `spectrum.csv`,
+//! the eigenvalues; `steady_state.svg` (also as PNG), shape, concentration and the leading mode. `--help` lists flags.
 
 mod flags;
 

@@ -69,8 +69,8 @@ impl Spectrum {
     }
 }
 
-/// The shape of an eigenmode, as complex amplitudes at the nodes of its steady state: the disturbance is the real part of
-/// the amplitude times exp(value t). Its largest Fourier coefficient is 1 (in units of the radius or of c0).
+/// The shape of an eigenmode, as complex amplitudes at the nodes of its steady state: the disturbance is the real part
+/// of the amplitude times exp(value t). Its largest Fourier coefficient is 1 (in units of the radius or of c0).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ModeShape {
     /// Offsets along the outward normal (length).

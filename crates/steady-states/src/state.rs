@@ -71,8 +71,8 @@ impl SteadyState {
         Self::from_profile(setup, &coarse.profile(&point), point.frame, mirror)
     }
 
-    /// The droplet of a description at rest: a circle with the same concentration everywhere, a steady state wherever it
-    /// has room.
+    /// The droplet of a description at rest: a circle with the same concentration everywhere, a steady state wherever
+    /// it has room.
     ///
     /// # Errors
     /// As [`SteadyState::find`].
@@ -220,8 +220,8 @@ impl SteadyState {
         })
     }
 
-    /// All observables of a run ([`Observables::get`] has them by name), from markers between the nodes, of second order
-    /// in their spacing: 16 for each node.
+    /// All observables of a run ([`Observables::get`] has them by name), from markers between the nodes, of second
+    /// order in their spacing: 16 for each node.
     ///
     /// # Errors
     /// A flow that cannot be solved for.
