@@ -42,6 +42,8 @@
 //! makes it regular, and V comes out with the state. The derivative is by central differences (errors of 1e-9), one
 //! evaluation of the flow a difference; a state that is its own mirror image is solved for among such states, and its
 //! eigenvalues come sorted by symmetry.
+mod branch;
+mod critical;
 mod error;
 mod model;
 mod modes;
@@ -52,6 +54,8 @@ mod spectrum;
 mod state;
 mod system;
 
+pub use branch::{Branch, BranchPoint, Continuation, SpecialKind, SpecialPoint};
+pub use critical::Critical;
 pub use error::SteadyError;
 /// A growth rate and an angular frequency.
 pub use num_complex::Complex64;

@@ -197,6 +197,52 @@ impl Profile {
         }
         Ok(result)
     }
+
+    /// This droplet on lines along normals of another curve: the offsets along them, and the density by the parameter
+    /// of that curve; none where it is too far from that curve.
+    pub(crate) fn over(&self, origins: &[Vec2], normals: &[Vec2]) -> Result<Option<(Vec<f64>, Vec<f64>)>, SteadyError> {
+        let sampler = Sampler::new(self)?;
+        let count = origins.len();
+        let (mut parameters, mut offsets, mut density) = (Vec::new(), Vec::new(), Vec::new());
+        let mut parameter = 0.0;
+        for k in 0..count {
+            let (origin, normal) = (origins[k], normals[k]);
+            let place_of = |j: usize| sampler.at(TAU * j as f64 / (2 * count) as f64).position;
+            if k == 0 {
+                let distance = |j: &usize| (place_of(*j) - origin).length_squared();
+                let nearest = (0..2 * count).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+                parameter = TAU * nearest as f64 / (2 * count) as f64;
+            }
+            let mut converged = false;
+            for _ in 0..MOST_ITERATIONS {
+                let Place { position, tangent, .. } = sampler.at(parameter);
+                let step = -(position - origin).perp_dot(normal) / tangent.perp_dot(normal);
+                parameter += step.clamp(-0.5, 0.5);
+                if step.abs() < 1e-14 {
+                    converged = true;
+                    break;
+                }
+            }
+            let place = sampler.at(parameter);
+            if !(converged && place.tangent.perp_dot(normal) < 0.0) {
+                return Ok(None);
+            }
+            offsets.push((place.position - origin).dot(normal));
+            density.push(place.density);
+            parameters.push(parameter);
+            parameter += TAU / count as f64;
+        }
+        let step = TAU / count as f64;
+        let excess: Vec<f64> = parameters.iter().enumerate().map(|(k, p)| p - step * k as f64).collect();
+        let rates = derivative(&mut PeriodicSeries::new(count), &excess)?;
+        if rates.iter().any(|rate| *rate <= -1.0) {
+            return Ok(None);
+        }
+        for (value, rate) in density.iter_mut().zip(&rates) {
+            *value *= 1.0 + rate;
+        }
+        Ok(Some((offsets, density)))
+    }
 }
 
 /// Centroid and aspect ratio of an area.

@@ -19,6 +19,14 @@ pub enum Symmetry {
 }
 
 impl Symmetry {
+    pub(crate) fn part(self) -> Part {
+        match self {
+            Self::Symmetric => Part::Even,
+            Self::Antisymmetric => Part::Odd,
+            Self::None => Part::Full,
+        }
+    }
+
     /// Its name in files.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -149,11 +157,7 @@ const SMALL: f64 = 1e-5;
 impl System {
     /// The shape of a mode.
     pub(crate) fn mode_shape(&mut self, point: &Point, mode: &Eigenmode) -> Result<ModeShape, SteadyError> {
-        let part = match mode.symmetry {
-            Symmetry::Symmetric => Part::Even,
-            Symmetry::Antisymmetric => Part::Odd,
-            Symmetry::None => Part::Full,
-        };
+        let part = mode.symmetry.part();
         let Reduced { matrix, basis, .. } = self.reduced(point, part)?;
         let (_, vector) = eigenvector(&matrix, mode.value)?;
         let state = basis.map(|v| Complex64::new(v, 0.0)) * vector;

@@ -125,6 +125,32 @@ impl SteadyState {
         Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror })
     }
 
+    /// This state with another description, nearby, over the same nodes.
+    pub(crate) fn moved_to(&self, setup: &Setup) -> Result<Self, SteadyError> {
+        let mut system = System::new(setup)?;
+        let mut point = self.point.clone();
+        let part = if self.mirror { Part::Even } else { Part::Full };
+        let outcome = system.newton(&mut point, part, None)?;
+        if !system.is_far(&point) {
+            return Self::of(&system, point, outcome, self.mirror);
+        }
+        Self::from_profile(setup, &system.profile(&point), point.frame, self.mirror)
+    }
+
+    pub(crate) fn point(&self) -> &Point {
+        &self.point
+    }
+
+    /// The rate D/R^2 (1/time).
+    pub(crate) fn diffusion_rate(&self) -> f64 {
+        let droplet = &self.setup.droplets[0];
+        let radius = match droplet.shape {
+            motile::DropletShape::Round { radius } | motile::DropletShape::Squeezed { radius, .. } => radius,
+            _ => 1.0,
+        };
+        droplet.particles.map_or(1.0, |particles| particles.diffusion / (radius * radius))
+    }
+
     /// The description.
     #[must_use]
     pub fn setup(&self) -> &Setup {
