@@ -89,7 +89,6 @@ fn meet(flags: &Flags) -> Result<()> {
     };
     let mut setup = flags.method.setup(&flags.droplet, None)?;
     setup.region = Region::Box { lengths: flags.sides };
-    flags.method.check(&setup, &[(flags.sides[0], "box"), (flags.sides[1], "box")])?;
     setup.repulsion = flags.repulsion.map(|[strength, range]| RepulsionSetup { strength, range });
     let first = DropletSetup { name: "first droplet".to_owned(), centre: places[0], ..setup.droplets[0].clone() };
     let activity = flags.second_activity.unwrap_or(first.activity());
@@ -109,7 +108,7 @@ fn meet(flags: &Flags) -> Result<()> {
     let mut scene = scene.with_least_gap(0.0)?;
 
     // The run, observed.
-    let mut job = Job::new(&mut scene, &setup, &flags.method, &flags.output, "two_droplets")?;
+    let mut job = Job::new(&mut scene, &setup, flags.method.time, &flags.output, "two_droplets")?;
     let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
     let mut table = CsvTable::create(job.directory.join("trajectory.csv"), &names)?;
     let mut record = |system: &mut System<AnyFlow>| -> Result<()> { Ok(table.push(&look(system, droplets)?)?) };

@@ -1,5 +1,7 @@
 //! Values of command line flags: from text to numbers, or a reason why not.
 
+use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
+
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
 
@@ -50,6 +52,12 @@ fn number(text: &str, rule: &str, valid: impl Fn(f64) -> bool) -> Result<f64, St
     }
 }
 
+/// A whole number in this range, or the rule that it breaks.
+fn whole<T: FromStr + PartialOrd + Display>(text: &str, range: RangeInclusive<T>) -> Result<T, String> {
+    let number = text.trim().parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("must be a whole number from {} to {}", range.start(), range.end()))
+}
+
 /// A number of magnitude up to a million.
 ///
 /// # Errors
@@ -71,10 +79,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
 /// # Errors
 /// The rule that `text` breaks.
 pub(crate) fn count(text: &str) -> Result<usize, String> {
-    match text.trim().parse::<usize>() {
-        Ok(count) if (16..=16384).contains(&count) => Ok(count),
-        _ => Err("must be a whole number from 16 to 16384".into()),
-    }
+    whole(text, 16..=16384)
 }
 
 /// A number of steps.
@@ -82,10 +87,7 @@ pub(crate) fn count(text: &str) -> Result<usize, String> {
 /// # Errors
 /// The rule that `text` breaks.
 pub(crate) fn steps(text: &str) -> Result<usize, String> {
-    match text.trim().parse::<usize>() {
-        Ok(steps) if (1..=1_000_000_000).contains(&steps) => Ok(steps),
-        _ => Err("must be a whole number from 1 to 1e9".into()),
-    }
+    whole(text, 1..=1_000_000_000)
 }
 
 /// A number from zero to a million.
@@ -126,7 +128,7 @@ pub(crate) fn kernel(text: &str) -> Result<AnyKernel, String> {
 /// # Errors
 /// The rule that `text` breaks.
 pub(crate) fn seed(text: &str) -> Result<u64, String> {
-    text.trim().parse().map_err(|_| format!("must be a whole number from 0 to {}", u64::MAX))
+    whole(text, 0..=u64::MAX)
 }
 
 #[cfg(test)]

@@ -90,8 +90,8 @@ pub fn flags(bytes: &[u8]) {
     let Ok(mut setup) = method.setup(&droplet, None) else { return };
     let checked = match &region {
         None => Ok(()),
-        Some(Region::Box(region)) => region.apply(&mut setup, &method),
-        Some(Region::Channel(channel)) => channel.apply(&mut setup, &method),
+        Some(Region::Box(region)) => region.apply(&mut setup),
+        Some(Region::Channel(channel)) => channel.apply(&mut setup),
         Some(Region::Elastic(walls)) => {
             let shape = ChannelShape::Straight { width: walls.width };
             let (droplet, region, method) = (droplet.clone(), walls.clone(), method.clone());
