@@ -176,18 +176,16 @@ impl AlongFlags {
 
 /// The flags of a region.
 pub trait RegionFlags: Args {
-    /// The region as it stands above a picture.
+    /// The region as it stands above a picture, nothing where that shows it.
     ///
     /// # Errors
     /// Flags that do not fit together.
-    fn caption(&self) -> Result<String>;
-}
-
-impl RegionFlags for BoxFlags {
     fn caption(&self) -> Result<String> {
         Ok(String::new())
     }
 }
+
+impl RegionFlags for BoxFlags {}
 
 impl RegionFlags for ChannelFlags {
     fn caption(&self) -> Result<String> {

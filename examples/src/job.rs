@@ -52,16 +52,8 @@ impl Job {
         let lock = File::open(&directory)?;
         let taken = matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
         ensure!(!taken, "another run writes to {}: give another --out, or wait for its end", directory.display());
-        Ok(Self {
-            _lock: lock,
-            directory,
-            end,
-            output,
-            description,
-            seconds: 0.0,
-            warnings: Vec::new(),
-            outcome: Ok(()),
-        })
+        let (seconds, warnings, outcome) = (0.0, Vec::new(), Ok(()));
+        Ok(Self { directory, end, seconds, warnings, output, description, outcome, _lock: lock })
     }
 
     /// Whether pictures are wanted.

@@ -26,19 +26,15 @@ pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
 /// # Errors
 /// The rule that `text` breaks.
 pub(crate) fn time_step(text: &str) -> Result<StepSize, String> {
-    let above_zero = |number: &str| number.parse::<f64>().ok().filter(|v| v.is_finite() && *v > 0.0);
+    let number = |number: &str| number.parse().ok();
     let step = match (text, text.strip_prefix("adaptive:")) {
         ("auto", _) => Some(StepSize::OfLimit(OF_LIMIT)),
         ("adaptive", _) => Some(StepSize::Adaptive { tolerance: TOLERANCE }),
-        (_, Some(tolerance)) => above_zero(tolerance).map(|tolerance| StepSize::Adaptive { tolerance }),
-        _ => above_zero(text).map(StepSize::Fixed),
+        (_, Some(tolerance)) => number(tolerance).map(|tolerance| StepSize::Adaptive { tolerance }),
+        _ => number(text).map(StepSize::Fixed),
     };
-    match step {
-        Some(StepSize::Adaptive { tolerance: 1.0.. }) => Err("must have a tolerance below 1".into()),
-        step => {
-            step.ok_or_else(|| "must be a number above 0, 'auto', 'adaptive' or 'adaptive:' and a tolerance".to_owned())
-        }
-    }
+    let rule = "must be a number above 0, 'auto', 'adaptive' or 'adaptive:' and a tolerance of at most 0.5";
+    step.filter(|step| step.check().is_ok()).ok_or_else(|| rule.to_owned())
 }
 
 /// Largest magnitude of a number.

@@ -84,7 +84,7 @@ fn row(trial: &Trial, outcome: &Outcome) -> String {
 }
 
 fn summary(trial: &Trial, outcome: &Outcome, picture: &str) -> Summary {
-    let mut summary = Summary::new();
+    let mut summary = Summary::default();
     summary.put("case", trial.number, "");
     summary.put("name", trial.name, "");
     summary.put("method", trial.way.to_string(), "");

@@ -144,7 +144,10 @@ fn what_is_wrong_is_said_in_one_sentence() {
         ("--viscosity -3", "--viscosity -3: must be a number above 0 and at most 1e6"),
         ("--viscosity nan", "--viscosity nan: must be a number above 0 and at most 1e6"),
         ("--box 0", "--box 0: must be a number above 0 and at most 1e6"),
-        ("--dt soon", "--dt soon: must be a number above 0, 'auto', 'adaptive' or 'adaptive:' and a tolerance"),
+        (
+            "--dt soon",
+            "--dt soon: must be a number above 0, 'auto', 'adaptive' or 'adaptive:' and a tolerance of at most 0.5",
+        ),
         ("--offset 1", "--offset 1: must be two numbers with a comma between them"),
         (
             "--kernel best",

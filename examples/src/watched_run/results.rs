@@ -30,7 +30,7 @@ impl WatchedRun {
     /// A run that has not been.
     pub fn summary(&self) -> Result<Summary> {
         let first = &self.recorder.records().records().first().context("nothing was measured")?.observables;
-        let mut summary = Summary::new();
+        let mut summary = Summary::default();
         self.put_droplet(&mut summary, first, &self.last()?.observables)?;
         self.put_cost(&mut summary);
         let method = METHODS.iter().find(|(_, _, kind)| *kind == self.method);

@@ -316,7 +316,7 @@ fn measured(recorder: &TrajectoryRecorder) -> Result<Summary> {
     let speeds: Vec<(f64, f64)> = recorder.records().iter().map(|r| (r.time, r.observables.speed())).collect();
     let steadiness = Steadiness::of(&speeds, Particles::default().diffusion);
     let report = recorder.regime(&RegimeCriteria::default())?;
-    let mut summary = Summary::new();
+    let mut summary = Summary::default();
     summary.put("speed", steadiness.final_speed, "");
     summary.put("speed_deviation", steadiness.deviation, "");
     summary.put("aspect_ratio", seen.aspect_ratio_moments, "");
