@@ -44,7 +44,8 @@ fn meet(flags: &Flags) -> Result<()> {
     ensure!(throat <= width, "--throat {throat} is wider than the channel: give a number up to --width {width}");
     ensure!(
         throat_length + 2.0 * ramp <= period,
-        "--throat-length {throat_length} and two --ramp {ramp} do not fit into --length {period}: make one of them smaller"
+        "--throat-length {throat_length} and two --ramp {ramp} do not fit into --length {period}: make one of them \
+         smaller"
     );
     let shape = ChannelShape::Constriction { width, throat, throat_length, ramp, centre: 0.0 };
     // Droplets that are pressed against the mouth for long enter corrected surfaces.

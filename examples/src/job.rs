@@ -35,8 +35,8 @@ pub struct Job {
 }
 
 impl Job {
-    /// A run to the time `end` of the scene that was made from `setup`, from the checkpoint that is asked for on. Its results go where
-    /// `output` says, by default to `out/<name>/`.
+    /// A run to the time `end` of the scene that was made from `setup`, from the checkpoint that is asked for on. Its
+    /// results go where `output` says, by default to `out/<name>/`.
     ///
     /// # Errors
     /// A time step that is not stable or so short that the run would take more than 1e9 steps, before anything is

@@ -128,7 +128,8 @@ impl ElasticFlags {
         let thinnest = spacing + setup.set_back();
         ensure!(
             thickness >= thinnest,
-            "walls of --wall-thickness {thickness} do not hold points {spacing} apart: give {} or more, or a smaller {flag}",
+            "walls of --wall-thickness {thickness} do not hold points {spacing} apart: give {} or more, or a smaller \
+             {flag}",
             rounded_up(thinnest)
         );
         // Two walls, which between them may fill the channel.

@@ -82,9 +82,14 @@ fn solver(n: usize, budget: Duration) -> Result<Value> {
         1e9 * time / cells,
         1e-6 * bytes * cells
     ));
-    Ok(
-        json!({ "n": n, "pair_us": 1e6 * pair, "solve_us": 1e6 * time, "solve_pairs": ratio, "ns_per_cell": 1e9 * time / cells, "bytes_per_cell": bytes }),
-    )
+    Ok(json!({
+        "n": n,
+        "pair_us": 1e6 * pair,
+        "solve_us": 1e6 * time,
+        "solve_pairs": ratio,
+        "ns_per_cell": 1e9 * time / cells,
+        "bytes_per_cell": bytes,
+    }))
 }
 
 /// A strip of springs of about `count` points, in a box it fills a good part of.

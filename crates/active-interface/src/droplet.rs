@@ -43,8 +43,8 @@ pub enum Motion {
     /// With the fluid's normal velocity (its mean removed, so that the area stays) and a tangential velocity W of their
     /// own that keeps them equally spaced; the default (docs/method.md, section 4). The mobility correction needs it.
     Equidistributed {
-        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi R
-        /// the perimeter; without particles, of tension over mean viscosity and R.
+        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi
+        /// R the perimeter; without particles, of tension over mean viscosity and R.
         relaxation: f64,
         /// Whether modes of the markers shorter than the kernel are filtered after each step; without it they grow in
         /// long runs. Only on a grid.

@@ -28,7 +28,8 @@ pub use observables::Observables;
 /// use elastic_solids::{Mesher, NeoHookean, Solid, SolidError};
 /// use ib_core::Vec2;
 ///
-/// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest row pinned.
+/// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest
+/// // row pinned.
 /// let channel = ChannelShape::Straight { width: 2.0 }.channel(12.0)?;
 /// let mesh = channel.lower_wall(-2.5, &Mesher::new(0.1)?)?;
 /// let shear = |s: Vec2| if s.x < 0.0 { 100.0 } else { 1000.0 };

@@ -26,7 +26,7 @@
 //! | runs, as observers | [`TrajectoryCsv`], [`ParaView`], [`Film`], [`RunProgress`] |
 //! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
 //! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
-//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG; [`time_series`] and [`concentration_plot`] of a droplet |
+//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG; [`time_series`], [`concentration_plot`] |
 //! | tables | [`CsvTable`], [`SolidMeter`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | waiting | [`Progress`] |

@@ -117,7 +117,8 @@ impl Job {
         let surface = if self.surface == Surface::SetBack { "_setback" } else { "" };
         let ratio = if self.ratio == 1.0 { String::new() } else { format!("_ratio{}", self.ratio) };
         format!(
-            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}{surface}{equidistant}{back}"
+            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}\
+             {method}{surface}{equidistant}{back}"
         )
     }
 

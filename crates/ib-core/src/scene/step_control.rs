@@ -12,8 +12,8 @@ pub enum StepSize {
     /// All of this length (time); refused at the start if above the stability limit, and an error during the run if the
     /// limit falls below it.
     Fixed(f64),
-    /// This fraction of the stability limit at each step, from 1e-6 to 1; shorter where the integrator bounds the error of such steps
-    /// ([`crate::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
+    /// This fraction of the stability limit at each step, from 1e-6 to 1; shorter where the integrator bounds the error
+    /// of such steps ([`crate::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
     OfLimit(f64),
     /// As long as accuracy and stability allow: the error of each step is estimated, steps whose error is above the
     /// tolerance or that fail otherwise are taken anew with a shorter one.
@@ -26,8 +26,8 @@ pub enum StepSize {
 }
 
 impl StepSize {
-    /// Refuses a length that is not positive and finite, a fraction of the limit that is not from 1e-6 to 1, a tolerance
-    /// that is not positive and at most 0.5.
+    /// Refuses a length that is not positive and finite, a fraction of the limit that is not from 1e-6 to 1, a
+    /// tolerance that is not positive and at most 0.5.
     ///
     /// # Errors
     /// The value.
