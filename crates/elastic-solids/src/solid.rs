@@ -1,7 +1,7 @@
 //! An elastic solid: a mesh, its forces, and where its points are now.
 
 mod body;
-mod observables;
+mod deformation;
 mod rounded_kink;
 mod surface_correction;
 
@@ -14,7 +14,7 @@ use crate::forces::{Hyperelastic, Springs};
 use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
 use surface_correction::SurfaceCorrection;
 
-pub use observables::Observables;
+pub use deformation::Deformation;
 
 /// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid
 /// and move with it. It is made of springs along the edges of its mesh (thesis section 4.1), of a hyperelastic material

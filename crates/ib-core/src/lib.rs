@@ -62,7 +62,7 @@ pub use body::{Body, MarkerBody, Observe};
 pub use checkpoint::Checkpoint;
 pub use error::{BodyError, FlowError, SceneError};
 pub use gap::Repulsion;
-pub use hydrodynamics::{Domain, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Vec2};
+pub use hydrodynamics::{Discretisation, Domain, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
 pub use input_checks as input;
 pub use integrator::{Integrator, Midpoint, RungeKuttaChebyshev};

@@ -61,7 +61,7 @@ pub use picture::{Look, SolidShape, Track};
 pub use plot::droplet::{concentration_plot, time_series};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::{Progress, RunProgress};
-pub use snapshot::{DropletShape, Snapshot};
+pub use snapshot::{DropletOutline, Snapshot};
 pub use solids::SolidMeter;
 pub use table::CsvTable;
 pub use trajectory::TrajectoryCsv;

@@ -6,7 +6,7 @@ use motile::active_interface::{
     ActiveDroplet,
     trajectory::{RegimeCriteria, TrajectoryRecorder},
 };
-use motile::elastic_solids::{Moduli, Solid, channel::width_between, solid::Observables};
+use motile::elastic_solids::{Moduli, Solid, channel::width_between, solid::Deformation};
 use motile::ib_core::gap::SolidGap;
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
 use motile::stokes_grid::Drive;
@@ -301,8 +301,8 @@ impl Job {
         let width = width_between(lower, upper)?;
         summary.put("channel_width_min", width.minimum - 2.0 * set_back, "");
         summary.put("channel_width_max", width.maximum - 2.0 * set_back, "");
-        let seen = [lower, upper].map(Observables::of);
-        let largest = |of: fn(&Observables) -> f64| of(&seen[0]).max(of(&seen[1]));
+        let seen = [lower, upper].map(Deformation::of);
+        let largest = |of: fn(&Deformation) -> f64| of(&seen[0]).max(of(&seen[1]));
         summary.put("largest_displacement", largest(|wall| wall.largest_displacement), "");
         summary.put("largest_normal_displacement", largest(|wall| wall.largest_normal_displacement), "");
         summary.put("smallest_jacobian", seen[0].smallest_jacobian.min(seen[1].smallest_jacobian), "");
