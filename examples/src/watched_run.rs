@@ -84,7 +84,7 @@ impl WatchedRun {
         let mut pictures = None;
         if job.draws() {
             let (caption, concentration) = (caption(setup, &particles, region), Some(particles.concentration));
-            let look = Look { caption, concentration, streamline_spacing: Some(STREAMLINES) };
+            let look = Look { caption, concentration, streamline_spacing: Some(STREAMLINES), ..Look::default() };
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
             pictures = Some((look.clone(), Film::new(look, watched), vtk));
         }
