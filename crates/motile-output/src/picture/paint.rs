@@ -172,16 +172,15 @@ impl Painter<'_> {
                 shifts.iter().flat_map(|&shift| lines.iter().map(move |line| layout.path(line, shift))).collect()
             };
             let (rings, edges) = (all(&solid.area), all(&solid.edges));
-            let scale = picture.legends.solids.as_ref();
-            let triangles = solid.triangles.iter().zip(solid.values(picture.solids));
-            let triangles: Vec<([Pixel; 3], Rgb)> = scale.map_or_else(Vec::new, |scale| {
-                let frame = &self.layout.frame;
-                let place = |p: Vec2| frame.place(p.x, p.y);
-                let image = |&shift: &Vec2| {
-                    triangles.clone().map(move |(at, value)| (at.map(|p| place(p + shift)), scale.colour(*value)))
-                };
-                shifts.iter().flat_map(image).collect()
-            });
+            let frame = &self.layout.frame;
+            let mut triangles: Vec<([Pixel; 3], Rgb)> = Vec::new();
+            if let Some(scale) = &picture.legends.solids {
+                for shift in self.images(&solid.triangles.iter().flatten()) {
+                    let place = |p: Vec2| frame.place(p.x + shift.x, p.y + shift.y);
+                    let values = solid.triangles.iter().zip(solid.values(picture.solids));
+                    triangles.extend(values.map(|(at, value)| (at.map(place), scale.colour(*value))));
+                }
+            }
             // One area for all periodic images: two that meet would show a seam.
             self.drawing.fill(&rings, SOLID, 1.0);
             if !triangles.is_empty() {
