@@ -7,7 +7,9 @@ use motile::active_interface::observables::{ConcentrationProfile, Frame, concent
 use motile::active_interface::{ActiveDroplet, trajectory::TrajectoryRecord};
 use motile::ib_core::{Every, Handle, Observer, Scene, Vec2, gap::SolidGap};
 use motile::{AnyFlow, Built, DropletSetup, Exclusion, MethodKind, Particles, Region, Setup};
-use motile_output::{Film, Look, ParaView, Raster, Snapshot, TrajectoryCsv, concentration_plot, time_series};
+use motile_output::{
+    Film, Look, ParaView, Raster, Snapshot, SolidColour, TrajectoryCsv, concentration_plot, time_series,
+};
 
 use crate::{Job, RegionFlags, SceneFlags, Summary, Watch};
 
@@ -79,9 +81,10 @@ impl WatchedRun {
         let gap = SolidGap::new(SOLID_OVERLAP * spacing).with_set_back(setup.set_back());
         let mut pictures = None;
         if job.draws() {
-            let (caption, concentration) =
-                (caption(setup, &particles, &flags.region.caption()?), Some(particles.concentration));
-            let look = Look { caption, concentration, streamline_spacing: Some(STREAMLINES) };
+            let caption = caption(setup, &particles, &flags.region.caption()?);
+            let concentration = Some(particles.concentration);
+            let (streamline_spacing, solids) = (Some(STREAMLINES), SolidColour::Stress);
+            let look = Look { caption, concentration, streamline_spacing, solids };
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
             pictures = Some((look.clone(), Film::new(look, watched), vtk));
         }
