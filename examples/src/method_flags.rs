@@ -6,6 +6,7 @@ use motile::ib_core::{AnyKernel, StepSize};
 use motile::{Contrast, GridMethod, IntegralMethod, Method, MethodKind, Setup};
 
 use crate::DropletFlags;
+use crate::flags::RADIUS;
 use crate::parse::{count, kernel, one_of, positive, time_step};
 
 /// Settings that go together.
@@ -110,8 +111,11 @@ impl MethodFlags {
                 "--{flag} means nothing on a grid: leave it out or give --method boundary-integral"
             );
         }
+        let spacing = self.spacing.unwrap_or(base.spacing);
+        let coarse = self.spacing.is_some_and(|spacing| spacing > 0.25 * RADIUS);
+        ensure!(!coarse, "--spacing {spacing} is too coarse for a droplet of radius 1: give at most 0.25");
         Ok(GridMethod {
-            spacing: self.spacing.unwrap_or(base.spacing),
+            spacing,
             kernel: self.kernel.unwrap_or(base.kernel),
             contrast: self.contrast_method.unwrap_or(base.contrast),
             ..base
