@@ -14,8 +14,8 @@ use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesS
 use crate::contrast::other_viscosity;
 use crate::mobility::{Clearance, MobilityCorrection};
 use crate::{
-    Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Medium, MobilityDeficit, Transfer, Vec2,
-    checkpoint::SavedState, hydrodynamics::FlowWork,
+    Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, MobilityDeficit,
+    Transfer, Vec2, checkpoint::SavedState, hydrodynamics::FlowWork,
 };
 use contrast_flow::ContrastFlow;
 
@@ -228,11 +228,11 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
 }
 
 impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
-    fn medium(&self) -> Medium {
+    fn discretisation(&self) -> Discretisation {
         let grid = self.grid();
         let [lx, ly] = grid.lengths();
         let walls = self.walls();
-        Medium {
+        Discretisation {
             domain: Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls },
             viscosity: self.solver.viscosity(),
             spacing: Some(grid.spacing()),

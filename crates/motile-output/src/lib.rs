@@ -26,14 +26,16 @@
 //! | runs, as observers | [`TrajectoryCsv`], [`ParaView`], [`Film`], [`RunProgress`] |
 //! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
 //! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
-//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG; [`time_series`] and [`concentration_plot`] of a droplet |
+//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG; [`time_series`], [`concentration_plot`] |
 //! | tables | [`CsvTable`], [`SolidMeter`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | waiting | [`Progress`] |
 //!
-//! Pictures need no fonts of the system and no C libraries. What cannot be drawn or written ends in an [`Error`].
+//! Pictures and plots are drawn once, as vectors, and written as SVG or PNG. They need no fonts of the system and no C
+//! libraries: Noto Sans is bundled (SIL Open Font License). What cannot be drawn or written ends in an [`Error`].
 
 mod animation;
+mod base64;
 mod colour;
 mod drawing;
 mod error;
@@ -57,11 +59,11 @@ pub use field::streamlines::streamlines;
 pub use motile::ib_core::Vec2;
 pub use paraview::ParaView;
 pub use paraview::file::{VtkFile, VtkSeries};
-pub use picture::{Look, SolidShape, Track};
+pub use picture::{Look, SolidColour, SolidShape, Track};
 pub use plot::droplet::{concentration_plot, time_series};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::{Progress, RunProgress};
-pub use snapshot::{DropletShape, Snapshot};
+pub use snapshot::{DropletOutline, Snapshot};
 pub use solids::SolidMeter;
 pub use table::CsvTable;
 pub use trajectory::TrajectoryCsv;

@@ -29,10 +29,11 @@ pub(crate) fn page(points: &[Point], circumstances: &Circumstances, pictures: &s
     // Writing to a string cannot fail.
     let _ = writeln!(
         page,
-        "# Speed against error\n\nMade by `{}`.\n\n{}, commit {}, one thread. The unit of cost is one real transform of {UNIT} x {UNIT} values there and \
-         back, done plainly with realfft by turns with the steps; here it takes {pair:.0} us (median). Seconds are medians over the steps \
-         of a run, or the mean processor time where that is less. A point is on the front, marked *, if no other one of its scene is both cheaper and more accurate. All points are in \
-         `points.csv`.\n",
+        "# Speed against error\n\nMade by `{}`.\n\n{}, commit {}, one thread. The unit of cost is one real transform \
+         of {UNIT} x {UNIT} values there and back, done plainly with realfft by turns with the steps; here it takes \
+         {pair:.0} us (median). Seconds are medians over the steps of a run, or the mean processor time where that is \
+         less. A point is on the front, marked *, if no other one of its scene is both cheaper and more accurate. All \
+         points are in `points.csv`.\n",
         circumstances.command, circumstances.machine, circumstances.commit
     );
     let _ = writeln!(page, "{}", summary(points));
@@ -65,7 +66,8 @@ fn section(points: &[Point]) -> String {
         points.iter().filter(|point| on_front(point) || point.settings.is_preset().is_some()).collect();
     shown.sort_by(|a, b| a.pairs().total_cmp(&b.pairs()));
     let mut text = String::from(
-        "| | settings | method | error, % | pairs per time | seconds per time | steps per time |\n|---|---|---|---|---|---|---|\n",
+        "| | settings | method | error, % | pairs per time | seconds per time | steps per time |\n\
+         |---|---|---|---|---|---|---|\n",
     );
     for point in shown {
         let preset = point.settings.is_preset().map(|name| format!(" **{name}**")).unwrap_or_default();
@@ -87,9 +89,10 @@ fn section(points: &[Point]) -> String {
 /// The cheapest settings for given errors, and what the thesis' method costs in comparison.
 fn summary(points: &[Point]) -> String {
     let mut text = String::from(
-        "## The coarsest settings\n\nThe cheapest settings whose error, and that of all refinements tried, is at most the target; cost in pairs per \
-         time and, in brackets, the factor by which the thesis' method costs more for the same error. \"About\": nothing so accurate was \
-         run; extrapolated from the finest grid and the next one about twice as coarse, error and cost as powers of h.\n\n\
+        "## The coarsest settings\n\nThe cheapest settings whose error, and that of all refinements tried, is at most \
+         the target; cost in pairs per time and, in brackets, the factor by which the thesis' method costs more for \
+         the same error. \"About\": nothing so accurate was run; extrapolated from the finest grid and the next one \
+         about twice as coarse, error and cost as powers of h.\n\n\
          | scene | method | 1 % | 0.3 % | 0.1 % |\n|---|---|---|---|---|\n",
     );
     for study in Study::ALL {

@@ -10,7 +10,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::base64::encode;
+use crate::base64::encode;
 use crate::{Error, Raster, Vec2};
 
 /// The values of a named array, one a point or one a cell, as they are stored.
@@ -154,7 +154,8 @@ impl VtkFile {
         let cell_data = data("CellData", &self.cell_data, *cells)?;
         Ok(format!(
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
-             header_type=\"UInt64\">\n<{kind}{attributes}>\n<Piece {piece}>\n{point_data}{cell_data}{geometry}</Piece>\n\
+             header_type=\"UInt64\">\n<{kind}{attributes}>\n\
+             <Piece {piece}>\n{point_data}{cell_data}{geometry}</Piece>\n\
              </{kind}>\n</VTKFile>\n"
         ))
     }
