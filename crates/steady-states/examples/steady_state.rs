@@ -48,7 +48,7 @@ fn solve(flags: &Flags) -> Result<()> {
     // The results.
     let Measured { speed, stresslet, aspect_ratio, concentration, .. } = state.measured()?;
     let leading = spectrum.leading();
-    let mut summary = Summary::new();
+    let mut summary = Summary::default();
     summary.put("speed", speed, "of the centroid (R0/T)");
     summary.put("velocity", state.velocity().to_array().to_vec(), "of the centroid (R0/T)");
     summary.put("stresslet", stresslet, "along the motion");

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use crate::modes::Part;
 use crate::newton::Outcome;
-use crate::profile::Profile;
+use crate::profile::{Fields, Profile};
 use crate::spectrum::{Spectrum, Symmetry, eigenvector};
 use crate::state::CROWDING;
 use crate::system::{Along, Point, System};
@@ -12,10 +12,12 @@ use crate::{Critical, Eigenmode, Parameter, SteadyError, SteadyState};
 
 /// Steps below this part of the largest are given up.
 const LEAST_STEP: f64 = 1e-4;
-/// Size of the state over a unit of the range of the parameter.
-const WEIGHT: f64 = 1.0;
 /// Amplitude of the critical mode with which a branch is entered, first of a few that are tried.
 const AMPLITUDES: [f64; 3] = [0.05, 0.1, 0.02];
+/// A frequency below this part of D/R^2 is none.
+const LEAST_FREQUENCY: f64 = 1e-5;
+/// Iterations after which the next step is longer.
+const QUICK: usize = 6;
 /// Secants for a fold.
 const MOST_SECANTS: usize = 12;
 
@@ -97,7 +99,7 @@ impl Continuation {
     }
 
     fn scale(&self) -> f64 {
-        (self.range[1] - self.range[0]) / WEIGHT
+        self.range[1] - self.range[0]
     }
 
     /// Follows the branch of a state.
@@ -137,15 +139,9 @@ impl Continuation {
             });
         }
         let Critical { state, mode } = &point.critical;
-        let mut failure = None;
-        for amplitude in AMPLITUDES {
-            let signed = if with_mode { amplitude } else { -amplitude };
-            match self.enter(state, mode, signed) {
-                Ok(mut follower) => return follower.go(seen),
-                Err(error) => failure = Some(error),
-            }
-        }
-        failure.map_or_else(|| unreachable_amplitudes(), Err)
+        let enter = |amplitude: f64| self.enter(state, mode, if with_mode { amplitude } else { -amplitude });
+        let [first, rest @ ..] = AMPLITUDES;
+        rest.into_iter().fold(enter(first), |found, amplitude| found.or_else(|_| enter(amplitude)))?.go(seen)
     }
 
     /// The first point of the branch that a mode leads to.
@@ -169,10 +165,6 @@ impl Continuation {
         follower.advance(amplitude.abs() * whole.norm())?;
         Ok(follower)
     }
-}
-
-fn unreachable_amplitudes<T>() -> Result<T, SteadyError> {
-    Err(SteadyError::NoConvergence { residual: f64::NAN, iterations: 0, remedy: "give amplitudes" })
 }
 
 /// A branch on its way.
@@ -249,11 +241,8 @@ impl Follower {
         SteadyState::of(&self.system, self.point.clone(), self.outcome, self.part == Part::Even)
     }
 
-    /// Takes the present droplet as its own base where it is far from the base that it has.
+    /// Takes the present droplet as its own base, its nodes where they serve it best.
     fn rebase(&mut self) -> Result<(), SteadyError> {
-        if !self.system.is_far(&self.point) {
-            return Ok(());
-        }
         let n = self.size();
         let range = self.system.modes.part(self.part);
         let profile = |system: &System, point: &Point, amount: f64, tangent: &DVector<f64>| {
@@ -268,7 +257,7 @@ impl Follower {
         self.outcome = self.system.newton(&mut point, self.part, None)?;
         // Both without the shift of the centre to x = 0, of which the tangent knows nothing.
         let shift = self.system.profile(&self.point).moments()?.centroid.x;
-        let over = |profile: Profile| -> Result<Option<(Vec<f64>, Vec<f64>)>, SteadyError> {
+        let over = |profile: Profile| -> Result<Option<Fields>, SteadyError> {
             let mut profile = profile;
             profile.positions.iter_mut().for_each(|x| x.x -= shift);
             profile.over(&point.base.positions, &point.base.normals)
@@ -291,6 +280,10 @@ impl Follower {
         let mut branch = Branch { parameter, points: Vec::new(), special: Vec::new() };
         let mut step = 0.2 * largest_step;
         loop {
+            let (point, tangent) = (self.point.clone(), self.tangent.clone());
+            if self.rebase().is_err() {
+                (self.point, self.tangent) = (point, tangent);
+            }
             let state = self.state();
             // What is not resolved any more ends a branch.
             let Ok(state) = state else { return Ok(branch) };
@@ -307,9 +300,6 @@ impl Follower {
             if !goes_on || branch.points.len() >= most_points || (!inside && branch.points.len() > 1) {
                 return Ok(branch);
             }
-            self.rebase()?;
-            let tangent = self.tangent.clone();
-            self.turn(&tangent)?;
             let falling = self.tangent[self.size()];
             let before = (self.point.clone(), self.system.model.setup.clone(), self.tangent.clone());
             loop {
@@ -321,8 +311,8 @@ impl Follower {
                 }
             }
             let tangent = self.tangent.clone();
-            let taken = step;
-            if self.outcome.iterations <= 4 {
+            let (taken, taken_iterations) = (step, self.outcome.iterations);
+            if taken_iterations <= QUICK {
                 step = (1.5 * step).min(largest_step);
             }
             // The sign of the parameter's part of the tangent there says whether there was a fold.
@@ -394,7 +384,11 @@ fn crossings(parameter: Parameter, before: &BranchPoint, after: &BranchPoint) ->
             if (at - before.value).abs() > 1.5 * width || (at - after.value).abs() > 1.5 * width {
                 continue;
             }
-            let kind = if critical.mode.value.im == 0.0 { SpecialKind::BranchPoint } else { SpecialKind::Hopf };
+            let kind = if critical.mode.value.im < LEAST_FREQUENCY * critical.state.diffusion_rate() {
+                SpecialKind::BranchPoint
+            } else {
+                SpecialKind::Hopf
+            };
             found.push(SpecialPoint { kind, critical });
         }
     }

@@ -10,6 +10,8 @@ use crate::{Parameter, Profile, SteadyError};
 const MOST_ITERATIONS: usize = 30;
 /// A correction of this size is the last one.
 const SMALLEST: f64 = 3e-10;
+/// Rates of this part of D/R^2, and lacks of area and particles of this part of them, are none.
+const ROUND_OFF: f64 = 1e-11;
 /// Corrections that shrink by this factor do with the matrix that there is.
 const CONTRACTION: f64 = 0.1;
 /// Largest correction of a coefficient that is taken whole.
@@ -49,12 +51,19 @@ impl System {
     ) -> Result<Outcome, SteadyError> {
         let mut equations: Option<Equations> = None;
         let mut before = f64::INFINITY;
-        let mut residual = f64::INFINITY;
+        let (mut residual, mut condition) = (f64::INFINITY, f64::NAN);
         for iteration in 1..=MOST_ITERATIONS {
             let rates = self.residual(point)?;
             residual = rates.amax();
             if !residual.is_finite() {
                 break;
+            }
+            if iteration > 1 || along.is_none() {
+                // At a branch point the equations are singular, and a state that is there already is one.
+                let floor = ROUND_OFF * self.model.diffusion() / (self.model.radius * self.model.radius);
+                if residual < floor && self.lack() < ROUND_OFF {
+                    return Ok(Outcome { iterations: iteration - 1, residual, condition });
+                }
             }
             let fresh = equations.is_none();
             let used = match equations.take() {
@@ -64,6 +73,7 @@ impl System {
             if fresh {
                 self.load(point)?;
             }
+            condition = used.condition();
             let correction = self.correction(&used, &rates)?;
             let size = correction.state.amax().max(along.map_or(0.0, |along| {
                 correction.parameter.abs() / along.parameter.get(&self.model.setup).unwrap_or(1.0).abs().max(0.01)
@@ -82,7 +92,7 @@ impl System {
             }
             if size < SMALLEST {
                 let residual = self.residual(point)?.amax();
-                return Ok(Outcome { iterations: iteration, residual, condition: used.condition() });
+                return Ok(Outcome { iterations: iteration, residual, condition });
             }
             if size < 1e-2 {
                 equations = Some(used);
@@ -90,6 +100,12 @@ impl System {
             before = size;
         }
         Err(SteadyError::NoConvergence { residual, iterations: MOST_ITERATIONS, remedy: REMEDY })
+    }
+
+    /// Largest relative lack of area or particles of the loaded state.
+    fn lack(&self) -> f64 {
+        let (present, wanted) = (self.model.present(), self.model.conserved());
+        present.iter().zip(wanted).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
     }
 
     /// Goes over to another value of a parameter.

@@ -23,6 +23,9 @@ pub struct Profile {
     pub density: Vec<f64>,
 }
 
+/// Offsets (length) and densities at nodes.
+pub(crate) type Fields = (Vec<f64>, Vec<f64>);
+
 /// Curve and density as series that can be asked for anywhere.
 pub(crate) struct Sampler {
     curve: PeriodicSeries,
@@ -200,7 +203,7 @@ impl Profile {
 
     /// This droplet on lines along normals of another curve: the offsets along them, and the density by the parameter
     /// of that curve; none where it is too far from that curve.
-    pub(crate) fn over(&self, origins: &[Vec2], normals: &[Vec2]) -> Result<Option<(Vec<f64>, Vec<f64>)>, SteadyError> {
+    pub(crate) fn over(&self, origins: &[Vec2], normals: &[Vec2]) -> Result<Option<Fields>, SteadyError> {
         let sampler = Sampler::new(self)?;
         let count = origins.len();
         let (mut parameters, mut offsets, mut density) = (Vec::new(), Vec::new(), Vec::new());
