@@ -5,6 +5,7 @@
 mod channels;
 mod elastic_step;
 mod hard_cases;
+mod instructions;
 mod results;
 mod run_pool;
 mod scaling;
@@ -44,6 +45,7 @@ enum Study {
     Threads(threads::Flags),
     ElasticStep(elastic_step::Flags),
     Warnings(warnings::Flags),
+    Instructions(instructions::Flags),
 }
 
 fn main() -> ExitCode {
@@ -60,5 +62,6 @@ fn main() -> ExitCode {
         Study::Threads(flags) => threads::run(flags),
         Study::ElasticStep(flags) => elastic_step::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
+        Study::Instructions(flags) => instructions::run(flags),
     })
 }
