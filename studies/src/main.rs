@@ -10,6 +10,7 @@ mod run_pool;
 mod scaling;
 mod step_cost;
 mod stiffness;
+mod tables;
 mod threads;
 mod time_steps;
 mod validation;
@@ -44,6 +45,8 @@ enum Study {
     Threads(threads::Flags),
     ElasticStep(elastic_step::Flags),
     Warnings(warnings::Flags),
+    Stale(tables::StaleFlags),
+    Pages(tables::PagesFlags),
 }
 
 fn main() -> ExitCode {
@@ -60,5 +63,7 @@ fn main() -> ExitCode {
         Study::Threads(flags) => threads::run(flags),
         Study::ElasticStep(flags) => elastic_step::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
+        Study::Stale(flags) => tables::stale(flags),
+        Study::Pages(flags) => tables::pages(flags),
     })
 }

@@ -8,6 +8,7 @@ mod channels;
 mod contrast;
 mod headings;
 mod interfaces;
+mod recommended;
 mod solids;
 
 use clap::{Args, ValueEnum};
@@ -18,6 +19,8 @@ use motile_tests::validation::growth::Mode;
 use motile_tests::validation::scene::{on_grid, open_channel, reference, without_grid};
 use motile_tests::validation::swimmers::{LongRun, long_run, speeds, steady, transient};
 use motile_tests::validation::{Case, StudyError, Table, fixed_shapes, growth, order, relaxation, resolution};
+
+use crate::tables;
 
 /// A study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -34,6 +37,7 @@ enum Study {
     LongRun,
     Invariance,
     Headings,
+    Recommended,
     ChannelShapes,
     ChannelSwimmers,
     ChannelLength,
@@ -67,6 +71,9 @@ pub(crate) struct Flags {
     /// Leave out the finest grids and the longest runs.
     #[arg(long)]
     quick: bool,
+    /// Write the tables to docs/tables, with the commit and what they depend on
+    #[arg(long)]
+    write: bool,
 }
 
 type Tables = Result<Vec<Table>, StudyError>;
@@ -75,7 +82,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
-    let studies: [(Study, Run); 33] = [
+    let studies: [(Study, Run); 34] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -87,6 +94,7 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
         (Study::LongRun, long),
         (Study::Invariance, invariance),
         (Study::Headings, headings::headings),
+        (Study::Recommended, recommended::recommended),
         (Study::ChannelShapes, channels::channel_shapes),
         (Study::ChannelSwimmers, channels::channel_swimmers),
         (Study::ChannelLength, channels::channel_length),
@@ -112,8 +120,11 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
     ];
     for (study, run) in studies {
         if flags.study == Study::All || flags.study == study {
-            for table in run(flags.quick)? {
-                say(&table);
+            let found = run(flags.quick)?;
+            found.iter().for_each(say);
+            if flags.write {
+                let name = study.to_possible_value().map(|value| value.get_name().to_owned());
+                tables::write(&name.unwrap_or_default(), &found)?;
             }
         }
     }
