@@ -2,7 +2,7 @@
 //! same run.
 
 use criterion::{BenchmarkId, Criterion};
-use motile::stokes_grid::{ChannelStokes, Grid, ProjectionStokes};
+use motile::stokes_grid::{ChannelStokes, Grid};
 use motile_timing::{PlainPair, print_ratios};
 
 use crate::solve;
@@ -16,18 +16,9 @@ pub(crate) fn benches(criterion: &mut Criterion) {
         let grid = Grid::channel(nx, ny, 0.05).expect("a channel");
         let mut plain = PlainPair::new(nx, ny);
         let mut streamfunction = solve(ChannelStokes::new(grid, 100.0).expect("a solver"));
-        let mut projection = solve(ProjectionStokes::new(grid, 100.0).expect("a solver"));
         group.bench_function(BenchmarkId::new("x transforms", &size), |b| b.iter(|| plain.rows()));
         group.bench_function(BenchmarkId::new("streamfunction", &size), |b| b.iter(&mut streamfunction));
-        group.bench_function(BenchmarkId::new("projection", &size), |b| b.iter(&mut projection));
-        print_ratios(
-            &size,
-            &mut [
-                ("x transforms", &mut || plain.rows()),
-                ("streamfunction", &mut streamfunction),
-                ("projection", &mut projection),
-            ],
-        );
+        print_ratios(&size, &mut [("x transforms", &mut || plain.rows()), ("streamfunction", &mut streamfunction)]);
     }
     group.finish();
 }

@@ -194,7 +194,7 @@ fn limits(report: &mut String) -> Result<()> {
     let factors = [0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0, 2.5, 3.0];
     let predicted = |stages: Option<usize>| -> Result<f64> {
         let (scene, _) = channel(Midpoint::default(), 0.0)?;
-        let rate = scene.system().limits().map(|(limit, _)| limit.decay_rate()).fold(0.0, f64::max);
+        let rate = scene.system().fastest_decay();
         Ok(stages.map_or(2.0, |s| 0.6535 * (s * s - 1) as f64) / rate)
     };
     for stages in [None, Some(3), Some(5), Some(8), Some(12)] {

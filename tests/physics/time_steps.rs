@@ -236,9 +236,9 @@ fn a_bound_on_steps_and_their_number_ends_a_run() {
     assert_eq!(scene.steps(), 3);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1.0] {
         let outcome = scene.run(10.0).step_size(StepSize::Adaptive { tolerance: bad }).go();
-        assert!(matches!(outcome, Err(SceneError::Time { .. })), "{bad}");
+        assert!(matches!(outcome, Err(SceneError::Input(_))), "{bad}");
     }
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(scene.run(10.0).least_step(bad).go(), Err(SceneError::Time { .. })), "{bad}");
+        assert!(matches!(scene.run(10.0).least_step(bad).go(), Err(SceneError::Input(_))), "{bad}");
     }
 }

@@ -1,7 +1,7 @@
 //! What a scene computes: only what it needs.
 
 use motile::active_interface::{ActiveDroplet, Curve};
-use motile::ib_core::{Body, CubicQuadratic, Hydrodynamics, ImmersedBoundary, Scene, hydrodynamics::FlowWork};
+use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, Scene, hydrodynamics::FlowWork};
 use motile::stokes_grid::{Grid, PeriodicStokes};
 use motile::{GridMethod, Method, Setup};
 use motile_tests::validation::scene::on_grid;
@@ -45,9 +45,7 @@ fn a_passive_droplet_has_no_transport() {
     let droplet = scene.add(ActiveDroplet::passive(&curve.markers(128).unwrap(), 1.0).unwrap());
     scene.step(0.01).unwrap();
     assert!(scene.body(droplet).unwrap().particle_numbers().is_empty());
-    let reasons: Vec<_> = Body::step_limits(scene.body(droplet).unwrap(), &scene.system().hydrodynamics().medium())
-        .iter()
-        .map(|limit| limit.reason)
-        .collect();
+    let mut reasons = Vec::new();
+    scene.system().each_limit(&mut |limit, _| reasons.push(limit.reason));
     assert_eq!(reasons, ["the surface tension", "the relaxation of the marker spacing"]);
 }

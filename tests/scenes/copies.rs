@@ -9,14 +9,14 @@ use motile::ib_core::{
     AnyKernel, Checkpoint, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Midpoint, RungeKuttaChebyshev,
     SmearedContrast, Transfer, Vec2,
 };
-use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, ProjectionStokes, RealFft2, TwoPhaseStokes};
+use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, RealFft2, TwoPhaseStokes};
 use motile::{DropletSetup, Recommendation, Setup, SolidSetup};
 
 fn is_clone<T: Clone>() {}
 
 #[test]
 fn all_but_scenes_can_be_copied() {
-    is_clone::<(PeriodicStokes, ChannelStokes, ProjectionStokes, TwoPhaseStokes<PeriodicStokes>, RealFft2)>();
+    is_clone::<(PeriodicStokes, ChannelStokes, TwoPhaseStokes<PeriodicStokes>, RealFft2)>();
     is_clone::<ImmersedBoundary<ChannelStokes, AnyKernel>>();
     is_clone::<SmearedContrast<PeriodicStokes, AnyKernel>>();
     is_clone::<(BoundaryIntegral, PeriodicCalculus, Transfer<AnyKernel>, Markers)>();

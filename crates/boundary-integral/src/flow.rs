@@ -4,7 +4,7 @@ use ib_core::input::positive;
 use ib_core::{
     Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium,
     checkpoint::SavedState,
-    hydrodynamics::{FlowReport, FlowWork},
+    hydrodynamics::{FlowWork, SolveReport},
 };
 use ib_core::{Vec2, hydrodynamics::MarkerGroup};
 use stokes_grid::Drive;
@@ -98,11 +98,11 @@ impl Hydrodynamics for BoundaryIntegral {
         })
     }
 
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.load(markers)?;
         self.work.evaluations += 1;
         if self.flow.is_empty() {
-            return Ok(FlowReport::default());
+            return Ok(SolveReport::default());
         }
         let (nodes, viscosity) = (self.settings().nodes, self.flow.viscosity());
         let rates = markers.groups().iter().enumerate().filter_map(|(index, group)| {
@@ -117,7 +117,7 @@ impl Hydrodynamics for BoundaryIntegral {
             let range = markers.groups()[index].range.clone();
             self.flow.velocities(index, &mut markers.velocities[range])?;
         }
-        Ok(FlowReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
+        Ok(SolveReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
     }
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {

@@ -3,7 +3,7 @@
 mod scenes;
 
 use boundary_integral::{BoundaryIntegral, Forcing, Geometry, Settings, forcing};
-use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2, hydrodynamics::FlowReport};
+use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2, hydrodynamics::SolveReport};
 use scenes::{Ellipse, markers};
 use stokes_grid::Drive;
 
@@ -14,7 +14,7 @@ struct Solved {
     lengths: [f64; 2],
     solver: BoundaryIntegral,
     markers: Markers,
-    report: FlowReport,
+    report: SolveReport,
 }
 
 fn solve(period: f64, width: f64, drive: Drive, ellipses: &[Ellipse]) -> Solved {

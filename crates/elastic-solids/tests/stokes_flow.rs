@@ -111,7 +111,7 @@ fn a_corrected_solid_needs_a_grid() {
 fn growth(solid: Solid, h: f64, steps_over_limit: f64, energy: fn(&Solid) -> f64) -> f64 {
     let mut scene = channel(h);
     let handle = scene.add(solid);
-    let limit = scene.body(handle).expect("a solid").step_limits(&scene.system().hydrodynamics().medium())[0].dt;
+    let limit = scene.system().step_limit().expect("a limit").0.dt;
     let start = energy(scene.body(handle).expect("a solid"));
     for _ in 0..60 {
         if scene.step(steps_over_limit * limit).is_err() {

@@ -1,4 +1,4 @@
-//! Discrete Fourier, sine and cosine transforms of double precision numbers, and Fourier series of closed curves.
+//! Discrete Fourier transforms of double precision numbers, and Fourier series of closed curves.
 //!
 //! Every transform is a plan for one length: it is made once, owns its scratch, and allocates nothing per call. Nothing
 //! here is generic, so that the algorithms behind the plans (rustfft, realfft) are compiled in this crate
@@ -8,7 +8,6 @@
 //! |---|---|
 //! | [`ComplexTransform`] | complex numbers, in place |
 //! | [`RealTransform`] | real numbers to half of their spectrum and back |
-//! | [`SineCosine`] | sines and cosines across an interval, for values on its nodes or in its cells |
 //!
 //! On them stand Fourier series through equally spaced samples of periodic functions, such as the points of a closed
 //! curve ([`PeriodicSeries`]).
@@ -18,11 +17,9 @@
 mod complex;
 mod real;
 mod series;
-mod sine_cosine;
 pub mod spectrum;
 
 pub use complex::ComplexTransform;
 pub use input_checks::InputError;
 pub use real::RealTransform;
 pub use series::PeriodicSeries;
-pub use sine_cosine::SineCosine;

@@ -4,7 +4,7 @@ mod marker_body;
 mod step_limit;
 
 pub use marker_body::MarkerBody;
-pub use step_limit::{StepCause, StepLimit, StepLimits};
+pub use step_limit::{StepCause, StepLimit};
 
 use std::any::Any;
 
@@ -101,8 +101,9 @@ pub trait Body: Any + std::fmt::Debug + Send {
     /// taken back do not come here.
     fn keep_step(&mut self) {}
 
-    /// The largest stable time steps of the explicit midpoint rule at the present state, one for each reason there is.
-    fn step_limits(&self, medium: &Medium) -> StepLimits;
+    /// Tells `limits` the largest stable time steps of the explicit midpoint rule at the present state, one for each
+    /// reason there is.
+    fn step_limits(&self, _medium: &Medium, _limits: &mut dyn FnMut(StepLimit)) {}
 
     /// What a user should know of the present state though a run can go on from it, from the flow of the last
     /// evaluation; by default nothing.
@@ -144,9 +145,6 @@ pub trait Body: Any + std::fmt::Debug + Send {
     /// # Errors
     /// The state of another body, or a state that cannot be.
     fn load(&mut self, _medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
-        if saved.reals.len() != self.state_len() {
-            return Err(BodyError::ForeignState { expected: self.state_len(), found: saved.reals.len() });
-        }
-        self.read_state(&saved.reals)
+        self.read_state(saved.reals_of(self.state_len())?)
     }
 }

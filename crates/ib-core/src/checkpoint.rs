@@ -5,12 +5,12 @@ mod file;
 mod saved_state;
 
 pub use error::CheckpointError;
-pub use saved_state::{ForeignState, SavedState};
+pub use saved_state::SavedState;
 
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    Body, Domain, Hydrodynamics, Integrator, MarkerKind, Scene, SceneError, Vec2, hydrodynamics::FlowReport,
+    Body, Domain, Hydrodynamics, Integrator, MarkerKind, Scene, SceneError, Vec2, hydrodynamics::SolveReport,
     scene::StepReport,
 };
 
@@ -57,7 +57,7 @@ pub struct Checkpoint {
     bodies: Vec<Part>,
     flow: SavedState,
     /// The flow at the markers, where it was known: x and y of all velocities, and what its evaluation found.
-    known: Option<(Vec<[f64; 2]>, FlowReport)>,
+    known: Option<(Vec<[f64; 2]>, SolveReport)>,
     /// Its name and what it keeps.
     integrator: String,
     kept: SavedState,

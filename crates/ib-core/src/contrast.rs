@@ -84,11 +84,7 @@ pub(crate) struct Droplet {
 /// # Errors
 /// A viscosity that is not positive and finite.
 pub(crate) fn other_viscosity(kind: &MarkerKind, surroundings: f64) -> Result<Option<f64>, InputError> {
-    let (MarkerKind::Interface { viscosity_inside: Some(value) }
-    | MarkerKind::UnevenInterface { viscosity_inside: Some(value) }) = *kind
-    else {
-        return Ok(None);
-    };
+    let Some(value) = kind.viscosity_inside() else { return Ok(None) };
     Ok((positive("the viscosity inside an interface", value)? != surroundings).then_some(value))
 }
 
@@ -138,7 +134,7 @@ impl Contrast {
 
     /// Takes back what [`Contrast::save`] wrote.
     pub(crate) fn restore(&mut self, record: &SavedState) {
-        let Ok([count, nodes, split]) = record.counts_of("droplets of another viscosity") else { return };
+        let Ok([count, nodes, split]) = record.counts_of() else { return };
         let split = usize::try_from(split).unwrap_or(usize::MAX);
         let (Some(left), Some(velocities)) = (record.reals.get(..split), record.reals.get(split..)) else { return };
         // Three rigid motions a droplet.

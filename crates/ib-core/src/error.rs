@@ -114,16 +114,9 @@ pub enum BodyError {
         /// What is allowed.
         bound: f64,
     },
-    /// The state of another body, or of one made otherwise.
-    #[error(
-        "a saved state of {found} numbers where {expected} are needed: it is of another body, resume the scene that it was saved from"
-    )]
-    ForeignState {
-        /// Numbers needed.
-        expected: usize,
-        /// Numbers found.
-        found: usize,
-    },
+    /// A number or list that cannot be used, or a saved state of something else.
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// An error of the body's own.
     #[error(transparent)]
     Other(Box<dyn std::error::Error + Send + Sync>),
@@ -292,16 +285,9 @@ pub enum SceneError {
         /// Why.
         source: Box<CheckpointError>,
     },
-    /// A time, time step or other number that makes no sense.
-    #[error("{name} is {value}: give {remedy}")]
-    Time {
-        /// The quantity.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// What to give.
-        remedy: &'static str,
-    },
+    /// A time, time step or other number that makes no sense, or a saved state of something else.
+    #[error(transparent)]
+    Input(#[from] InputError),
     /// A checkpoint that is not of this scene.
     #[error("the checkpoint is of another scene: {problem}")]
     ForeignCheckpoint {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use stokes_grid::Drive;
+pub use stokes_grid::SolveReport;
 pub use stokes_layers::{FlowSample, Vec2};
 
 use crate::{FlowError, MobilityDeficit, checkpoint::SavedState};
@@ -41,17 +42,6 @@ pub struct Medium {
     /// The mobility that an interface loses to the kernel and the grid, uncorrected; `None` where there is no grid. A
     /// body that corrects its own surface takes it from here, so that it cannot be that of another kernel.
     pub mobility_deficit: Option<Arc<MobilityDeficit>>,
-}
-
-/// What one evaluation of the flow needed and found.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct FlowReport {
-    /// Iterations of iterative solvers (0 where none ran).
-    pub iterations: usize,
-    /// Relative residual (0 for direct solvers).
-    pub residual: f64,
-    /// Mean pressure gradient (force per volume).
-    pub mean_pressure_gradient: [f64; 2],
 }
 
 /// Work done since the start, for reports and for tests that pin it.
@@ -89,7 +79,7 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     ///
     /// # Errors
     /// Positions or forces that are not finite, markers beyond a wall, no convergence.
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError>;
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError>;
 
     /// The flow at `points` for the positions and forces in `markers` (whose velocities must be those of
     /// [`Hydrodynamics::velocities`]); `out` has as many entries as `points`. For pictures and files, not for stepping.
@@ -121,7 +111,7 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
         self.as_ref().drive()
     }
 
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.as_mut().velocities(markers)
     }
 

@@ -15,8 +15,7 @@ use crate::contrast::other_viscosity;
 use crate::mobility::{Clearance, MobilityCorrection};
 use crate::{
     Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Medium, MobilityDeficit, Transfer, Vec2,
-    checkpoint::SavedState,
-    hydrodynamics::{FlowReport, FlowWork},
+    checkpoint::SavedState, hydrodynamics::FlowWork,
 };
 use contrast_flow::ContrastFlow;
 
@@ -247,7 +246,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         self.grid().has_walls().then(|| self.solver.drive())
     }
 
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.check(markers)?;
         if self.has_contrast(markers)? {
             return self.contrast_velocities(markers);
@@ -258,11 +257,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         for index in 0..markers.groups().len() {
             self.correct(index, markers)?;
         }
-        Ok(FlowReport {
-            iterations: report.iterations,
-            residual: report.residual,
-            mean_pressure_gradient: report.mean_pressure_gradient,
-        })
+        Ok(report)
     }
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {

@@ -14,6 +14,8 @@ pub use step_control::{Limiting, StepReport, StepSize};
 pub use system::{BodyFlow, System};
 pub use warning::{Warning, Warnings};
 
+use input_checks::{finite, positive};
+
 use crate::integrator::ErrorEstimate;
 use crate::{
     Body, Hydrodynamics, Integrator, Midpoint, Observe, Repulsion, SceneError, body::StepInfo, checkpoint::SavedState,
@@ -80,10 +82,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     /// # Errors
     /// A bound that is not finite.
     pub fn with_least_gap(mut self, bound: f64) -> Result<Self, SceneError> {
-        if !bound.is_finite() {
-            return Err(SceneError::Time { name: "the bound on gaps", value: bound, remedy: "a finite length" });
-        }
-        self.system.least_gap = Some(bound);
+        self.system.least_gap = Some(finite("the bound on gaps", bound)?);
         Ok(self)
     }
 
@@ -144,11 +143,9 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     /// state.
     ///
     /// # Errors
-    /// [`SceneError::Time`], [`SceneError::TimeStepTooLarge`].
+    /// [`SceneError::Input`], [`SceneError::TimeStepTooLarge`].
     pub fn check_step(&self, dt: f64) -> Result<(), SceneError> {
-        if !(dt.is_finite() && dt > 0.0) {
-            return Err(SceneError::Time { name: "the time step", value: dt, remedy: "a positive finite number" });
-        }
+        positive("the time step", dt)?;
         if let Some((limit, reason, body)) = self.step_limit()
             && dt > limit
         {
@@ -161,10 +158,14 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     #[must_use]
     pub fn step_limit(&self) -> Option<(f64, &'static str, &str)> {
         let (interval, stabilised) = (self.integrator.stability_interval(), self.integrator.stabilised());
-        self.system
-            .limits()
-            .map(|(limit, body)| (limit.for_interval(interval, stabilised), limit.reason, body))
-            .min_by(|a, b| a.0.total_cmp(&b.0))
+        let mut least: Option<(f64, &str, &str)> = None;
+        self.system.each_limit(&mut |limit, body| {
+            let dt = limit.for_interval(interval, stabilised);
+            if least.is_none_or(|(shortest, ..)| dt.total_cmp(&shortest).is_lt()) {
+                least = Some((dt, limit.reason, body));
+            }
+        });
+        least
     }
 
     /// Advances the scene by one step of `dt` (time). After an error the scene is in the state before the step.
@@ -179,9 +180,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     /// Takes a step, and estimates its error in units of `tolerance` where one is given; where the error is above it,
     /// or after an error, the scene is in the state before the step.
     pub(crate) fn attempt(&mut self, dt: f64, tolerance: Option<f64>) -> Result<f64, SceneError> {
-        if !(dt.is_finite() && dt > 0.0) {
-            return Err(SceneError::Time { name: "the time step", value: dt, remedy: "a positive finite number" });
-        }
+        positive("the time step", dt)?;
         self.system.write_state(&mut self.saved);
         self.system.write_lengths(&mut self.saved_lengths);
         let outcome = self.advance(dt, tolerance);

@@ -2,9 +2,8 @@
 
 use ib_core::{
     Body, BodyError, Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Scene, Vec2,
-    body::StepLimits,
     gap::Boundary,
-    hydrodynamics::{FlowReport, FlowWork},
+    hydrodynamics::{FlowWork, SolveReport},
 };
 
 /// A fluid that moves uniformly whatever the forces on it are.
@@ -26,9 +25,9 @@ impl Hydrodynamics for Wind {
         }
     }
 
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         markers.velocities.fill(self.velocity);
-        Ok(FlowReport::default())
+        Ok(SolveReport::default())
     }
 
     fn sample(&mut self, _: &Markers, _: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
@@ -101,9 +100,6 @@ impl Body for Points {
     }
     /// Single points enclose nothing.
     fn write_boundary(&self, _: &[Vec2], _: &mut Boundary) {}
-    fn step_limits(&self, _: &Medium) -> StepLimits {
-        StepLimits::none()
-    }
 }
 
 #[test]

@@ -13,10 +13,9 @@ use crate::error::checks::{check_grids, not_finite};
 use crate::field::sum;
 use crate::transform::RowTransform;
 use crate::{CentreField, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, Work, stencil};
-pub(crate) use conditions::Conditions;
+use conditions::Conditions;
 pub use drive::Drive;
 use mean_flow::MeanFlow;
-pub(crate) use mean_flow::Poiseuille;
 use modes::ChannelModes;
 pub use walls::{Wall, WallMotion};
 

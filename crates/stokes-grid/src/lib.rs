@@ -10,12 +10,11 @@
 //! |---|---|---|---|
 //! | [`PeriodicStokes`] | box | streamfunction | 1 + 1 in two dimensions |
 //! | [`ChannelStokes`] | channel | streamfunction | 1 + 1 along x, tridiagonal sweeps along y |
-//! | [`ProjectionStokes`] | both | projection, the thesis' way | 3 + 3 (box), 2 + 2 and six sine or cosine transforms (channel) |
 //! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients around one of the above | one solve an iteration |
 //!
 //! All but the last are direct: their velocity and pressure satisfy the discrete equations (second-order differences on
-//! the marker-and-cell grid) to round-off, so the two methods agree to round-off as well. They are plans behind one
-//! trait, [`StokesSolver`]: made once for a grid, run many times, without an allocation per run.
+//! the marker-and-cell grid) to round-off. They are plans behind one trait, [`StokesSolver`]: made once for a grid, run
+//! many times, without an allocation per run.
 //!
 //! A solve gives the velocity alone. The pressure ([`StokesSolver::pressure`]), [`streamfunction`], [`vorticity`],
 //! [`normal_strain_rates`], [`shear_strain_rate`], [`divergence`], [`flux`] and [`wall_shear_stress`] come on request.
@@ -66,7 +65,7 @@
 //!
 //! Every size is correct, odd and prime ones included. Numbers of cells with no prime factors but 2, 3, 5, 7 and 11 are
 //! fast, and an even `nx` is a third faster than an odd one; other prime factors take two to nine times as long. In a
-//! channel this concerns `nx` alone for [`ChannelStokes`], both directions for [`ProjectionStokes`].
+//! channel this concerns `nx` alone.
 //!
 //! With the feature `rayon`, off by default, [`PeriodicStokes`] uses the threads of the current pool from 800,000 cells
 //! on, to the same bits for any number of them.
@@ -81,7 +80,6 @@ mod field;
 mod grid;
 mod kinematics;
 mod periodic;
-mod projection;
 mod solver;
 mod stencil;
 mod transform;
@@ -96,7 +94,6 @@ pub use kinematics::{
     divergence, flux, normal_strain_rates, shear_strain_rate, streamfunction, vorticity, wall_shear_stress,
 };
 pub use periodic::PeriodicStokes;
-pub use projection::ProjectionStokes;
 pub use solver::{SolveReport, StokesSolver, Work};
 pub use transform::{RealFft2, Symbol};
 pub use two_phase::TwoPhaseStokes;

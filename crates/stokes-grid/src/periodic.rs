@@ -16,8 +16,8 @@ use crate::{
 /// `eta (d2x + d2y)^2 psi = curl f`, `u = d psi/dy`, `v = -d psi/dx`,
 ///
 /// with the differences of the staggered grid, so that the discrete divergence vanishes to round-off. It is the same
-/// discrete solution as that of the projection method (thesis (2.21)-(2.30), [`crate::ProjectionStokes`]), for one
-/// forward and one inverse transform of a real field in place of three and three.
+/// discrete solution as that of the thesis' projection (2.21)-(2.30), for one forward and one inverse transform of a
+/// real field in place of three and three.
 ///
 /// **Mean force and mean velocity.** The velocity has exactly the prescribed mean, zero unless
 /// [`PeriodicStokes::set_mean_velocity`] says otherwise. A uniform force moves nothing: it is balanced by a uniform

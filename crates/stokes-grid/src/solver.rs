@@ -1,9 +1,11 @@
 //! What every Stokes solver does.
 
+use serde::{Deserialize, Serialize};
+
 use crate::{CentreField, Drive, Grid, StaggeredField, StokesError, WallMotion};
 
 /// What one solve needed and found.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SolveReport {
     /// Iterations (0 for a direct solver).
     pub iterations: usize,

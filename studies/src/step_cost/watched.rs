@@ -6,12 +6,10 @@ use std::time::Instant;
 
 use motile::ib_core::{
     Body, BodyError, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Vec2,
-    body::{StepInfo, StepLimits},
-    hydrodynamics::{FlowReport, FlowWork},
+    body::{StepInfo, StepLimit},
+    hydrodynamics::{FlowWork, SolveReport},
 };
-use motile::stokes_grid::{
-    CentreField, Grid, SolveReport, StaggeredField, StokesError, StokesSolver, WallMotion, Work,
-};
+use motile::stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
 
 /// Nanoseconds spent so far, shared between a scene and who looks on.
 #[derive(Debug, Clone, Default)]
@@ -107,8 +105,8 @@ impl<B: Body> Body for Watched<B> {
         self.0.keep_step();
     }
 
-    fn step_limits(&self, medium: &Medium) -> StepLimits {
-        self.0.step_limits(medium)
+    fn step_limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
+        self.0.step_limits(medium, limits);
     }
 }
 
@@ -117,7 +115,7 @@ impl<H: Hydrodynamics> Hydrodynamics for Watched<H> {
         self.0.medium()
     }
 
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.1.flow.time(|| self.0.velocities(markers))
     }
 

@@ -1,6 +1,6 @@
 //! A body that is pulled by a constant force.
 
-use motile::ib_core::{Body, BodyError, MarkerKind, Medium, Vec2, body::StepLimits};
+use motile::ib_core::{Body, BodyError, MarkerKind, Medium, Vec2};
 
 /// Points on a circle about the origin that move with the fluid, with a constant force on the fluid shared among them.
 #[derive(Debug, Clone)]
@@ -64,9 +64,5 @@ impl Body for Weight {
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(velocities) {
             pair.copy_from_slice(&velocity.to_array());
         }
-    }
-
-    fn step_limits(&self, _medium: &Medium) -> StepLimits {
-        StepLimits::none()
     }
 }

@@ -1,8 +1,10 @@
 //! The concentration that a flux carries through a segment's end.
 
+use serde::{Deserialize, Serialize};
+
 /// How the concentration at a marker follows from that of the segments around it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Flux {
     /// The segment upstream (first order; smears the edge of the concentration).
     Upwind,

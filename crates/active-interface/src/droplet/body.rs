@@ -4,8 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use ib_core::{
     Body, BodyError, MarkerKind, Medium, Vec2, Warning,
-    body::{StepInfo, StepLimits},
+    body::{StepInfo, StepLimit},
     checkpoint::SavedState,
+    input::at_least,
 };
 
 use super::geometry::{Geometry, equidistribute, motion_rate, outward};
@@ -229,8 +230,8 @@ impl Body for ActiveDroplet {
         self.repair.accumulate(std::mem::take(&mut self.last_repair));
     }
 
-    fn step_limits(&self, medium: &Medium) -> StepLimits {
-        self.limits(medium)
+    fn step_limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
+        self.limits(medium, limits);
     }
 
     /// The radius of a circle of the same area for positions, the mean for particle numbers.
@@ -297,18 +298,11 @@ impl Body for ActiveDroplet {
     }
 
     fn load(&mut self, medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
-        let [count, segments, furthest, inserted, removed] = saved.counts_of("an active droplet")?;
+        let [count, segments, furthest, inserted, removed] = saved.counts_of()?;
         let per_marker = if self.transport.is_some() { 4 } else { 3 };
-        let found = saved.reals.len();
-        let count = usize::try_from(count).unwrap_or(usize::MAX).min(found);
-        let expected = per_marker * count + 5;
-        if count < MINIMUM_MARKERS || expected != found {
-            return Err(BodyError::ForeignState { expected, found });
-        }
-        if let Some(index) = saved.reals.iter().position(|value| !value.is_finite()) {
-            return Err(BodyError::NonFinite { what: "entry of the saved state", index, value: saved.reals[index] });
-        }
-        let (state, rest) = saved.reals.split_at((per_marker - 1) * count);
+        let count = usize::try_from(count).unwrap_or(usize::MAX).min(saved.reals.len());
+        at_least("markers of a saved droplet", count, MINIMUM_MARKERS)?;
+        let (state, rest) = saved.reals_of(per_marker * count + 5)?.split_at((per_marker - 1) * count);
         let (slip, numbers) = rest.split_at(count);
         self.resize(count);
         self.read_state(state)?;

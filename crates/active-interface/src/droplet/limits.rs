@@ -2,20 +2,20 @@
 
 use ib_core::{
     Medium,
-    body::{StepCause, StepLimit, StepLimits},
+    body::{StepCause, StepLimit},
 };
 
 use super::{ActiveDroplet, Motion};
 
 impl ActiveDroplet {
     /// The stable steps; see [`ib_core::Body::step_limits`].
-    pub(crate) fn limits(&self, medium: &Medium) -> StepLimits {
+    pub(crate) fn limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
         let viscosity = self.mean_viscosity(medium);
         let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
         let stiffness = medium.interface_stiffness * tension;
-        let mut limits = StepLimits::from(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
+        limits(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
         if let Motion::Equidistributed { .. } = self.motion {
-            limits.push(StepLimit::decay(2.0 / self.relaxation, "the relaxation of the marker spacing"));
+            limits(StepLimit::decay(2.0 / self.relaxation, "the relaxation of the marker spacing"));
         }
         if self.transport.is_some() {
             // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.
@@ -27,14 +27,13 @@ impl ActiveDroplet {
                 (2.5, StepCause::Decay)
             };
             let reason = "the coupling of concentration and tension";
-            limits.push(StepLimit { dt: remainder * unit, reason, cause });
+            limits(StepLimit { dt: remainder * unit, reason, cause });
             let slip = self.slip.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
             // Measured: WENO5 under the midpoint rule, with the implicit diffusion of these problems, holds up to about
             // two segments a step.
             let dt = 1.8 * self.shape.geometry.mean_length() / slip;
-            limits.push(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
+            limits(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
         }
-        limits
     }
 }
 

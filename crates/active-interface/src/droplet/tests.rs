@@ -2,7 +2,7 @@ use super::*;
 use crate::{ContractileTension, Curve, InitialConcentration};
 use ib_core::{
     Body, Domain, FlowError, FlowSample, Hydrodynamics, Markers, Scene,
-    hydrodynamics::{FlowReport, FlowWork},
+    hydrodynamics::{FlowWork, SolveReport},
 };
 
 /// A converging flow, smooth (resolved by spectral accuracy) or on a grid.
@@ -23,12 +23,12 @@ impl Hydrodynamics for Converging {
         }
     }
 
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         let Markers { positions, forces, velocities, .. } = markers;
         for ((u, x), f) in velocities.iter_mut().zip(positions.iter()).zip(forces.iter()) {
             *u = Vec2::new(-0.2 * x.x, 0.2 * x.y + 0.05 * x.x * x.x) + 0.1 * f;
         }
-        Ok(FlowReport::default())
+        Ok(SolveReport::default())
     }
 
     fn sample(&mut self, _: &Markers, _: &[Vec2], _: &mut [FlowSample]) -> Result<(), FlowError> {

@@ -3,7 +3,7 @@
 use ib_core::input::{finite, positive};
 use ib_core::{
     BodyError, FlowError, FlowSample, Handle, Hydrodynamics, Medium, SceneError, System, Vec2,
-    hydrodynamics::FlowReport,
+    hydrodynamics::SolveReport,
 };
 
 use crate::curve::polygon::edges;
@@ -21,7 +21,7 @@ use crate::{
 ///
 /// # Errors
 /// A length that is not positive and finite, a report whose gradient is not finite.
-pub fn pressure_drop(report: &FlowReport, length: f64) -> Result<f64, InterfaceError> {
+pub fn pressure_drop(report: &SolveReport, length: f64) -> Result<f64, InterfaceError> {
     let gradient = finite("the mean pressure gradient", report.mean_pressure_gradient[0])?;
     Ok(-gradient * positive("the length of the channel", length)?)
 }

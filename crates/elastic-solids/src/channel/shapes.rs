@@ -4,13 +4,13 @@ use std::f64::consts::{PI, TAU};
 
 use ib_core::Vec2;
 use ib_core::input::{InputError, finite, positive, within};
+use serde::{Deserialize, Serialize};
 
 use crate::{Channel, Outline, SolidError};
 
 /// Shapes of channels between two walls, centred on the origin, periodic in x.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 pub enum ChannelShape {
     /// Between two straight walls.
     Straight {
@@ -29,7 +29,7 @@ pub enum ChannelShape {
         /// Length r of each ramp (length).
         ramp: f64,
         /// Middle of the passage in x (length); 0 in a file that gives none.
-        #[cfg_attr(feature = "serde", serde(default))]
+        #[serde(default)]
         centre: f64,
     },
     /// With two triangular teeth that almost meet (thesis figure 5.1).
@@ -41,10 +41,10 @@ pub enum ChannelShape {
         /// Width of the base of a tooth (length).
         base: f64,
         /// Radius by which the tips and feet are rounded (length); 0 for sharp ones, as in a file that gives none.
-        #[cfg_attr(feature = "serde", serde(default))]
+        #[serde(default)]
         radius: f64,
         /// Tips in x (length); 0 in a file that gives none.
-        #[cfg_attr(feature = "serde", serde(default))]
+        #[serde(default)]
         centre: f64,
     },
     /// Of asymmetric teeth (thesis figure 5.2).
@@ -59,7 +59,7 @@ pub enum ChannelShape {
         /// symmetric.
         rise: f64,
         /// Straight flanks with sharp edges instead of cosine ramps, as in a file only where it says so.
-        #[cfg_attr(feature = "serde", serde(default))]
+        #[serde(default)]
         sharp: bool,
     },
     /// With sinusoidal sides `-w/2 - a cos(k x)` and `w/2 + a cos(k x + phase)`.
@@ -72,7 +72,7 @@ pub enum ChannelShape {
         waves: usize,
         /// Phase of the upper side against the lower one (radians): 0 for a channel that narrows and widens, pi for one
         /// of constant width that winds. 0 in a file that gives none.
-        #[cfg_attr(feature = "serde", serde(default))]
+        #[serde(default)]
         phase: f64,
     },
     /// That splits in two around an island and joins again. The island's outline is `x = l/2 sin(t)`,

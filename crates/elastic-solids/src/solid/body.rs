@@ -1,10 +1,8 @@
 //! The solid as a body of a scene.
 
 use ib_core::{
-    Body, BodyError, MarkerKind, Medium, Vec2,
-    body::{StepLimit, StepLimits},
-    checkpoint::SavedState,
-    gap::Boundary,
+    Body, BodyError, MarkerKind, Medium, Vec2, body::StepLimit, checkpoint::SavedState, gap::Boundary,
+    input::same_length,
 };
 
 use crate::solid::surface_correction::SurfaceCorrection;
@@ -130,18 +128,12 @@ impl Body for Solid {
     }
 
     fn load(&mut self, _medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
-        let [points, tethers] = saved.counts_of("an elastic solid")?;
-        let (split, found) = (2 * self.positions.len(), saved.reals.len());
-        let expected = split + 3 * self.tethers.len();
-        if [points, tethers] != [self.positions.len() as u64, self.tethers.len() as u64] || expected != found {
-            return Err(BodyError::ForeignState { expected, found });
-        }
-        if let Some(index) = saved.reals.iter().position(|value| !value.is_finite()) {
-            return Err(BodyError::NonFinite { what: "entry of the saved state", index, value: saved.reals[index] });
-        }
-        let (positions, numbers) = saved.reals.split_at(split);
+        let [points, _] = saved.counts_of()?;
+        same_length("a saved solid", self.positions.len(), points as usize)?;
+        let split = 2 * self.positions.len();
+        let (positions, numbers) = saved.reals_of(split + 3 * self.tethers.len())?.split_at(split);
         for (place, pair) in self.positions.iter_mut().zip(positions.chunks_exact(2)) {
-            *place = Vec2::new(pair[0], pair[1]);
+            *place = Vec2::from_slice(pair);
         }
         for (tether, numbers) in self.tethers.iter_mut().zip(numbers.chunks_exact(3)) {
             tether.anchor = Vec2::new(numbers[0], numbers[1]);
@@ -153,7 +145,7 @@ impl Body for Solid {
     /// `2 eta/(mu + 0.015 kappa (a/h)^2)` for the midpoint rule, a being the spacing of the mesh and h that of the
     /// grid; of the moduli the largest in the solid. Tethers add to the sum what holding all of them together in the
     /// slowest flow of the domain takes.
-    fn step_limits(&self, medium: &Medium) -> StepLimits {
+    fn step_limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
         let coarseness = medium.spacing.map_or(0.0, |spacing| self.spacing / spacing);
         let elastic = moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness;
@@ -162,7 +154,7 @@ impl Body for Solid {
         } else {
             (elastic + self.tether_stiffness(medium), "the elastic moduli and tethers")
         };
-        StepLimit::decay(2.0 * medium.viscosity / stiffness, reason).into()
+        limits(StepLimit::decay(2.0 * medium.viscosity / stiffness, reason));
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::{
     Body, BodyError, MarkerKind, Medium, Vec2,
-    body::{StepLimit, StepLimits},
+    body::StepLimit,
     input::{InputError, all_points_finite, not_negative},
 };
 
@@ -187,12 +187,9 @@ impl Body for MarkerBody {
         }
     }
 
-    fn step_limits(&self, medium: &Medium) -> StepLimits {
-        match self.stiffness {
-            Some(stiffness) if stiffness > 0.0 && !self.positions.is_empty() => {
-                StepLimit::decay(2.0 / self.decay_rate(medium, stiffness), "the stiffness").into()
-            }
-            _ => StepLimits::none(),
+    fn step_limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
+        if let Some(stiffness) = self.stiffness.filter(|stiffness| *stiffness > 0.0 && !self.positions.is_empty()) {
+            limits(StepLimit::decay(2.0 / self.decay_rate(medium, stiffness), "the stiffness"));
         }
     }
 }

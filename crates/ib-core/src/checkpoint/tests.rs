@@ -9,7 +9,7 @@ fn a_refusal_leaves_the_flow_as_it_was() {
     let solver = PeriodicStokes::new(Grid::periodic(16, 16, 0.25).unwrap(), 1.0).unwrap();
     let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
     let before = scene.checkpoint("");
-    let found = FlowReport { iterations: 0, residual: 0.0, mean_pressure_gradient: [0.0; 2] };
+    let found = SolveReport { iterations: 0, residual: 0.0, mean_pressure_gradient: [0.0; 2] };
     let other = Checkpoint {
         flow: SavedState { reals: vec![1.0; 6], counts: vec![0, 0, 0, 6] },
         known: Some((vec![[0.0; 2]], found)),

@@ -7,7 +7,7 @@ use super::{ImmersedBoundary, sampling};
 use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
 use crate::mobility::{Clearance, Setting};
 use crate::{
-    FlowError, FlowSample, Kernel, Markers, Transfer, Vec2, checkpoint::SavedState, hydrodynamics::FlowReport,
+    FlowError, FlowSample, Kernel, Markers, Transfer, Vec2, checkpoint::SavedState, hydrodynamics::SolveReport,
 };
 
 /// What interfaces to other viscosities need beside the grid.
@@ -130,14 +130,14 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// The flow with interfaces to other viscosities: one solve on the grid for their forces, one more where these have
     /// net forces or torques, one for all other forces if there are any, and the double layer; where there are other
     /// markers, the flow of the equivalent forces for these.
-    pub(super) fn contrast_velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    pub(super) fn contrast_velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         let mut flow = self.take_contrast()?;
         let outcome = self.contrast_with(&mut flow, markers);
         self.contrast = Some(flow);
         outcome
     }
 
-    fn contrast_with(&mut self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn contrast_with(&mut self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         flow.load(self.solver.grid(), markers)?;
         self.work.evaluations += 1;
         let mut gradient = self.solve_others(flow, markers)?;
@@ -163,7 +163,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.work.most_iterations = self.work.most_iterations.max(iterations);
         self.velocity.combine(1.0, 1.0, &flow.other);
         self.density.combine(1.0, 1.0, &flow.other_density);
-        Ok(FlowReport { iterations, residual, mean_pressure_gradient: gradient })
+        Ok(SolveReport { iterations, residual, mean_pressure_gradient: gradient })
     }
 
     /// The flow of all forces but the droplets' and of what is imposed: at the droplets' nodes, at the other markers

@@ -8,7 +8,7 @@ use crate::contrast::other_viscosity;
 use crate::{
     FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Medium, Transfer, Vec2,
     checkpoint::SavedState,
-    hydrodynamics::{FlowReport, FlowWork},
+    hydrodynamics::{FlowWork, SolveReport},
 };
 
 /// The immersed boundary method with the viscosity as a smooth field on the grid (thesis section 2.2.4): the outward
@@ -187,7 +187,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
         self.flow.drive()
     }
 
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.flow.check(markers)?;
         self.set_viscosity(markers)?;
         self.flow.velocities(markers)

@@ -249,7 +249,7 @@ impl Integrator for RungeKuttaChebyshev {
     }
 
     fn load(&mut self, saved: &SavedState) -> Result<(), SceneError> {
-        let [due, stages, most_stages, estimates] = saved.counts_of(self.name())?;
+        let [due, stages, most_stages, estimates] = saved.counts_of()?;
         let [stages, most_stages, estimates] = [stages, most_stages, estimates].map(|count| count as usize);
         self.due = due as usize;
         self.work = IntegratorWork { stages, most_stages, estimates };

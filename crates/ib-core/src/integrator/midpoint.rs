@@ -61,7 +61,7 @@ impl Integrator for Midpoint {
     }
 
     fn load(&mut self, saved: &SavedState) -> Result<(), SceneError> {
-        let [steps] = saved.counts_of(self.name())?;
+        let [steps] = saved.counts_of()?;
         self.steps = steps as usize;
         Ok(())
     }

@@ -3,6 +3,8 @@
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use input_checks::{not_negative, positive, within};
+
 use crate::{Hydrodynamics, Integrator, Scene, SceneError, StepSize, System};
 
 /// Looks on while a scene runs. Closures `FnMut(&mut System<H>) -> Result<(), E>` are observers.
@@ -288,32 +290,15 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     }
 
     fn check(&mut self) -> Result<(), SceneError> {
-        let time = self.scene.time();
-        if !(self.until.is_finite() && self.until >= time) {
-            let remedy = "a finite time that is not in the past";
-            return Err(SceneError::Time { name: "the end of the run", value: self.until, remedy });
-        }
-        if let Some(value) = self.least
-            && !(value.is_finite() && value >= 0.0)
-        {
-            return Err(SceneError::Time {
-                name: "the shortest step",
-                value,
-                remedy: "a finite number that is not negative",
-            });
-        }
+        let length = not_negative("the time to the end of the run", self.until - self.scene.time())?;
+        not_negative("the shortest step", self.least.unwrap_or_default())?;
         for watch in &self.watches {
             let name = "the interval of an observer";
-            if let Every::Time(value) | Every::StepAfter(value) = watch.every
-                && !(value.is_finite() && value > 0.0)
-            {
-                return Err(SceneError::Time { name, value, remedy: "a positive finite number" });
+            if let Every::Time(interval) | Every::StepAfter(interval) = watch.every {
+                positive(name, interval)?;
             }
-            if let Every::Time(value) = watch.every
-                && (self.until - time) / value > MOST_REPORTS
-            {
-                let remedy = "at least a ten-millionth of the time of the run, or `Every::StepAfter`";
-                return Err(SceneError::Time { name, value, remedy });
+            if let Every::Time(interval) = watch.every {
+                within(name, interval, length / MOST_REPORTS, f64::INFINITY)?;
             }
         }
         if self.tolerance().is_some() && self.scene.integrator().error_constant().is_none() {
@@ -322,15 +307,14 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         }
         match self.step {
             StepSize::Fixed(dt) => self.scene.check_step(dt),
-            StepSize::OfLimit(fraction) if !(fraction > 0.0 && fraction <= 1.0) => {
-                let remedy = "a number above 0 and at most 1";
-                Err(SceneError::Time { name: "the fraction of the stable step", value: fraction, remedy })
+            StepSize::OfLimit(part) => {
+                within("the part of the stable step", part, LEAST, 1.0)?;
+                self.check_limit()
             }
-            StepSize::Adaptive { tolerance } if !(tolerance > 0.0 && tolerance < 1.0) => {
-                let remedy = "a number above 0 and below 1";
-                Err(SceneError::Time { name: "the tolerance of the steps", value: tolerance, remedy })
+            StepSize::Adaptive { tolerance } => {
+                within("the tolerance of the steps", tolerance, f64::EPSILON, 0.5)?;
+                self.check_limit()
             }
-            StepSize::OfLimit(_) | StepSize::Adaptive { .. } => self.check_limit(),
         }
     }
 

@@ -11,7 +11,7 @@ pub enum StepSize {
     /// All of this length (time); refused at the start if above the stability limit, and an error during the run if the
     /// limit falls below it.
     Fixed(f64),
-    /// This fraction of the stability limit at each step; shorter where the integrator bounds the error of such steps
+    /// This fraction of the stability limit at each step, from 1e-6 to 1; shorter where the integrator bounds the error of such steps
     /// ([`crate::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
     OfLimit(f64),
     /// As long as accuracy and stability allow: the error of each step is estimated, steps whose error is above the
@@ -19,7 +19,7 @@ pub enum StepSize {
     Adaptive {
         /// Largest error of a step: root mean square over the entries of a body's state, in units of their scales
         /// ([`crate::Body::write_scales`]: the radius of a droplet for positions). No dimension; errors of 1e-5 to 1e-4
-        /// make for speeds right to about 1e-4.
+        /// make for speeds right to about 1e-4, at most 0.5 is taken.
         tolerance: f64,
     },
 }

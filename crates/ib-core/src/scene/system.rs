@@ -15,7 +15,7 @@ use crate::{
     Body, BodyError, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SceneError, Vec2,
     body::{StepInfo, StepLimit},
     checkpoint::SavedState,
-    hydrodynamics::FlowReport,
+    hydrodynamics::SolveReport,
 };
 use forces::write_forces;
 
@@ -35,7 +35,7 @@ pub struct System<H> {
     markers: Markers,
     time: f64,
     steps: usize,
-    report: FlowReport,
+    report: SolveReport,
     /// Whether the markers hold the flow of the bodies' present state.
     current: bool,
     /// Whether the markers are where the bodies have them in their present state.
@@ -60,7 +60,7 @@ impl<H: Hydrodynamics> System<H> {
             markers: Markers::new(),
             time: 0.0,
             steps: 0,
-            report: FlowReport::default(),
+            report: SolveReport::default(),
             current: false,
             placed: false,
             apart: false,
@@ -123,7 +123,7 @@ impl<H: Hydrodynamics> System<H> {
 
     /// What the last evaluation needed and found.
     #[must_use]
-    pub fn report(&self) -> &FlowReport {
+    pub fn report(&self) -> &SolveReport {
         &self.report
     }
 
@@ -177,7 +177,7 @@ impl<H: Hydrodynamics> System<H> {
         &mut self,
         flow: &SavedState,
         velocities: impl ExactSizeIterator<Item = Vec2> + Clone,
-        report: FlowReport,
+        report: SolveReport,
     ) -> Result<(), SceneError> {
         if velocities.len() != self.markers.len() {
             let (found, expected) = (velocities.len(), self.markers.len());
@@ -226,26 +226,32 @@ impl<H: Hydrodynamics> System<H> {
     /// The smallest of the bodies' stable time steps at the present state for the midpoint rule, with the body's name.
     #[must_use]
     pub fn step_limit(&self) -> Option<(StepLimit, &str)> {
-        self.limits().min_by(|a, b| a.0.dt.total_cmp(&b.0.dt))
+        let mut least: Option<(StepLimit, &str)> = None;
+        self.each_limit(&mut |limit, body| {
+            if least.is_none_or(|(shortest, _)| limit.dt.total_cmp(&shortest.dt).is_lt()) {
+                least = Some((limit, body));
+            }
+        });
+        least
     }
 
-    /// All bounds on the time step at the present state, with the names of the bodies that set them.
-    pub fn limits(&self) -> impl Iterator<Item = (StepLimit, &str)> {
+    /// Tells `each` all bounds on the time step at the present state, with the names of the bodies that set them.
+    pub fn each_limit<'a>(&'a self, each: &mut dyn FnMut(StepLimit, &'a str)) {
         let medium = self.hydrodynamics.medium();
-        let viscosity = medium.viscosity;
-        let repulsion = self.repulsion.iter().map(move |repulsion| {
-            (StepLimit::decay(repulsion.step_limit(viscosity), "the repulsion"), "the interfaces")
-        });
-        self.bodies
-            .iter()
-            .flat_map(move |body| body.step_limits(&medium).into_iter().map(|limit| (limit, body.name())))
-            .chain(repulsion)
+        for body in &self.bodies {
+            body.step_limits(&medium, &mut |limit| each(limit, body.name()));
+        }
+        if let Some(repulsion) = &self.repulsion {
+            each(StepLimit::decay(repulsion.step_limit(medium.viscosity), "the repulsion"), "the interfaces");
+        }
     }
 
     /// The fastest decay that the bodies' limits tell of at the present state, without stabilisers (1/time).
     #[must_use]
     pub fn fastest_decay(&self) -> f64 {
-        self.limits().map(|(limit, _)| limit.decay_rate()).fold(0.0, f64::max)
+        let mut fastest = 0.0_f64;
+        self.each_limit(&mut |limit, _| fastest = fastest.max(limit.decay_rate()));
+        fastest
     }
 
     /// Makes the groups of markers fit the bodies, whose numbers of markers may have changed at the end of a step.

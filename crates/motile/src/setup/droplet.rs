@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use active_interface::{Curve, Flux, InterfaceError};
 use ib_core::Vec2;
+use serde::{Deserialize, Serialize};
 
 /// A droplet: a closed fluid interface with a tension of its own and, unless it is passive, active particles.
 ///
@@ -14,9 +15,8 @@ use ib_core::Vec2;
 /// let drop_of_oil = DropletSetup { viscosity: Some(10.0), ..DropletSetup::passive(10.0) };
 /// assert_eq!((strong.tension, drop_of_oil.particles), (10.0, None));
 /// ```
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct DropletSetup {
     /// Name for messages.
     pub name: String,
@@ -35,7 +35,7 @@ pub struct DropletSetup {
     /// Its shape at the start.
     pub shape: DropletShape,
     /// The active particles on the interface; `None` for a passive droplet, in a file `particles = "none"`.
-    #[cfg_attr(feature = "serde", serde(with = "super::file::particles"))]
+    #[serde(with = "super::particles_entry")]
     pub particles: Option<Particles>,
 }
 
@@ -101,9 +101,8 @@ impl DropletSetup {
 }
 
 /// Active particles on an interface. They raise its tension: `gamma = gamma0 - zeta_dmu c - Pi(c)`, thesis (2.39).
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Particles {
     /// Activity zeta delta-mu (force times length), negative if contractile.
     pub activity: f64,
@@ -133,8 +132,8 @@ impl Default for Particles {
 }
 
 /// Excluded volume of the particles.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Exclusion {
     /// None: particles of negative activity collapse.
     None,
@@ -145,9 +144,8 @@ pub enum Exclusion {
 }
 
 /// How the particles are spread over the interface at the start.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Start {
     /// `(1 - cos(theta - angle)) c0`: crowded at the rear of a droplet that swims at `angle`, thesis (2.46).
     Polarised,
@@ -163,9 +161,8 @@ pub enum Start {
 }
 
 /// How the markers of an interface move along it; across it they move with the fluid.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum MarkerMotion {
     /// At a velocity of their own that keeps them equally spaced.
     Equidistributed {
@@ -184,9 +181,8 @@ impl Default for MarkerMotion {
 }
 
 /// The shape of a droplet at the start, about its centre.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 pub enum DropletShape {
     /// A circle, squeezed between walls where it has no room: by boundary integrals to an ellipse that leaves a film of
     /// a twentieth of the radius, between elastic walls to a stadium that leaves such a film, with the area and the
@@ -216,7 +212,7 @@ pub enum DropletShape {
         /// Amplitudes a_k (no dimension).
         cosines: Vec<f64>,
         /// Amplitudes b_k (no dimension).
-        #[cfg_attr(feature = "serde", serde(default))]
+        #[serde(default)]
         sines: Vec<f64>,
     },
     /// The smooth closed curve through points (length).
@@ -224,8 +220,8 @@ pub enum DropletShape {
 }
 
 /// What a squeezed circle becomes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Squeezed {
     /// An ellipse.
     Ellipse,

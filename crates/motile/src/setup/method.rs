@@ -1,11 +1,11 @@
 //! How the flow of a scene is computed.
 
 use ib_core::AnyKernel;
+use serde::{Deserialize, Serialize};
 
 /// How velocities come from forces.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Method {
     /// Boundary integrals ([`boundary_integral`]): no grid, spectrally accurate; for scenes of interfaces only.
     Integral(IntegralMethod),
@@ -45,9 +45,8 @@ pub enum MethodKind {
 /// With the default all observables (speed, shape, stresslet, squirmer coefficients, active region, largest
 /// concentration) were within a per cent in boxes at activities of -4 and -5, and in a channel of width 2 at -4 except
 /// the stresslet (1.6 per cent). For the speed alone a third of it will do ([`crate::recommend`]).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct IntegralMethod {
     /// Nodes of an interface's shape, 16 to 4096.
     pub nodes: usize,
@@ -62,9 +61,8 @@ impl Default for IntegralMethod {
 }
 
 /// The immersed boundary method.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct GridMethod {
     /// Grid spacing h (length); the lengths of the region are whole numbers of it.
     pub spacing: f64,
@@ -117,8 +115,8 @@ impl GridMethod {
 }
 
 /// How the immersed boundary method treats an interface between fluids of different viscosity.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Contrast {
     /// A jump, by a double layer on the interface ([`ib_core::ImmersedBoundary`]): second order in the grid spacing.
     #[default]

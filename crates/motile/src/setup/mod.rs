@@ -6,6 +6,7 @@ mod droplet;
 #[cfg(feature = "serde")]
 mod file;
 mod method;
+mod particles_entry;
 mod places;
 mod region;
 mod solid;
@@ -17,6 +18,7 @@ pub use region::Region;
 pub use solid::{Axis, Grading, Hold, Material, MeshKind, SolidOutline, SolidSetup, Surface};
 
 use ib_core::StepSize;
+use serde::{Deserialize, Serialize};
 
 /// A scene as data: what there is, where, and how it is computed. [`Setup::build`] makes the scene.
 ///
@@ -48,9 +50,8 @@ use ib_core::StepSize;
 /// assert!(first > 4.0 * second);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Setup {
     /// The region that the fluid fills.
     pub region: Region,
@@ -63,17 +64,16 @@ pub struct Setup {
     /// A short-range repulsion between different interfaces; no part of the physics of the model.
     pub repulsion: Option<RepulsionSetup>,
     /// The droplets; a file that names none has none.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub droplets: Vec<DropletSetup>,
     /// The elastic solids: walls, islands, nuclei.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub solids: Vec<SolidSetup>,
 }
 
 /// A short-range repulsion between different interfaces (see [`ib_core::Repulsion`]).
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RepulsionSetup {
     /// Strength (force per length squared).
     pub strength: f64,

@@ -1,11 +1,11 @@
 //! Regions that the fluid fills.
 
+use serde::{Deserialize, Serialize};
 use stokes_grid::Drive;
 
 /// The region that the fluid fills, centred on the origin.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Region {
     /// Unbounded fluid, at rest far away. Without a grid only.
     Plane,
@@ -22,7 +22,7 @@ pub enum Region {
         /// Distance of the rigid walls (length).
         width: f64,
         /// What drives the flow along the channel.
-        #[cfg_attr(feature = "serde", serde(default))]
+        #[serde(default)]
         drive: Drive,
     },
 }

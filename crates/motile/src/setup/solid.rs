@@ -4,6 +4,7 @@ use elastic_solids::channel::ChannelShape;
 use elastic_solids::material::{MooneyRivlin, SaintVenantKirchhoff};
 use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError, TriangleMesh};
 use ib_core::{MobilityDeficit, Vec2};
+use serde::{Deserialize, Serialize};
 
 use super::{GridMethod, Method, Region, Setup};
 use crate::SetupError;
@@ -32,46 +33,43 @@ use crate::SetupError;
 /// assert_eq!(lower.free_points().len(), 2006);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct SolidSetup {
     /// Name for messages.
-    #[cfg_attr(feature = "serde", serde(default = "solid_name"))]
+    #[serde(default = "solid_name")]
     pub name: String,
     /// How its points are arranged.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub mesh: MeshKind,
     /// Spacing of its points (length); `None` for that of the grid.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub mesh_spacing: Option<f64>,
     /// What is done about the smearing of its surface over the grid.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub surface: Surface,
     /// Whether triangles of springs may be inverted ([`Solid::allow_inversion`]).
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub may_invert: bool,
     /// How it is held in place.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub hold: Hold,
     /// What it bounds.
     pub outline: SolidOutline,
     /// What it is made of.
     pub material: Material,
     /// Its moduli as a function of place.
-    #[cfg_attr(feature = "serde", serde(default))]
+    #[serde(default)]
     pub grading: Grading,
 }
 
-#[cfg(feature = "serde")]
 fn solid_name() -> String {
     SolidSetup::NAME.to_owned()
 }
 
 /// Outlines of solids, in their reference state.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case"))]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", rename_all_fields = "kebab-case")]
 pub enum SolidOutline {
     /// The wall from the lower rigid wall of the region up to the lower side of a channel.
     WallBelow(ChannelShape),
@@ -103,15 +101,14 @@ pub enum SolidOutline {
         /// Its corners in order (length).
         corners: Vec<[f64; 2]>,
         /// Radius to which corners are rounded (length); 0 for sharp ones.
-        #[cfg_attr(feature = "serde", serde(default))]
+        #[serde(default)]
         fillet: f64,
     },
 }
 
 /// What a solid is made of. Moduli are those of the plane (force per length).
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Material {
     /// Springs along the edges of the mesh (thesis section 4.1); their bulk modulus is twice the shear modulus.
     Springs {
@@ -144,9 +141,8 @@ pub enum Material {
 }
 
 /// Moduli as a function of the reference position: a factor on all moduli of the material.
-#[derive(Debug, Clone, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Grading {
     /// The same everywhere.
     #[default]
@@ -161,8 +157,8 @@ pub enum Grading {
 }
 
 /// An axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Axis {
     /// Along the channel.
     X,
@@ -171,8 +167,8 @@ pub enum Axis {
 }
 
 /// How the points of a solid are arranged.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum MeshKind {
     /// Equilateral triangles where the shape allows it, as in a straight wall.
     #[default]
@@ -183,8 +179,8 @@ pub enum MeshKind {
 
 /// What is done about the smearing of a solid's surface over the grid, by which a stiff one stops the fluid 0.31 to
 /// 0.44 grid spacings in front of its surface (with the default kernel).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Surface {
     /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order. A round droplet that
     /// would start in touch with the walls starts squeezed a little, beside a film.
@@ -200,9 +196,8 @@ pub enum Surface {
 }
 
 /// How a solid is held in place.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Hold {
     /// By the rigid walls of the region, to which its outermost row of points is pinned.
     #[default]

@@ -1,10 +1,11 @@
 //! What drives the flow along a channel.
 
 use input_checks::{InputError, finite};
+use serde::{Deserialize, Serialize};
 
 /// What is held fixed along a channel, beside the forces and the walls' motion: the mean pressure gradient or the flux.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "kebab-case"))]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Drive {
     /// No mean pressure gradient: the pressure is periodic in x, fluid may stream through (the thesis' channel).
     #[default]

@@ -1,25 +1,17 @@
-//! Both channel solvers against a direct solution of the whole discrete system, against each other, and where the
-//! discrete solution is known.
+//! The solver of a channel against a direct solution of the whole discrete system and where its solution is known.
 
-use crate::common::{distance, largest, random_force, relative_distance, residuals};
+use crate::common::{DiscreteFlow, distance, largest, random_force, relative_distance, residuals};
 use crate::dense;
 use approx::assert_abs_diff_eq;
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, InputError, ProjectionStokes, SolveReport, StaggeredField, StokesError,
-    StokesSolver, Wall, WallMotion, flux, wall_shear_stress,
+    CentreField, ChannelStokes, Drive, Grid, InputError, SolveReport, StaggeredField, StokesError, StokesSolver, Wall,
+    WallMotion, flux, wall_shear_stress,
 };
 
 const DRIVES: [Drive; 4] = [Drive::ZeroGradient, Drive::Gradient(0.7), Drive::ZeroFlux, Drive::Flux(-0.4)];
 
-fn streamfunction_solver(grid: Grid, eta: f64, walls: &WallMotion, drive: Drive) -> ChannelStokes {
+fn driven(grid: Grid, eta: f64, walls: &WallMotion, drive: Drive) -> ChannelStokes {
     let mut solver = ChannelStokes::new(grid, eta).unwrap();
-    solver.set_walls(walls.clone()).unwrap();
-    solver.set_drive(drive).unwrap();
-    solver
-}
-
-fn projection_solver(grid: Grid, eta: f64, walls: &WallMotion, drive: Drive) -> ProjectionStokes {
-    let mut solver = ProjectionStokes::new(grid, eta).unwrap();
     solver.set_walls(walls.clone()).unwrap();
     solver.set_drive(drive).unwrap();
     solver
@@ -39,7 +31,7 @@ fn sliding(grid: &Grid) -> WallMotion {
 }
 
 #[test]
-fn both_solvers_agree_with_a_direct_solution_of_the_whole_system() {
+fn the_solution_is_that_of_the_whole_discrete_system() {
     let eta = 1.7;
     let mut worst = [0.0f64; 3];
     for (nx, ny) in [(2, 2), (2, 3), (3, 2), (4, 4), (5, 7), (12, 6), (9, 11), (16, 8)] {
@@ -48,21 +40,15 @@ fn both_solvers_agree_with_a_direct_solution_of_the_whole_system() {
             for walls in [WallMotion::AT_REST, sliding(&grid)] {
                 let force = random_force(grid, 100 + k as u64);
                 let exact = dense::solve(grid, eta, &walls, drive, &force);
-                let solvers: [&mut dyn StokesSolver; 2] = [
-                    &mut streamfunction_solver(grid, eta, &walls, drive),
-                    &mut projection_solver(grid, eta, &walls, drive),
+                let (velocity, pressure, report) = run(&mut driven(grid, eta, &walls, drive), &force);
+                let errors = [
+                    relative_distance(&velocity, &exact.velocity),
+                    distance(pressure.values(), exact.pressure.values()) / largest(exact.pressure.values()),
+                    (report.mean_pressure_gradient[0] - exact.gradient).abs() / exact.gradient.abs().max(1.0),
                 ];
-                for solver in solvers {
-                    let (velocity, pressure, report) = run(solver, &force);
-                    let errors = [
-                        relative_distance(&velocity, &exact.velocity),
-                        distance(pressure.values(), exact.pressure.values()) / largest(exact.pressure.values()),
-                        (report.mean_pressure_gradient[0] - exact.gradient).abs() / exact.gradient.abs().max(1.0),
-                    ];
-                    assert!(errors.iter().all(|&e| e < 1e-12), "{nx} x {ny}, {drive:?}: {errors:?}");
-                    assert_eq!(report.mean_pressure_gradient[1], 0.0);
-                    worst = std::array::from_fn(|i| worst[i].max(errors[i]));
-                }
+                assert!(errors.iter().all(|&e| e < 1e-12), "{nx} x {ny}, {drive:?}: {errors:?}");
+                assert_eq!(report.mean_pressure_gradient[1], 0.0);
+                worst = std::array::from_fn(|i| worst[i].max(errors[i]));
             }
         }
     }
@@ -70,29 +56,35 @@ fn both_solvers_agree_with_a_direct_solution_of_the_whole_system() {
 }
 
 #[test]
-fn the_solvers_agree_on_large_grids_and_satisfy_the_discrete_equations() {
-    let eta = 100.0;
+fn flows_on_large_grids_are_found_from_their_forces_and_satisfy_the_equations() {
+    let (eta, h) = (100.0, 0.05);
     for (nx, ny) in [(240, 40), (240, 100), (960, 400), (101, 53)] {
-        let grid = Grid::channel(nx, ny, 0.05).unwrap();
+        let grid = Grid::channel(nx, ny, h).unwrap();
         let walls = sliding(&grid);
         for drive in DRIVES {
+            let solver = &mut driven(grid, eta, &walls, drive);
+            // What the drive leaves free is to be found.
+            let (gradient, through) = match drive {
+                Drive::ZeroGradient => (0.0, 0.9),
+                Drive::Gradient(gradient) => (gradient, 0.9),
+                Drive::ZeroFlux => (0.3 * eta / (h * h), 0.0),
+                Drive::Flux(flux) => (0.3 * eta / (h * h), flux),
+            };
+            let exact = DiscreteFlow::random(grid, eta, &walls, [gradient, 0.0], through, 9);
+            assert_abs_diff_eq!(flux(&exact.velocity), through, epsilon = 1e-11);
+            let (velocity, pressure, report) = run(solver, &exact.force);
+            let difference = relative_distance(&velocity, &exact.velocity);
+            let in_pressure = distance(pressure.values(), exact.pressure.values()) / largest(exact.pressure.values());
+            let in_gradient = (report.mean_pressure_gradient[0] - gradient).abs() / largest(exact.force.x());
+            println!("{nx} x {ny} {drive:?}: {difference:.1e}, pressure {in_pressure:.1e}, gradient {in_gradient:.1e}");
+            assert!(difference < 1e-10 && in_pressure < 1e-10 && in_gradient < 1e-12);
+            // The same for any force: the equations hold, to the round-off of their terms.
             let force = random_force(grid, 9);
-            let (velocity, pressure, report) = run(&mut streamfunction_solver(grid, eta, &walls, drive), &force);
-            let (other, other_pressure, other_report) = run(&mut projection_solver(grid, eta, &walls, drive), &force);
-            let difference = relative_distance(&velocity, &other);
-            let in_pressure = distance(pressure.values(), other_pressure.values()) / largest(other_pressure.values());
+            let (velocity, pressure, report) = run(solver, &force);
             let [momentum, divergence] = residuals(eta, &walls, &force, &velocity, &pressure, &report);
-            let [_, other_divergence] = residuals(eta, &walls, &force, &other, &other_pressure, &other_report);
-            // The terms of each equation, whose round-off is left.
             let speed = largest(velocity.x()).max(largest(velocity.y()));
-            let momentum = momentum / (eta * speed / 0.05f64.powi(2));
-            let [divergence, other_divergence] = [divergence, other_divergence].map(|d| d / (speed / 0.05));
-            println!(
-                "{nx} x {ny} {drive:?}: difference {difference:.1e}, of pressure {in_pressure:.1e}, momentum {momentum:.1e}, \
-                 divergence {divergence:.1e} and {other_divergence:.1e}"
-            );
-            assert!(difference < 1e-10 && in_pressure < 1e-10);
-            assert!(momentum < 2e-12 && divergence < 2e-15 && other_divergence < 1e-13);
+            let (momentum, divergence) = (momentum / (eta * speed / (h * h)), divergence / (speed / h));
+            assert!(momentum < 2e-12 && divergence < 2e-15, "{momentum:e} {divergence:e}");
             for walls_of_v in [&velocity.y()[..nx], &velocity.y()[ny * nx..]] {
                 assert!(walls_of_v.iter().all(|&v| v == 0.0));
             }
@@ -105,43 +97,35 @@ fn poiseuille_flow_is_the_parabola_and_a_constant() {
     let (ny, h, eta, gradient) = (40, 0.05, 3.0, -2.0);
     let grid = Grid::channel(16, ny, h).unwrap();
     let width = ny as f64 * h;
-    for solver in [
-        &mut streamfunction_solver(grid, eta, &WallMotion::AT_REST, Drive::Gradient(gradient)) as &mut dyn StokesSolver,
-        &mut projection_solver(grid, eta, &WallMotion::AT_REST, Drive::Gradient(gradient)),
-    ] {
-        let (velocity, pressure, report) = run(solver, &StaggeredField::zeros(grid));
-        for (k, u) in velocity.x().iter().enumerate() {
-            let y = ((k / 16) as f64 + 0.5) * h;
-            let expected = -gradient / (2.0 * eta) * (y * (width - y) + h * h / 4.0);
-            assert_abs_diff_eq!(*u, expected, epsilon = 1e-14);
-        }
-        assert!(largest(velocity.y()) < 1e-15 && largest(pressure.values()) < 1e-12);
-        assert_eq!(report.mean_pressure_gradient, [gradient, 0.0]);
-        // Half of the pressure's push is held by each wall, in the discrete flow exactly.
-        let mut stress = vec![0.0; 16];
-        for (wall, sign) in [(Wall::Bottom, 1.0), (Wall::Top, -1.0)] {
-            wall_shear_stress(&velocity, eta, &WallMotion::AT_REST, wall, &mut stress).unwrap();
-            stress.iter().for_each(|s| assert_abs_diff_eq!(*s, -sign * gradient * width / 2.0, epsilon = 1e-12));
-        }
-        let parabola = -gradient * width.powi(3) / (12.0 * eta);
-        assert_abs_diff_eq!(flux(&velocity) / parabola, 1.0 + 2.0 * (h / width).powi(2), epsilon = 1e-13);
+    let solver = &mut driven(grid, eta, &WallMotion::AT_REST, Drive::Gradient(gradient));
+    let (velocity, pressure, report) = run(solver, &StaggeredField::zeros(grid));
+    for (k, u) in velocity.x().iter().enumerate() {
+        let y = ((k / 16) as f64 + 0.5) * h;
+        let expected = -gradient / (2.0 * eta) * (y * (width - y) + h * h / 4.0);
+        assert_abs_diff_eq!(*u, expected, epsilon = 1e-14);
     }
+    assert!(largest(velocity.y()) < 1e-15 && largest(pressure.values()) < 1e-12);
+    assert_eq!(report.mean_pressure_gradient, [gradient, 0.0]);
+    // Half of the pressure's push is held by each wall, in the discrete flow exactly.
+    let mut stress = vec![0.0; 16];
+    for (wall, sign) in [(Wall::Bottom, 1.0), (Wall::Top, -1.0)] {
+        wall_shear_stress(&velocity, eta, &WallMotion::AT_REST, wall, &mut stress).unwrap();
+        stress.iter().for_each(|s| assert_abs_diff_eq!(*s, -sign * gradient * width / 2.0, epsilon = 1e-12));
+    }
+    let parabola = -gradient * width.powi(3) / (12.0 * eta);
+    assert_abs_diff_eq!(flux(&velocity) / parabola, 1.0 + 2.0 * (h / width).powi(2), epsilon = 1e-13);
 }
 
 #[test]
 fn couette_flow_is_exact() {
     let grid = Grid::channel(12, 20, 0.1).unwrap();
     let walls = WallMotion::uniform(&grid, -0.5, 1.5).unwrap();
-    for solver in [
-        &mut streamfunction_solver(grid, 3.0, &walls, Drive::ZeroGradient) as &mut dyn StokesSolver,
-        &mut projection_solver(grid, 3.0, &walls, Drive::ZeroGradient),
-    ] {
-        let (velocity, _, _) = run(solver, &StaggeredField::zeros(grid));
-        for (k, u) in velocity.x().iter().enumerate() {
-            assert_abs_diff_eq!(*u, -0.5 + 2.0 * ((k / 12) as f64 + 0.5) / 20.0, epsilon = 2e-14);
-        }
-        assert_eq!(solver.walls(), &walls);
+    let solver = &mut driven(grid, 3.0, &walls, Drive::ZeroGradient);
+    let (velocity, _, _) = run(solver, &StaggeredField::zeros(grid));
+    for (k, u) in velocity.x().iter().enumerate() {
+        assert_abs_diff_eq!(*u, -0.5 + 2.0 * ((k / 12) as f64 + 0.5) / 20.0, epsilon = 2e-14);
     }
+    assert_eq!(solver.walls(), &walls);
 }
 
 #[test]
@@ -149,14 +133,10 @@ fn a_closed_channel_balances_a_uniform_force_by_pressure() {
     let grid = Grid::channel(12, 9, 0.1).unwrap();
     let mut force = StaggeredField::zeros(grid);
     force.components_mut().0.fill(0.8);
-    for solver in [
-        &mut streamfunction_solver(grid, 3.0, &WallMotion::AT_REST, Drive::ZeroFlux) as &mut dyn StokesSolver,
-        &mut projection_solver(grid, 3.0, &WallMotion::AT_REST, Drive::ZeroFlux),
-    ] {
-        let (velocity, _, report) = run(solver, &force);
-        assert!(largest(velocity.x()) < 1e-15 && largest(velocity.y()) < 1e-15);
-        assert_abs_diff_eq!(report.mean_pressure_gradient[0], 0.8, epsilon = 1e-14);
-    }
+    let solver = &mut driven(grid, 3.0, &WallMotion::AT_REST, Drive::ZeroFlux);
+    let (velocity, _, report) = run(solver, &force);
+    assert!(largest(velocity.x()) < 1e-15 && largest(velocity.y()) < 1e-15);
+    assert_abs_diff_eq!(report.mean_pressure_gradient[0], 0.8, epsilon = 1e-14);
 }
 
 #[test]
@@ -167,33 +147,25 @@ fn an_imposed_flux_is_met_and_forces_on_the_walls_do_nothing() {
     let (_, y) = inner.components_mut();
     y[..20].fill(f64::NAN);
     y[240..].fill(f64::NAN);
-    for solver in [
-        &mut streamfunction_solver(grid, 3.0, &sliding(&grid), Drive::Flux(0.37)) as &mut dyn StokesSolver,
-        &mut projection_solver(grid, 3.0, &sliding(&grid), Drive::Flux(0.37)),
-    ] {
-        let (velocity, pressure, _) = run(solver, &force);
-        assert_abs_diff_eq!(flux(&velocity), 0.37, epsilon = 1e-14);
-        let (again, pressure_again, _) = run(solver, &inner);
-        assert_eq!(velocity, again);
-        assert_eq!(pressure, pressure_again);
-    }
+    let solver = &mut driven(grid, 3.0, &sliding(&grid), Drive::Flux(0.37));
+    let (velocity, pressure, _) = run(solver, &force);
+    assert_abs_diff_eq!(flux(&velocity), 0.37, epsilon = 1e-14);
+    let (again, pressure_again, _) = run(solver, &inner);
+    assert_eq!(velocity, again);
+    assert_eq!(pressure, pressure_again);
 }
 
 #[test]
-fn work_is_one_transform_each_way_and_two_with_projection() {
+fn work_is_one_transform_each_way() {
     let grid = Grid::channel(12, 9, 0.1).unwrap();
     let force = random_force(grid, 3);
     let mut velocity = StaggeredField::zeros(grid);
     let mut solver = ChannelStokes::new(grid, 1.0).unwrap();
-    let mut projection = ProjectionStokes::new(grid, 1.0).unwrap();
     for _ in 0..3 {
         solver.solve(&force, &mut velocity).unwrap();
-        projection.solve(&force, &mut velocity).unwrap();
     }
     let work = solver.work();
     assert_eq!((work.solves, work.forward_transforms, work.inverse_transforms, work.iterations), (3, 3, 3, 0));
-    let work = projection.work();
-    assert_eq!((work.solves, work.forward_transforms, work.inverse_transforms, work.iterations), (3, 6, 6, 0));
     let mut pressure = CentreField::zeros(grid);
     solver.pressure(&force, &velocity, &mut pressure).unwrap();
     assert_eq!((solver.work().forward_transforms, solver.work().inverse_transforms), (4, 4));
@@ -231,14 +203,6 @@ fn bad_input_ends_in_an_error_that_names_it() {
         ));
         let in_pressure = solver.pressure(&force, &velocity, &mut CentreField::zeros(grid));
         assert!(matches!(in_pressure, Err(StokesError::Input(InputError::NotFinite { name: "the force", .. }))));
-        let mut projection = ProjectionStokes::new(grid, 1.0).unwrap();
-        assert!(matches!(
-            projection.solve(&force, &mut velocity),
-            Err(StokesError::Input(InputError::NotFinite { .. }))
-        ));
         assert_eq!(velocity, StaggeredField::zeros(grid));
     }
-    let mut projection = ProjectionStokes::new(periodic, 1.0).unwrap();
-    assert!(matches!(projection.set_drive(Drive::ZeroFlux), Err(StokesError::WrongBoundary { .. })));
-    assert!(matches!(projection.set_walls(WallMotion::AT_REST), Err(StokesError::WrongBoundary { .. })));
 }

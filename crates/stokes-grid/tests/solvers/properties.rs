@@ -1,7 +1,7 @@
 //! Properties of the solution operator, on random grids and forces.
 
 use proptest::prelude::*;
-use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, ProjectionStokes, StaggeredField, StokesSolver};
+use stokes_grid::{ChannelStokes, Drive, Grid, PeriodicStokes, StaggeredField, StokesSolver};
 
 use crate::common::{largest, random_force, relative_distance};
 
@@ -16,15 +16,10 @@ fn solvers(nx: usize, ny: usize) -> Vec<Box<dyn StokesSolver>> {
     let (periodic, channel) = (Grid::periodic(nx, ny, 0.2).unwrap(), Grid::channel(nx, ny, 0.2).unwrap());
     let mut closed = ChannelStokes::new(channel, 1.5).unwrap();
     closed.set_drive(Drive::ZeroFlux).unwrap();
-    let mut closed_projection = ProjectionStokes::new(channel, 1.5).unwrap();
-    closed_projection.set_drive(Drive::ZeroFlux).unwrap();
     vec![
         Box::new(PeriodicStokes::new(periodic, 1.5).unwrap()),
-        Box::new(ProjectionStokes::new(periodic, 1.5).unwrap()),
         Box::new(ChannelStokes::new(channel, 1.5).unwrap()),
-        Box::new(ProjectionStokes::new(channel, 1.5).unwrap()),
         Box::new(closed),
-        Box::new(closed_projection),
     ]
 }
 
@@ -94,14 +89,10 @@ proptest! {
     #[test]
     fn the_mean_velocity_of_a_box_is_zero(nx in 2usize..60, ny in 2usize..60, seed in 0u64..1000) {
         let grid = Grid::periodic(nx, ny, 0.2).unwrap();
-        let solvers: [Box<dyn StokesSolver>; 2] =
-            [Box::new(PeriodicStokes::new(grid, 1.5).unwrap()), Box::new(ProjectionStokes::new(grid, 1.5).unwrap())];
-        for mut solver in solvers {
-            let velocity = solve(&mut *solver, &random_force(grid, seed));
-            for component in [velocity.x(), velocity.y()] {
-                let mean = component.iter().sum::<f64>() / component.len() as f64;
-                prop_assert!(mean.abs() < 1e-14 * largest(component));
-            }
+        let velocity = solve(&mut PeriodicStokes::new(grid, 1.5).unwrap(), &random_force(grid, seed));
+        for component in [velocity.x(), velocity.y()] {
+            let mean = component.iter().sum::<f64>() / component.len() as f64;
+            prop_assert!(mean.abs() < 1e-14 * largest(component));
         }
     }
 }

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use stokes_grid::{
-    CentreField, ChannelStokes, Drive, Grid, InputError, NodeField, PeriodicStokes, ProjectionStokes, StaggeredField,
-    StokesError, StokesSolver, TwoPhaseStokes, WallMotion, divergence,
+    CentreField, ChannelStokes, Drive, Grid, InputError, NodeField, PeriodicStokes, StaggeredField, StokesError,
+    StokesSolver, TwoPhaseStokes, WallMotion, divergence,
 };
 
 const SPACINGS: [usize; 3] = [32, 64, 128];
@@ -165,7 +165,6 @@ fn a_uniform_viscosity_takes_one_iteration() {
     };
     let solvers: Vec<Box<dyn Fn() -> Box<dyn StokesSolver>>> = vec![
         Box::new(|| Box::new(PeriodicStokes::new(periodic, 0.7).unwrap())),
-        Box::new(|| Box::new(ProjectionStokes::new(periodic, 0.7).unwrap())),
         Box::new(|| driven(Drive::ZeroGradient, false)),
         Box::new(|| driven(Drive::Gradient(-0.3), true)),
         Box::new(|| driven(Drive::ZeroFlux, true)),

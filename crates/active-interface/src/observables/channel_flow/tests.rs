@@ -39,11 +39,11 @@ impl Hydrodynamics for Profile {
         }
     }
 
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         for (velocity, position) in markers.velocities.iter_mut().zip(&markers.positions) {
             *velocity = Vec2::new(self.u(position.y), 0.0);
         }
-        Ok(FlowReport::default())
+        Ok(SolveReport::default())
     }
 
     fn sample(&mut self, _: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
@@ -65,10 +65,10 @@ fn droplet(count: usize, radius: f64, centre: [f64; 2]) -> ActiveDroplet {
 
 #[test]
 fn pressure_drop_of_a_report() {
-    let report = FlowReport { mean_pressure_gradient: [-0.25, 3.0], ..FlowReport::default() };
+    let report = SolveReport { mean_pressure_gradient: [-0.25, 3.0], ..SolveReport::default() };
     assert_eq!(pressure_drop(&report, 12.0).unwrap(), 3.0);
     assert!(pressure_drop(&report, 0.0).is_err() && pressure_drop(&report, f64::NAN).is_err());
-    let report = FlowReport { mean_pressure_gradient: [f64::NAN, 0.0], ..FlowReport::default() };
+    let report = SolveReport { mean_pressure_gradient: [f64::NAN, 0.0], ..SolveReport::default() };
     assert!(pressure_drop(&report, 12.0).is_err());
 }
 

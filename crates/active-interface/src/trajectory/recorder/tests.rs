@@ -3,7 +3,7 @@ use crate::{ContractileTension, Curve, InitialConcentration, trajectory::Regime}
 use approx::assert_relative_eq;
 use ib_core::{
     Domain, Every, FlowError, FlowSample, Markers, Medium, Scene, SceneError, StepSize, Vec2,
-    hydrodynamics::{FlowReport, FlowWork},
+    hydrodynamics::{FlowWork, SolveReport},
 };
 
 /// A wind between walls at y = -1 and y = 3 whose vertical part drives points back to y = 1 or away from it.
@@ -34,11 +34,11 @@ impl Hydrodynamics for Wind {
         }
     }
 
-    fn velocities(&mut self, markers: &mut Markers) -> Result<FlowReport, FlowError> {
+    fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         // Only the droplet as a whole is moved, so that it stays round.
         let centre = markers.positions.iter().sum::<Vec2>() / markers.len() as f64;
         markers.velocities.fill(self.at(centre));
-        Ok(FlowReport { mean_pressure_gradient: [-0.5, 0.0], ..FlowReport::default() })
+        Ok(SolveReport { mean_pressure_gradient: [-0.5, 0.0], ..SolveReport::default() })
     }
 
     fn sample(&mut self, _: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {

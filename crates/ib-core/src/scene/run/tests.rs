@@ -1,6 +1,7 @@
 use std::convert::Infallible;
 
 use super::*;
+use crate::input::InputError;
 use crate::{
     CubicQuadratic, ImmersedBoundary, MarkerBody, Midpoint, RungeKuttaChebyshev, Vec2, integrator::IntegratorWork,
 };
@@ -79,7 +80,7 @@ fn an_interval_far_below_the_step_is_refused() {
         let mut look = |_: &mut System<Flow>| Ok::<_, Infallible>(());
         let ended = scene.run(2.0).observe(Every::Time(interval), &mut look).go();
         match ended {
-            Err(SceneError::Time { name: "the interval of an observer", value, .. }) => {
+            Err(SceneError::Input(InputError::OutOfRange { value, .. })) => {
                 assert!(refused && value == interval);
                 assert_eq!(scene.steps(), 0);
             }

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use crate::gap::Boundary;
 use crate::{
     Body, BodyError, CubicQuadratic, ImmersedBoundary, MarkerBody, MarkerKind, Medium, Repulsion, Scene, SceneError,
-    StepSize, Vec2, body::StepLimits,
+    StepSize, Vec2,
 };
 use stokes_grid::{Grid, PeriodicStokes};
 
@@ -58,9 +58,6 @@ impl Body for Disc {
         Ok(())
     }
     fn rate(&mut self, _: &[Vec2], _: &mut [f64]) {}
-    fn step_limits(&self, _: &Medium) -> StepLimits {
-        StepLimits::none()
-    }
     fn write_boundary(&self, markers: &[Vec2], boundary: &mut Boundary) {
         boundary.push_loop(markers);
     }
