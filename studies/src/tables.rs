@@ -25,7 +25,7 @@ use motile_examples::say;
 use motile_tests::validation::Table;
 
 /// What every run of a droplet depends on.
-const RUNS: [&str; 8] = [
+pub(crate) const RUNS: [&str; 8] = [
     "crates/fourier",
     "crates/stokes-grid",
     "crates/stokes-layers",
@@ -56,7 +56,7 @@ pub(crate) struct PagesFlags {
     check: bool,
 }
 
-fn root() -> &'static Path {
+pub(crate) fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
@@ -66,25 +66,28 @@ fn git(arguments: &[&str]) -> Result<String> {
     Ok(String::from_utf8_lossy(&done.stdout).trim().to_owned())
 }
 
-/// Writes the tables of a study of `validation` to docs/tables, as NAME.csv, NAME-2.csv ...
+/// The commit that last changed `inputs`.
 ///
 /// # Errors
-/// Changes that are not committed in what the tables depend on; files that cannot be written.
-pub(crate) fn write(study: &str, found: &[Table]) -> Result<()> {
-    let mut inputs = RUNS.to_vec();
-    if study.starts_with("solids") {
-        inputs.push("crates/elastic-solids");
-    }
-    let changed = git(&[&["status", "--porcelain", "--"], &inputs[..]].concat())?;
-    ensure!(changed.is_empty(), "commit first, so that the tables can tell what made them:\n{changed}");
-    let (commit, inputs) = (git(&["rev-parse", "--short", "HEAD"])?, inputs.join(" "));
+/// Changes of them that are not committed.
+pub(crate) fn commit(inputs: &[&str]) -> Result<String> {
+    let changed = git(&[&["status", "--porcelain", "--"], inputs].concat())?;
+    ensure!(changed.is_empty(), "commit first, so that tables can tell what made them:\n{changed}");
+    git(&[&["log", "-1", "--format=%h", "--"], inputs].concat())
+}
+
+/// Writes the tables that `studies -- COMMAND` has made from `inputs` to docs/tables, as NAME.csv, NAME-2.csv ...
+///
+/// # Errors
+/// Those of [`commit`]; files that cannot be written.
+pub(crate) fn write(name: &str, command: &str, inputs: &[&str], found: &[Table]) -> Result<()> {
+    let (commit, inputs) = (commit(inputs)?, inputs.join(" "));
     let directory = root().join("docs/tables");
     fs::create_dir_all(&directory)?;
     for (k, table) in found.iter().enumerate() {
-        let name = if k == 0 { study.to_owned() } else { format!("{study}-{}", k + 1) };
-        let command = format!("{COMMAND}cargo run --release -p studies -- validation {study} --write");
-        let text = format!("{command}\n{COMMIT}{commit}\n{INPUTS}{inputs}\n{}", table.csv());
-        fs::write(directory.join(format!("{name}.csv")), text)?;
+        let file = if k == 0 { format!("{name}.csv") } else { format!("{name}-{}.csv", k + 1) };
+        let made = format!("# cargo run --release -p studies -- {command}\n{COMMIT}{commit}\n{INPUTS}{inputs}\n");
+        fs::write(directory.join(file), made + &table.csv())?;
     }
     Ok(())
 }

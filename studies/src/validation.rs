@@ -123,8 +123,10 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
             let found = run(flags.quick)?;
             found.iter().for_each(say);
             if flags.write {
-                let name = study.to_possible_value().map(|value| value.get_name().to_owned());
-                tables::write(&name.unwrap_or_default(), &found)?;
+                let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+                let solids = if study == Study::Solids { &["crates/elastic-solids"][..] } else { &[] };
+                let inputs = [&tables::RUNS[..], solids].concat();
+                tables::write(&name, &format!("validation {name} --write"), &inputs, &found)?;
             }
         }
     }

@@ -19,22 +19,34 @@ const SPACINGS: [f64; 5] = [0.2, 0.15, 0.1, 0.075, 0.05];
 /// Those that divide the widths and lengths of the channels.
 const CHANNEL_SPACINGS: [f64; 5] = [0.2, 0.1, 0.08, 0.0625, 0.05];
 
-/// The scenes of a kind: name, and description by a method.
+/// The scenes of a kind: name, and description, with places of droplets in units of the grid spacing.
 fn scenes(kind: SceneKind, quick: bool) -> Vec<(String, Setup)> {
     let method = Method::default();
     match kind {
         SceneKind::Box => {
-            let all = [(-2.0, 0.0), (-4.0, 0.0), (-2.0, 0.4), (-3.0, 0.2), (-4.0, 0.4), (-4.0, 0.6)];
-            let one = |&(activity, angle): &(f64, f64)| {
-                (format!("activity {activity}, heading {angle}"), off_axis(method, activity, angle))
+            // Activity, heading (radians), place across the x axis (grid spacings).
+            let all = [
+                (-2.0, 0.0, 0.0),
+                (-4.0, 0.0, 0.0),
+                (-2.0, 0.0, 0.5),
+                (-4.0, 0.0, 0.25),
+                (-4.0, 0.0, 0.5),
+                (-2.0, 0.4, 0.0),
+                (-3.0, 0.2, 0.0),
+                (-4.0, 0.4, 0.0),
+                (-4.0, 0.6, 0.0),
+            ];
+            let one = |&(activity, angle, across): &(f64, f64, f64)| {
+                let mut setup = off_axis(method, activity, angle);
+                setup.droplets[0].centre = [0.0, across];
+                (format!("activity {activity}, heading {angle}, {across} h off the axis"), setup)
             };
             all[..if quick { 1 } else { all.len() }].iter().map(one).collect()
         }
         SceneKind::ViscosityContrast => {
             let all = [(10.0, 0.0), (10.0, 0.4), (1.0, 0.0), (1.0, 0.4)];
             let one = |&(viscosity, angle): &(f64, f64)| {
-                let droplet =
-                    DropletSetup { viscosity: Some(100.0), angle, centre: [0.013, 0.027], ..DropletSetup::default() };
+                let droplet = DropletSetup { viscosity: Some(100.0), angle, ..DropletSetup::default() };
                 let setup = Setup { viscosity, droplets: vec![droplet], ..Setup::default() };
                 (format!("viscosity 100 in {viscosity}, heading {angle}"), reference(setup, -1.0))
             };
@@ -91,6 +103,9 @@ pub(crate) fn recommended(quick: bool) -> Tables {
             let mean = |speeds: &[f64]| speeds.iter().sum::<f64>() / speeds.len() as f64;
             for (settings, method, step) in settings(kind, quick) {
                 let mut setup = Setup { method, step, ..scene.clone() };
+                if let Method::Grid(grid) = method {
+                    setup.droplets[0].centre[1] *= grid.spacing;
+                }
                 if method == Method::Grid(GridMethod::thesis()) {
                     let (preset, own) = (DropletSetup::thesis(), &mut setup.droplets[0]);
                     (own.motion, own.area_constraint) = (preset.motion, preset.area_constraint);
