@@ -7,7 +7,9 @@ use motile::active_interface::observables::{ConcentrationProfile, Frame, concent
 use motile::active_interface::{ActiveDroplet, trajectory::TrajectoryRecord};
 use motile::ib_core::{Every, Handle, Observer, Scene, Vec2, gap::SolidGap};
 use motile::{AnyFlow, DropletSetup, Exclusion, MethodKind, Particles, Region, Setup};
-use motile_output::{Film, Look, ParaView, Raster, Snapshot, TrajectoryCsv, concentration_plot, time_series};
+use motile_output::{
+    Film, Look, ParaView, Raster, Snapshot, SolidColour, TrajectoryCsv, concentration_plot, time_series,
+};
 
 use crate::{Job, SceneFlags, Summary};
 
@@ -84,7 +86,8 @@ impl WatchedRun {
         let mut pictures = None;
         if job.draws() {
             let (caption, concentration) = (caption(setup, &particles, region), Some(particles.concentration));
-            let look = Look { caption, concentration, streamline_spacing: Some(STREAMLINES) };
+            let (streamline_spacing, solids) = (Some(STREAMLINES), SolidColour::Stress);
+            let look = Look { caption, concentration, streamline_spacing, solids };
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
             pictures = Some((look.clone(), Film::new(look, watched), vtk));
         }

@@ -52,7 +52,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         let outcome = trial.run(extent, &mut |system| {
             if !flags.no_pictures {
                 let caption = format!("{}: {}", trial.number, trial.name);
-                let look = Look { caption, concentration: Some(CONCENTRATION), streamline_spacing: None };
+                let look = Look { caption, concentration: Some(CONCENTRATION), ..Look::default() };
                 drawn = Raster::of(system, SPACING)
                     .and_then(|raster| Snapshot::take(system, raster))
                     .and_then(|seen| look.write_picture(&seen, &[], flags.out.join(&name)));

@@ -7,7 +7,9 @@ use std::{fs::File, io, io::BufWriter, path::Path};
 use motile::ib_core::{Hydrodynamics, Observer, System};
 use palette::{Histogram, code};
 
-use crate::{Error, Look, Raster, Snapshot, Track, picture::Format};
+use crate::drawing::raster::colours;
+use crate::picture::{Format, SolidColour};
+use crate::{Error, Look, Raster, Snapshot, Track};
 
 /// Time between two frames, and how long the last one stays (hundredths of a second).
 const DELAY: u16 = 8;
@@ -55,10 +57,10 @@ impl Film {
         // One palette for all frames keeps colours from flickering, but has to know them all.
         let (mut histogram, mut frames, mut size) = (Histogram::new(), Vec::new(), [0; 2]);
         for seen in &self.frames {
-            let image = self.look.draw(seen, &legends, tracks, &Format::FRAME)?;
-            image.pixels.iter().for_each(|&pixel| histogram.add(pixel));
-            frames.push(image.pixels.iter().map(|&pixel| code(pixel)).collect::<Vec<u16>>());
-            size = image.size;
+            let image = self.look.draw(seen, &legends, tracks, &Format::FRAME)?.pixels(1.0)?;
+            colours(&image).for_each(|colour| histogram.add(colour));
+            frames.push(colours(&image).map(code).collect::<Vec<u16>>());
+            size = [image.width(), image.height()].map(|side| side as usize);
         }
         if frames.is_empty() {
             return Err(Error::Empty("an animation without frames"));
@@ -116,7 +118,12 @@ fn changes(before: &[u8], now: &[u8], width: usize) -> gif::Frame<'static> {
 
 impl<H: Hydrodynamics> Observer<H> for Film {
     fn observe(&mut self, system: &mut System<H>) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
-        self.frames.push(Snapshot::take(system, self.raster)?);
+        let mut seen = Snapshot::take(system, self.raster)?;
+        if self.look.solids == SolidColour::Plain {
+            // Triangles that are not shown need not be kept.
+            seen.solids.iter_mut().for_each(|solid| solid.triangles = Vec::new());
+        }
+        self.frames.push(seen);
         Ok(())
     }
 }

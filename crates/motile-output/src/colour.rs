@@ -62,6 +62,11 @@ fn magma(t: f64) -> Rgb {
     Rgb(colorous::MAGMA.eval_continuous(t).as_array())
 }
 
+/// Violet, green, yellow.
+fn viridis(t: f64) -> Rgb {
+    Rgb(colorous::VIRIDIS.eval_continuous(t).as_array())
+}
+
 impl ColourScale {
     /// From blue to red over all but the smallest and the largest one in two hundred of the values: shows the
     /// differences among most of them where a few stand out on either side, such as pressures next to an interface.
@@ -78,10 +83,15 @@ impl ColourScale {
         Self { map: rainbow, label, low, high }
     }
 
-    /// From black to pale yellow over zero to the largest of the values.
-    pub(crate) fn from_zero(values: impl Iterator<Item = f64>, label: &'static str) -> Self {
+    /// Over zero to the largest of the values, from black to pale yellow; `None` if none is above zero.
+    pub(crate) fn from_zero(values: impl Iterator<Item = f64>, label: &'static str) -> Option<Self> {
         let high = values.filter(|v| v.is_finite()).fold(0.0, f64::max);
-        Self { map: magma, label, low: 0.0, high: if high > 0.0 { high } else { 1.0 } }
+        (high > 0.0).then_some(Self { map: magma, label, low: 0.0, high })
+    }
+
+    /// The same from violet over green to yellow.
+    pub(crate) fn green(self) -> Self {
+        Self { map: viridis, ..self }
     }
 
     /// The colour of `value`; not a number gives grey.

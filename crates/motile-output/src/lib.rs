@@ -31,9 +31,11 @@
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | waiting | [`Progress`] |
 //!
-//! Pictures need no fonts of the system and no C libraries. What cannot be drawn or written ends in an [`Error`].
+//! Pictures and plots are drawn once, as vectors, and written as SVG or PNG. They need no fonts of the system and no C
+//! libraries: Noto Sans is bundled (SIL Open Font License). What cannot be drawn or written ends in an [`Error`].
 
 mod animation;
+mod base64;
 mod colour;
 mod drawing;
 mod error;
@@ -57,7 +59,7 @@ pub use field::streamlines::streamlines;
 pub use motile::ib_core::Vec2;
 pub use paraview::ParaView;
 pub use paraview::file::{VtkFile, VtkSeries};
-pub use picture::{Look, SolidShape, Track};
+pub use picture::{Look, SolidColour, SolidShape, Track};
 pub use plot::droplet::{concentration_plot, time_series};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::{Progress, RunProgress};

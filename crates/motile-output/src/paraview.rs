@@ -1,6 +1,5 @@
 //! Files for ParaView.
 
-mod base64;
 pub(crate) mod file;
 mod solids;
 

@@ -4,7 +4,7 @@ mod paint;
 
 use std::path::Path;
 
-use crate::{ColourScale, Error, Snapshot, Vec2, drawing::canvas::Canvas};
+use crate::{ColourScale, Error, Snapshot, Vec2, drawing::Drawing};
 
 /// Distance of streamlines, as part of the smaller side.
 const STREAMLINES: f64 = 0.05;
@@ -13,8 +13,9 @@ const STREAMLINES: f64 = 0.05;
 pub type Track = Vec<(f64, Vec2)>;
 
 /// How scenes are drawn: pressure in colour, streamlines in the laboratory frame, the interfaces of all droplets
-/// coloured by their concentrations, solids, rigid walls, and between walls the paths of the droplets. In periodic
-/// directions everything is drawn with its periodic images, so positions need not be wrapped.
+/// coloured by their concentrations (black without particles), solids, rigid walls, between walls the paths of the
+/// droplets, the time and a scale bar. In periodic directions everything is drawn with its periodic images, so positions
+/// need not be wrapped.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -35,6 +36,20 @@ pub struct Look {
     pub concentration: Option<f64>,
     /// Distance of streamlines (length); if nothing is said, a twentieth of the smaller side.
     pub streamline_spacing: Option<f64>,
+    /// What the colour of solids shows.
+    pub solids: SolidColour,
+}
+
+/// What the colour of solids shows.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum SolidColour {
+    /// Nothing: all solids are grey.
+    #[default]
+    Plain,
+    /// The distance of each triangle from its reference place (length).
+    Displacement,
+    /// The deviator of the Cauchy stress, `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)` (force per length).
+    Stress,
 }
 
 /// A solid as it is drawn.
@@ -44,6 +59,23 @@ pub struct SolidShape {
     pub area: Vec<Vec<Vec2>>,
     /// Lines that are drawn as its surface (length).
     pub edges: Vec<Vec<Vec2>>,
+    /// The corners of its triangles (length), for colours.
+    pub triangles: Vec<[Vec2; 3]>,
+    /// Of each triangle the distance from its reference place (length).
+    pub displacement: Vec<f64>,
+    /// Of each triangle the deviator of the Cauchy stress (force per length), not a number if it is inverted.
+    pub stress: Vec<f64>,
+}
+
+impl SolidShape {
+    /// The values that a colour shows, one a triangle.
+    fn values(&self, colour: SolidColour) -> &[f64] {
+        match colour {
+            SolidColour::Plain => &[],
+            SolidColour::Displacement => &self.displacement,
+            SolidColour::Stress => &self.stress,
+        }
+    }
 }
 
 /// Size and detail of a picture.
@@ -68,11 +100,12 @@ impl Format {
         Self { width: 440, levels: 20, streamline_spacing: 2.0, type_sizes: 37.0, follows: false };
 }
 
-/// The colour scales of pressure and concentration.
+/// The colour scales of pressure, concentration where there are particles, and solids where they are coloured.
 #[derive(Debug)]
 pub(crate) struct Legends {
     pressure: ColourScale,
-    concentration: ColourScale,
+    concentration: Option<ColourScale>,
+    solids: Option<ColourScale>,
     /// Concentration that counts as 1 (particles per length).
     unit: f64,
 }
@@ -83,6 +116,7 @@ struct Picture<'a> {
     seen: &'a Snapshot,
     legends: &'a Legends,
     title: String,
+    solids: SolidColour,
     streamline_spacing: f64,
     tracks: Vec<Vec<Vec2>>,
     /// Lower left and upper right corner of what is shown (length).
@@ -98,7 +132,10 @@ impl Look {
         let droplets = all.iter().flat_map(|seen| &seen.droplets);
         let concentrations = droplets.flat_map(|droplet| droplet.concentration.iter().map(|c| c / unit));
         let label = if self.concentration.is_some() { "concentration c/c_{0}" } else { "concentration c" };
+        let solids = all.iter().flat_map(|seen| &seen.solids).flat_map(|solid| solid.values(self.solids));
+        let of_solids = if self.solids == SolidColour::Stress { "stress deviator" } else { "displacement" };
         Legends {
+            solids: ColourScale::from_zero(solids.copied(), of_solids).map(ColourScale::green),
             pressure: ColourScale::of_most(pressures, "pressure p"),
             concentration: ColourScale::from_zero(concentrations, label),
             unit,
@@ -112,7 +149,7 @@ impl Look {
         legends: &Legends,
         tracks: &[Track],
         format: &Format,
-    ) -> Result<Canvas, Error> {
+    ) -> Result<Drawing, Error> {
         let (corner, size) = (Vec2::from(seen.raster.origin), Vec2::from(seen.raster.size));
         let mut centre = corner + 0.5 * size;
         if let ([droplet], true) = (&seen.droplets[..], format.follows) {
@@ -127,6 +164,7 @@ impl Look {
             seen,
             legends,
             title: format!("t = {:.1}   {}", seen.time, self.caption),
+            solids: self.solids,
             streamline_spacing: spacing * format.streamline_spacing,
             tracks: if seen.walls.is_some() { tracks.iter().map(so_far).collect() } else { Vec::new() },
             view: [centre - 0.5 * size, centre + 0.5 * size],
@@ -134,7 +172,7 @@ impl Look {
         })
     }
 
-    /// Draws a state to a PNG file, a single droplet in the middle of its periods; between walls with the tracks up to
+    /// Draws a state to a file, SVG where its name ends in `.svg` and PNG otherwise, a single droplet in the middle of its periods; between walls with the tracks up to
     /// that time.
     ///
     /// # Errors
@@ -142,7 +180,7 @@ impl Look {
     /// a cell.
     pub fn write_picture(&self, seen: &Snapshot, tracks: &[Track], path: impl AsRef<Path>) -> Result<(), Error> {
         let legends = self.legends(std::slice::from_ref(seen));
-        self.draw(seen, &legends, tracks, &Format::STILL)?.write_png(path.as_ref())
+        self.draw(seen, &legends, tracks, &Format::STILL)?.write(path.as_ref(), 1.0)
     }
 }
 

@@ -5,12 +5,9 @@ mod paint;
 
 use std::{fs, path::Path};
 
-use paint::panels;
+use paint::draw;
 
-use crate::{
-    AxisScale, Error, Rgb,
-    drawing::{canvas::Canvas, svg::Svg},
-};
+use crate::{AxisScale, Error, Rgb};
 
 /// The shape of the points of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -174,29 +171,17 @@ impl Figure {
     /// # Errors
     /// [`Error::Empty`] without panels, [`Error::Size`] with panels too small or too large.
     pub fn svg(&self) -> Result<String, Error> {
-        let (panels, size) = panels(self, 1.0)?;
-        let mut svg = Svg::new(size);
-        panels.iter().for_each(|panel| panel.paint(&mut svg));
-        Ok(svg.document())
+        Ok(draw(self)?.svg())
     }
 
-    /// The figure as pixels, two a pixel of the SVG in each direction.
-    fn image(&self) -> Result<Canvas, Error> {
-        let (panels, size) = panels(self, 2.0)?;
-        let mut canvas = Canvas::new(size.map(|side| side.round() as usize))?;
-        panels.iter().for_each(|panel| panel.paint(&mut canvas));
-        Ok(canvas)
-    }
-
-    /// Writes the figure as `<name>.svg` and `<name>.png` into `directory`, which is made if it is not there.
+    /// Writes the figure as `<name>.svg` and, with two pixels a unit, `<name>.png` into `directory`, which is made if it is not there.
     ///
     /// # Errors
     /// As [`Figure::svg`], and [`Error::Write`].
     pub fn write(&self, directory: impl AsRef<Path>, name: &str) -> Result<(), Error> {
         let directory = directory.as_ref();
         fs::create_dir_all(directory).map_err(Error::writing(directory))?;
-        let path = directory.join(format!("{name}.svg"));
-        fs::write(&path, self.svg()?).map_err(Error::writing(&path))?;
-        self.image()?.write_png(&directory.join(format!("{name}.png")))
+        let drawing = draw(self)?;
+        ["svg", "png"].iter().try_for_each(|kind| drawing.write(&directory.join(format!("{name}.{kind}")), 2.0))
     }
 }

@@ -13,8 +13,13 @@ pub(crate) fn solids<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item
 
 /// A solid where it is now; of a periodic wall one period.
 pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
-    let mesh = solid.mesh();
+    let (mesh, displacements): (_, Vec<Vec2>) = (solid.mesh(), solid.displacements().collect());
     let mut shape = SolidShape::default();
+    for (triangle, nodes) in mesh.triangles().iter().enumerate() {
+        shape.triangles.push(mesh.corners(triangle, solid.positions()));
+        shape.displacement.push(nodes.iter().map(|&node| displacements[node]).sum::<Vec2>().length() / 3.0);
+    }
+    shape.stress = stress_deviators(solid);
     // Lines around the period, to the right and to the left, with the solid on their left: one period of both.
     let mut end: Option<Vec2> = None;
     let mut around: Vec<Vec2> = Vec::new();
@@ -38,6 +43,12 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
         shape.area.push(around);
     }
     shape
+}
+
+/// The deviator of the Cauchy stress in each triangle (force per length); not a number where one is inverted.
+pub(crate) fn stress_deviators(solid: &Solid) -> Vec<f64> {
+    let Ok(stresses) = solid.stresses() else { return vec![f64::NAN; solid.mesh().triangles().len()] };
+    stresses.iter().map(|s| (0.5 * (s.x_axis.x - s.y_axis.y)).hypot(s.x_axis.y)).collect()
 }
 
 /// Measures the solids of a system, for rows of a table.

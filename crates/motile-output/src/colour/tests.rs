@@ -12,9 +12,9 @@ fn most_leaves_out_what_stands_out() {
 #[test]
 fn empty_constant_and_nan_data_give_a_usable_scale() {
     for values in [vec![], vec![3.0; 4], vec![f64::NAN, f64::INFINITY], vec![0.0]] {
-        for scale in
-            [ColourScale::of_most(values.iter().copied(), ""), ColourScale::from_zero(values.iter().copied(), "")]
-        {
+        let from_zero = ColourScale::from_zero(values.iter().copied(), "");
+        assert_eq!(from_zero.is_some(), values.contains(&3.0));
+        for scale in from_zero.into_iter().chain([ColourScale::of_most(values.iter().copied(), "")]) {
             let [low, high] = [scale.low, scale.high];
             assert!(low.is_finite() && high.is_finite() && low < high, "{values:?}: {low} {high}");
             assert_eq!(scale.colour(f64::NAN), Rgb::GREY);

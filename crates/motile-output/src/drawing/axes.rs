@@ -2,7 +2,7 @@
 
 use crate::{
     Rgb,
-    drawing::{Anchor, Pen, Pixel, Rect, Surface, TextStyle, font::text_width, ticks::Ticks},
+    drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle, font::text_width, ticks::Ticks},
 };
 
 /// Whether an axis is linear or logarithmic.
@@ -70,7 +70,7 @@ impl Axis {
     }
 }
 
-/// A rectangle on a surface with its two axes. The unit of all its distances is the size of the type, `em` (pixels).
+/// A rectangle on a drawing with its two axes. The unit of all its distances is the size of the type, `em` (pixels).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Frame {
     pub(crate) area: Rect,
@@ -103,24 +103,24 @@ impl Frame {
     }
 
     /// Draws pale lines at the labelled ticks.
-    pub(crate) fn draw_grid(&self, surface: &mut impl Surface) {
+    pub(crate) fn draw_grid(&self, drawing: &mut Drawing) {
         let (pen, area) = (Pen::new(Rgb::PALE, (0.055 * self.em).max(0.8)), self.area);
         let labelled = |axis: &Axis| axis.ticks.ticks.clone().into_iter().filter(|tick| tick.label.is_some());
         for tick in labelled(&self.x) {
             let x = self.place(tick.value, self.y.low)[0];
-            surface.stroke(&[[x, area.top], [x, area.bottom()]], &pen);
+            drawing.stroke(&[[x, area.top], [x, area.bottom()]], &pen);
         }
         for tick in labelled(&self.y) {
             let y = self.place(self.x.low, tick.value)[1];
-            surface.stroke(&[[area.left, y], [area.right(), y]], &pen);
+            drawing.stroke(&[[area.left, y], [area.right(), y]], &pen);
         }
     }
 
     /// Draws the border, ticks outside of it and all labels.
-    pub(crate) fn draw_axes(&self, surface: &mut impl Surface) {
+    pub(crate) fn draw_axes(&self, drawing: &mut Drawing) {
         let (em, area) = (self.em, self.area);
         let pen = Pen::new(Rgb::INK, (0.07 * em).max(1.0));
-        surface.stroke(&area.outline(), &pen);
+        drawing.stroke(&area.outline(), &pen);
         let middle = TextStyle::new(TICK_SIZE * em, Anchor::Middle);
         let [left, right] = [Anchor::Start, Anchor::End].map(|anchor| TextStyle { anchor, ..middle });
         for (axis, downwards) in [(&self.x, true), (&self.y, false)] {
@@ -129,21 +129,21 @@ impl Frame {
                 let label = tick.label.as_deref().unwrap_or_default();
                 if downwards {
                     let [x, y] = [self.place(tick.value, self.y.low)[0], area.bottom()];
-                    surface.stroke(&[[x, y], [x, y + length]], &pen);
-                    surface.text([x, y + 1.15 * em], label, &middle);
+                    drawing.stroke(&[[x, y], [x, y + length]], &pen);
+                    drawing.text([x, y + 1.15 * em], label, &middle);
                 } else {
                     let [x, y] = [area.left, self.place(self.x.low, tick.value)[1]];
-                    surface.stroke(&[[x, y], [x - length, y]], &pen);
-                    surface.text([x - 0.7 * em, y], label, &right);
+                    drawing.stroke(&[[x, y], [x - length, y]], &pen);
+                    drawing.text([x - 0.7 * em, y], label, &right);
                 }
             }
         }
-        surface.text([area.right(), area.bottom() + 2.5 * em], &self.x.factor(), &right);
-        surface.text([area.left, area.top - 0.8 * em], &self.y.factor(), &left);
+        drawing.text([area.right(), area.bottom() + 2.5 * em], &self.x.factor(), &right);
+        drawing.text([area.left, area.top - 0.8 * em], &self.y.factor(), &left);
         let style = TextStyle::new(em, Anchor::Middle);
-        surface.text([area.left + 0.5 * area.width, area.bottom() + 2.65 * em], &self.x.label, &style);
+        drawing.text([area.left + 0.5 * area.width, area.bottom() + 2.65 * em], &self.x.label, &style);
         let beside = self.y.label_width(TICK_SIZE * em) + 1.75 * em;
-        surface.text([area.left - beside, area.top + 0.5 * area.height], &self.y.label, &style.upwards());
+        drawing.text([area.left - beside, area.top + 0.5 * area.height], &self.y.label, &style.upwards());
     }
 }
 

@@ -1,44 +1,64 @@
-//! Vector drawings as SVG files.
-//!
-//! Written by hand: lines, areas and text are three elements, and their coordinates keep fractions of a pixel, which
-//! drawing libraries with integer coordinates round away.
+//! Drawings as SVG files.
 
-use crate::{
-    Rgb,
-    drawing::{Pen, Pixel, Rect, Surface},
-};
+use std::fmt::Write;
 
-/// A drawing that is written as SVG. Its text is drawn, so that it looks the same everywhere; what it says is in the
-/// `aria-label` attributes, for search and screen readers.
-#[derive(Debug, Clone)]
-pub(crate) struct Svg {
-    size: [f64; 2],
-    body: String,
-    clips: usize,
-    clipped: bool,
-}
+use tiny_skia::{Path, PathSegment};
 
-impl Svg {
-    /// A white drawing of the given width and height (pixels).
-    pub(crate) fn new(size: [f64; 2]) -> Self {
-        Self { size, body: String::new(), clips: 0, clipped: false }
-    }
+use super::{Drawing, Shape, raster};
+use crate::base64;
 
-    /// The drawing as the text of an SVG file.
-    pub(crate) fn document(&self) -> String {
+impl Drawing {
+    /// The drawing as the text of an SVG file. Its text is drawn, so that it looks the same everywhere; what it says is
+    /// in the `aria-label` attributes, for search and screen readers.
+    pub(crate) fn svg(&self) -> String {
+        let (mut body, mut clips, mut clipped) = (String::new(), 0, false);
+        for shape in &self.shapes {
+            let element = match shape {
+                Shape::Area { path, colour, opacity, label } => {
+                    let label =
+                        if label.is_empty() { label.clone() } else { format!(" aria-label=\"{}\"", escape(label)) };
+                    let opacity = faint("fill", *opacity);
+                    let (data, colour) = (data(path), colour.hex());
+                    format!("<path{label} d=\"{data}\" fill-rule=\"evenodd\" fill=\"{colour}\"{opacity}/>")
+                }
+                Shape::Line { path, pen } => format!(
+                    "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{} stroke-linejoin=\"round\" \
+                     stroke-linecap=\"round\"/>",
+                    data(path),
+                    pen.colour.hex(),
+                    short(pen.width),
+                    faint("stroke", pen.opacity)
+                ),
+                Shape::Image { corner, image } => format!(
+                    "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" style=\"image-rendering:pixelated\" \
+                     href=\"data:image/png;base64,{}\"/>",
+                    short(corner[0]),
+                    short(corner[1]),
+                    image.width(),
+                    image.height(),
+                    base64::encode(&raster::png(image))
+                ),
+                Shape::Clip(to) => {
+                    let close = if std::mem::replace(&mut clipped, to.is_some()) { "</g>" } else { "" };
+                    let open = to.map(|rect| {
+                        clips += 1;
+                        let [x, y, w, h] = [rect.left, rect.top, rect.width, rect.height].map(short);
+                        let rect = format!("<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\"/>");
+                        format!("<clipPath id=\"c{clips}\">{rect}</clipPath><g clip-path=\"url(#c{clips})\">")
+                    });
+                    format!("{close}{}", open.unwrap_or_default())
+                }
+            };
+            body.push_str(&element);
+            body.push('\n');
+        }
         let [width, height] = self.size.map(short);
-        let close = if self.clipped { "</g>\n" } else { "" };
+        let close = if clipped { "</g>\n" } else { "" };
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\">\n\
-             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{}{close}</svg>\n",
-            self.body
+             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{body}{close}</svg>\n"
         )
-    }
-
-    fn push(&mut self, element: &str) {
-        self.body.push_str(element);
-        self.body.push('\n');
     }
 }
 
@@ -48,55 +68,31 @@ fn short(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
-/// Corners as the data of a path element, `None` with one that is not finite.
-fn path_data(path: &[Pixel]) -> Option<String> {
-    let finite = !path.is_empty() && path.iter().flatten().all(|v| v.is_finite());
-    let corners = || path.iter().map(|p| format!("{} {}", short(p[0]), short(p[1]))).collect::<Vec<_>>().join("L");
-    finite.then(|| format!("M{}", corners()))
+/// The attribute of an opacity below one.
+fn faint(what: &str, opacity: f64) -> String {
+    if opacity < 1.0 { format!(" {what}-opacity=\"{}\"", short(opacity)) } else { String::new() }
+}
+
+/// A path as the data of an element.
+fn data(path: &Path) -> String {
+    let mut data = String::new();
+    for segment in path.segments() {
+        let (letter, points) = match segment {
+            PathSegment::MoveTo(p) => ("M", vec![p]),
+            PathSegment::LineTo(p) => ("L", vec![p]),
+            PathSegment::QuadTo(c, p) => ("Q", vec![c, p]),
+            PathSegment::CubicTo(c, d, p) => ("C", vec![c, d, p]),
+            PathSegment::Close => ("Z", Vec::new()),
+        };
+        let points: Vec<_> = points.iter().map(|p| format!("{} {}", short(p.x.into()), short(p.y.into()))).collect();
+        // Writing to a string does not fail.
+        let _ = write!(data, "{letter}{}", points.join(" "));
+    }
+    data
 }
 
 fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
-}
-
-impl Surface for Svg {
-    fn strokes(&mut self, paths: &[Vec<Pixel>], label: &str, pen: &Pen) {
-        let Some(data) = paths.iter().map(|path| path_data(path)).collect::<Option<String>>() else { return };
-        if data.is_empty() {
-            return;
-        }
-        let (colour, width) = (pen.colour.hex(), short(pen.width));
-        let label = if label.is_empty() { String::new() } else { format!(" aria-label=\"{}\"", escape(label)) };
-        let opacity =
-            if pen.opacity < 1.0 { format!(" stroke-opacity=\"{}\"", short(pen.opacity)) } else { String::new() };
-        self.push(&format!(
-            "<path{label} d=\"{data}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"{opacity} \
-             stroke-linejoin=\"round\" stroke-linecap=\"round\"/>"
-        ));
-    }
-
-    fn fill(&mut self, rings: &[Vec<Pixel>], colour: Rgb, opacity: f64) {
-        let Some(data) = rings.iter().map(|r| path_data(r)).collect::<Option<Vec<_>>>() else { return };
-        let opacity = if opacity < 1.0 { format!(" fill-opacity=\"{}\"", short(opacity)) } else { String::new() };
-        let data = data.join("Z");
-        self.push(&format!("<path d=\"{data}Z\" fill-rule=\"evenodd\" fill=\"{}\"{opacity}/>", colour.hex()));
-    }
-
-    fn clip(&mut self, to: Option<Rect>) {
-        if self.clipped {
-            self.push("</g>");
-        }
-        self.clipped = to.is_some();
-        if let Some(rect) = to {
-            self.clips += 1;
-            let id = self.clips;
-            let [l, t, w, h] = [rect.left, rect.top, rect.width, rect.height].map(short);
-            self.push(&format!(
-                "<clipPath id=\"c{id}\"><rect x=\"{l}\" y=\"{t}\" width=\"{w}\" height=\"{h}\"/></clipPath>\n\
-                 <g clip-path=\"url(#c{id})\">"
-            ));
-        }
-    }
 }
 
 #[cfg(test)]

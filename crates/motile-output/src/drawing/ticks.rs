@@ -86,14 +86,14 @@ fn nice_step(raw: f64) -> f64 {
 }
 
 /// The largest of 1, 2, 5 times a power of ten that is not above `raw`.
-fn nice_step_below(raw: f64) -> f64 {
+pub(crate) fn nice_step_below(raw: f64) -> f64 {
     let decade = 10f64.powf(raw.log10().floor());
     let multiple = [5.0, 2.0].into_iter().find(|m| m * decade <= raw * (1.0 + 1e-9)).unwrap_or(1.0);
     multiple * decade
 }
 
 /// A number as text, to four significant figures without trailing zeros.
-fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value == 0.0 { "0".into() } else { signed(&value.to_string()) };
     }

@@ -10,7 +10,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::base64::encode;
+use crate::base64::encode;
 use crate::{Error, Raster, Vec2};
 
 /// The values of a named array, one a point or one a cell, as they are stored.

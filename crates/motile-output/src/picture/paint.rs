@@ -2,7 +2,8 @@
 
 use super::{Legends, Picture};
 use crate::drawing::axes::{Axis, AxisScale, Frame};
-use crate::drawing::{Anchor, Pen, Pixel, Rect, Surface, TextStyle, canvas::Canvas};
+use crate::drawing::ticks::{nice_step_below, number};
+use crate::drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle, font::text_width};
 use crate::{Error, Rgb, Samples, Vec2, streamlines};
 
 /// Colours of solids and walls.
@@ -17,30 +18,32 @@ const BARS: f64 = 4.5;
 /// Unit of lengths, in which axes are labelled.
 const UNIT: &str = "R_{0}";
 
-pub(crate) fn paint(picture: &Picture<'_>) -> Result<Canvas, Error> {
+pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, Error> {
     let layout = Layout::new(picture);
-    let canvas = Canvas::new([picture.format.width, layout.height])?;
-    let mut painter = Painter { picture, canvas, layout };
-    painter.canvas.clip(Some(painter.layout.frame.area));
+    let drawing = Drawing::new([picture.format.width as f64, layout.height]);
+    let mut painter = Painter { picture, drawing, layout };
+    painter.drawing.clip(Some(painter.layout.frame.area));
     painter.pressure()?;
     painter.streamlines()?;
     painter.solids();
     painter.walls();
     painter.tracks();
     painter.interfaces();
-    painter.canvas.clip(None);
-    painter.layout.frame.draw_axes(&mut painter.canvas);
+    painter.scale_bar();
+    painter.drawing.clip(None);
+    painter.layout.frame.draw_axes(&mut painter.drawing);
     painter.legends();
     let (area, em) = (painter.layout.frame.area, painter.layout.em);
-    let style = TextStyle::new(1.05 * em, Anchor::Start);
-    painter.canvas.text([area.left, area.top - 1.15 * em], &picture.title, &style);
-    Ok(painter.canvas)
+    // A long title is set smaller.
+    let size = 1.05 * em * (area.width / text_width(&picture.title, 1.05 * em)).min(1.0);
+    painter.drawing.text([area.left, area.top - 1.15 * em], &picture.title, &TextStyle::new(size, Anchor::Start));
+    Ok(painter.drawing)
 }
 
 /// Where the parts of a picture are.
 struct Layout {
     frame: Frame,
-    height: usize,
+    height: f64,
     /// Size of the type (pixels).
     em: f64,
     /// The unit of widths of lines in the picture (pixels): the size of the type, less where the picture is low.
@@ -67,8 +70,12 @@ impl Layout {
         let left = Frame::left_margin(&y, em).round();
         let inner = (width - left - 1.4 * em).round().max(1.0);
         let area = Rect { left, top: (2.4 * em).round(), width: inner, height: (inner / shape).round().max(1.0) };
-        let height = (area.bottom() + Frame::bottom_margin(&x, em) + BARS * em).round() as usize;
+        let height = (area.bottom() + Frame::bottom_margin(&x, em) + BARS * em).round();
         Self { height, frame: Frame { area, x, y, em }, em, unit: em.min(area.height / 13.0) }
+    }
+
+    fn path(&self, points: &[Vec2], shift: Vec2) -> Vec<Pixel> {
+        points.iter().map(|p| p + shift).map(|p| self.frame.place(p.x, p.y)).collect()
     }
 
     /// Pixels a unit of length.
@@ -79,7 +86,7 @@ impl Layout {
 
 struct Painter<'a> {
     picture: &'a Picture<'a>,
-    canvas: Canvas,
+    drawing: Drawing,
     layout: Layout,
 }
 
@@ -105,17 +112,13 @@ impl Painter<'_> {
         ys.into_iter().flat_map(|y| xs.iter().map(move |&x| Vec2::new(x, y))).collect()
     }
 
-    fn path(&self, points: &[Vec2], shift: Vec2) -> Vec<Pixel> {
-        points.iter().map(|p| p + shift).map(|p| self.layout.frame.place(p.x, p.y)).collect()
-    }
-
     fn pressure(&mut self) -> Result<(), Error> {
         let field = Samples::new(self.picture.seen.raster, self.picture.seen.pressure())?;
         let (scale, levels) = (&self.picture.legends.pressure, self.picture.format.levels);
         let table = scale.table(levels);
         let (area, low, high) = (self.layout.frame.area, self.layout.frame.x.low, self.layout.frame.y.high);
         let length = 1.0 / self.layout.scale();
-        self.canvas.shade(area, |x, y| {
+        self.drawing.shade(area, |x, y| {
             let point = Vec2::new(low + (x - area.left) * length, high - (y - area.top) * length);
             let value = field.raster.covers(point).then(|| field.at(point))?;
             let level = (value - scale.low) / (scale.high - scale.low) * levels as f64;
@@ -134,8 +137,8 @@ impl Painter<'_> {
         let pen = Pen::new(Rgb::INK, (0.07 * unit).max(0.9)).opacity(0.72);
         for line in streamlines(&velocity, self.picture.streamline_spacing.max(least), anchor)? {
             for shift in self.images(&line.iter()) {
-                let path = self.path(&line, shift);
-                self.canvas.stroke(&path, &pen);
+                let path = self.layout.path(&line, shift);
+                self.drawing.stroke(&path, &pen);
                 // Arrow heads along the line, at least one.
                 let count = (line.len() / 90).max(1);
                 for k in 0..count {
@@ -156,21 +159,34 @@ impl Painter<'_> {
         let (c, s) = (dx * scale, dy * scale);
         let corner = |along: f64, across: f64| [at[0] + along * c - across * s, at[1] + along * s + across * c];
         let ring = vec![corner(0.6, 0.0), corner(-0.4, 0.36), corner(-0.22, 0.0), corner(-0.4, -0.36)];
-        self.canvas.fill(&[ring], Rgb::INK, 0.85);
+        self.drawing.fill(&[ring], Rgb::INK, 0.85);
     }
 
     fn solids(&mut self) {
         let picture = self.picture;
         let pen = Pen::new(SOLID_EDGE, (0.1 * self.layout.unit).max(1.0));
         for solid in &picture.seen.solids {
-            for shift in self.images(&solid.area.iter().flatten()) {
-                let rings: Vec<Vec<Pixel>> = solid.area.iter().map(|ring| self.path(ring, shift)).collect();
-                self.canvas.fill(&rings, SOLID, 1.0);
-                for line in &solid.edges {
-                    let line = self.path(line, shift);
-                    self.canvas.stroke(&line, &pen);
+            let shifts = self.images(&solid.area.iter().flatten());
+            let all = |lines: &[Vec<Vec2>]| -> Vec<Vec<Pixel>> {
+                let layout = &self.layout;
+                shifts.iter().flat_map(|&shift| lines.iter().map(move |line| layout.path(line, shift))).collect()
+            };
+            let (rings, edges) = (all(&solid.area), all(&solid.edges));
+            let frame = &self.layout.frame;
+            let mut triangles: Vec<([Pixel; 3], Rgb)> = Vec::new();
+            if let Some(scale) = &picture.legends.solids {
+                for shift in self.images(&solid.triangles.iter().flatten()) {
+                    let place = |p: Vec2| frame.place(p.x + shift.x, p.y + shift.y);
+                    let values = solid.triangles.iter().zip(solid.values(picture.solids));
+                    triangles.extend(values.map(|(at, value)| (at.map(place), scale.colour(*value))));
                 }
             }
+            // One area for all periodic images: two that meet would show a seam.
+            self.drawing.fill(&rings, SOLID, 1.0);
+            if !triangles.is_empty() {
+                self.drawing.triangles(self.layout.frame.area, triangles.into_iter());
+            }
+            self.drawing.strokes(&edges, &pen);
         }
     }
 
@@ -181,18 +197,35 @@ impl Painter<'_> {
         let (lower, upper) = (y(below), y(above));
         for (top, bottom, face) in [(area.top, upper, upper), (lower, area.bottom(), lower)] {
             let band = Rect { left: area.left, top, width: area.width, height: bottom - top };
-            self.canvas.fill(&[band.outline()], SOLID, 1.0);
-            self.canvas.clip(Some(band));
+            self.drawing.fill(&[band.outline()], SOLID, 1.0);
+            self.drawing.clip(Some(band));
             let pen = Pen::new(SOLID_EDGE, (0.05 * unit).max(0.8)).opacity(0.6);
             let mut x = band.left - band.height;
             while x < band.right() {
-                self.canvas.stroke(&[[x, band.bottom()], [x + band.height, band.top]], &pen);
+                self.drawing.stroke(&[[x, band.bottom()], [x + band.height, band.top]], &pen);
                 x += 0.55 * unit;
             }
-            self.canvas.clip(Some(area));
+            self.drawing.clip(Some(area));
             let edge = Pen::new(SOLID_EDGE, (0.13 * unit).max(1.2));
-            self.canvas.stroke(&[[area.left, face], [area.right(), face]], &edge);
+            self.drawing.stroke(&[[area.left, face], [area.right(), face]], &edge);
         }
+    }
+
+    /// A bar of length 1, 2 or 5 times a power of ten, a fifth of the picture's width at most.
+    fn scale_bar(&mut self) {
+        let (area, em, scale) = (self.layout.frame.area, self.layout.em, self.layout.scale());
+        let longest = 0.2 * area.width / scale;
+        let length = nice_step_below(longest);
+        let (right, y) = (area.right() - 1.2 * em, area.bottom() - 1.0 * em);
+        let bar = [[right - length * scale, y], [right, y]];
+        self.drawing.stroke(&bar, &Pen::new(Rgb::WHITE, 0.5 * em).opacity(0.8));
+        self.drawing.stroke(&bar, &Pen::new(Rgb::INK, 0.2 * em));
+        let label = format!("{} {UNIT}", number(length));
+        let at = [right - 0.5 * length * scale, y - 0.95 * em];
+        let [width, height] = [text_width(&label, 0.88 * em) + 0.5 * em, 1.1 * em];
+        let paper = Rect { left: at[0] - 0.5 * width, top: at[1] - 0.5 * height, width, height };
+        self.drawing.fill(&[paper.outline()], Rgb::WHITE, 0.7);
+        self.drawing.text(at, &label, &TextStyle::new(0.88 * em, Anchor::Middle));
     }
 
     fn tracks(&mut self) {
@@ -200,12 +233,12 @@ impl Painter<'_> {
         let unit = self.layout.unit;
         for track in &picture.tracks {
             for shift in self.images(&track.iter()) {
-                let path = self.path(track, shift);
-                self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.3 * unit).opacity(0.75));
-                self.canvas.stroke(&path, &Pen::new(TRACK, 0.13 * unit));
+                let path = self.layout.path(track, shift);
+                self.drawing.stroke(&path, &Pen::new(Rgb::WHITE, 0.3 * unit).opacity(0.75));
+                self.drawing.stroke(&path, &Pen::new(TRACK, 0.13 * unit));
                 if let Some(&start) = path.first() {
-                    self.canvas.stroke(&[start, start], &Pen::new(Rgb::WHITE, 0.56 * unit));
-                    self.canvas.stroke(&[start, start], &Pen::new(TRACK, 0.4 * unit));
+                    self.drawing.stroke(&[start, start], &Pen::new(Rgb::WHITE, 0.56 * unit));
+                    self.drawing.stroke(&[start, start], &Pen::new(TRACK, 0.4 * unit));
                 }
             }
         }
@@ -215,25 +248,26 @@ impl Painter<'_> {
         let (seen, legends, unit) = (self.picture.seen, self.picture.legends, self.layout.unit);
         for droplet in &seen.droplets {
             let closed = |values: &[f64]| values.iter().chain(values.first()).copied().collect::<Vec<f64>>();
-            let colour = |c: f64| legends.concentration.colour(c / legends.unit);
-            let colours: Vec<Rgb> = closed(&droplet.concentration).into_iter().map(colour).collect();
+            let colours: Option<Vec<Rgb>> = legends.concentration.as_ref().map(|scale| {
+                closed(&droplet.concentration).into_iter().map(|c| scale.colour(c / legends.unit)).collect()
+            });
             for shift in self.images(&droplet.markers.iter()) {
-                let mut path = self.path(&droplet.markers, shift);
+                let mut path = self.layout.path(&droplet.markers, shift);
                 path.extend(path.first().copied());
-                self.canvas.stroke(&path, &Pen::new(Rgb::WHITE, 0.8 * unit).opacity(0.7));
-                self.canvas.stroke(&path, &Pen::new(Rgb::INK, 0.56 * unit));
-                self.canvas.stroke_coloured(&path, &colours, 0.42 * unit);
+                self.drawing.stroke(&path, &Pen::new(Rgb::WHITE, 0.8 * unit).opacity(0.7));
+                self.drawing.stroke(&path, &Pen::new(Rgb::INK, 0.56 * unit));
+                if let Some(colours) = &colours {
+                    self.drawing.stroke_coloured(&path, colours, 0.42 * unit);
+                }
             }
         }
     }
 
     fn legends(&mut self) {
         let (area, em) = (self.layout.frame.area, self.layout.em);
-        let Legends { pressure, concentration, .. } = self.picture.legends;
+        let Legends { pressure, concentration, solids, .. } = self.picture.legends;
         let mut legends = vec![(pressure, self.picture.format.levels)];
-        if !self.picture.seen.droplets.is_empty() {
-            legends.push((concentration, 256));
-        }
+        legends.extend([concentration, solids].into_iter().flatten().map(|scale| (scale, 256)));
         let (gap, count) = (3.0 * em, legends.len() as f64);
         let width = (area.width - (count - 1.0) * gap) / count;
         let top = area.bottom() + Frame::bottom_margin(&self.layout.frame.x, em);
@@ -241,10 +275,10 @@ impl Painter<'_> {
             let bar = Rect { left: area.left + k as f64 * (width + gap), top, width, height: 0.9 * em }.rounded();
             let table = scale.table(levels);
             let colour = |x: f64| table[(((x - bar.left) / bar.width * levels as f64) as usize).min(levels - 1)];
-            self.canvas.shade(bar, |x, _| Some(colour(x)));
+            self.drawing.shade(bar, |x, _| Some(colour(x)));
             let ticks = ((bar.width / (3.2 * em)) as usize).clamp(2, 6);
             let x = Axis::new(scale.label, [scale.low, scale.high], AxisScale::Linear, ticks);
-            Frame { area: bar, x, y: Axis::bare(), em }.draw_axes(&mut self.canvas);
+            Frame { area: bar, x, y: Axis::bare(), em }.draw_axes(&mut self.drawing);
         }
     }
 }

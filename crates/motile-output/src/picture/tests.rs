@@ -1,4 +1,5 @@
 use super::*;
+use crate::drawing::raster::colours;
 use crate::{DropletShape, Raster, Rgb};
 use motile::ib_core::FlowSample;
 
@@ -16,13 +17,14 @@ fn circle(x: f64) -> DropletShape {
     DropletShape { markers, concentration: vec![0.5; 90], centroid: Vec2::new(x, 0.0) }
 }
 
-fn draw(seen: &Snapshot, tracks: &[Track], format: &Format) -> Canvas {
+fn draw(seen: &Snapshot, tracks: &[Track], format: &Format) -> Vec<Rgb> {
     let look = Look::default();
-    look.draw(seen, &look.legends(std::slice::from_ref(seen)), tracks, format).unwrap()
+    let drawing = look.draw(seen, &look.legends(std::slice::from_ref(seen)), tracks, format).unwrap();
+    colours(&drawing.pixels(1.0).unwrap()).collect()
 }
 
-fn count(image: &Canvas, colour: Rgb) -> f64 {
-    image.pixels.iter().filter(|&&p| p == colour).count() as f64
+fn count(image: &[Rgb], colour: Rgb) -> f64 {
+    image.iter().filter(|&&p| p == colour).count() as f64
 }
 
 #[test]
@@ -57,7 +59,7 @@ fn a_single_droplet_is_in_the_middle_of_a_still() {
     let seen = Snapshot { droplets: vec![circle(2.0)], ..halves() };
     let image = draw(&seen, &[], &Format::STILL);
     let other = draw(&Snapshot { droplets: vec![circle(2.0), circle(2.0)], ..halves() }, &[], &Format::STILL);
-    assert_ne!(image.pixels, other.pixels);
+    assert_ne!(image, other);
 }
 
 #[test]
@@ -66,7 +68,13 @@ fn values_that_are_not_numbers_do_no_harm() {
     let bad = Vec2::new(f64::NAN, 1.0);
     let flow = vec![FlowSample { velocity: bad, pressure: f64::NAN, ..FlowSample::default() }; 32];
     let droplets = vec![DropletShape { markers: vec![bad; 3], concentration: vec![f64::NAN; 3], centroid: bad }];
-    let solids = vec![SolidShape { area: vec![vec![bad; 3]], edges: vec![vec![bad; 3], Vec::new()] }];
+    let solids = vec![SolidShape {
+        area: vec![vec![bad; 3]],
+        edges: vec![vec![bad; 3], Vec::new()],
+        triangles: vec![[bad; 3]],
+        displacement: vec![f64::NAN],
+        stress: vec![f64::NAN],
+    }];
     let seen = Snapshot { time: 1.0, raster, flow, droplets, solids, walls: Some([0.0, 2.0]) };
     draw(&seen, &[vec![(0.0, bad), (0.5, Vec2::new(1.0, 1.0))], Vec::new()], &Format::STILL);
     let look = Look::default();

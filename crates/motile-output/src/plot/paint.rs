@@ -1,7 +1,7 @@
 //! Plots of series of points: how they are drawn.
 
 use crate::drawing::axes::{Axis, Frame};
-use crate::drawing::{Anchor, Pen, Pixel, Rect, Surface, TextStyle, font::text_width};
+use crate::drawing::{Anchor, Drawing, Pen, Pixel, Rect, TextStyle, font::text_width};
 use crate::{AxisScale, Error, Figure, Marker, Plot, Rgb, SERIES_COLOURS, Series};
 
 /// Size of the type (pixels of the SVG).
@@ -12,27 +12,28 @@ const MARGIN: f64 = 0.05;
 const LEAST_SPAN: f64 = 1e-3;
 
 /// A plot, laid out.
-pub(crate) struct Panel<'a> {
+struct Panel<'a> {
     plot: &'a Plot,
     frame: Frame,
 }
 
-/// The panels of a figure with `scale` pixels a pixel of the SVG, and the size of all.
-pub(crate) fn panels(figure: &Figure, scale: f64) -> Result<(Vec<Panel<'_>>, [f64; 2]), Error> {
+/// A figure as it is drawn.
+pub(crate) fn draw(figure: &Figure) -> Result<Drawing, Error> {
     let [width, height] = figure.panel_size;
     if figure.panels.is_empty() {
         return Err(Error::Empty("a figure without plots"));
     }
     Error::check_size("a panel with a width (pixels)", width, 200.0, 4000.0)?;
     Error::check_size("a panel with a height (pixels)", height, 150.0, 4000.0)?;
-    let (width, height) = (width * scale, height * scale);
     let columns = figure.columns.min(figure.panels.len());
     let rows = figure.panels.len().div_ceil(columns);
     let panel = |(k, plot)| {
         let (left, top) = ((k % columns) as f64 * width, (k / columns) as f64 * height);
-        Panel { plot, frame: frame(plot, Rect { left, top, width, height }, EM * scale) }
+        Panel { plot, frame: frame(plot, Rect { left, top, width, height }, EM) }
     };
-    Ok((figure.panels.iter().enumerate().map(panel).collect(), [columns as f64 * width, rows as f64 * height]))
+    let mut drawing = Drawing::new([columns as f64 * width, rows as f64 * height]);
+    figure.panels.iter().enumerate().map(panel).for_each(|panel| panel.paint(&mut drawing));
+    Ok(drawing)
 }
 
 /// The axes of a plot within its panel.
@@ -76,20 +77,20 @@ fn data_range(plot: &Plot, axis: usize) -> [f64; 2] {
 }
 
 impl Panel<'_> {
-    pub(crate) fn paint(&self, surface: &mut impl Surface) {
+    fn paint(&self, drawing: &mut Drawing) {
         let (frame, em) = (&self.frame, self.frame.em);
-        frame.draw_grid(surface);
-        surface.clip(Some(frame.area));
-        self.references(surface);
+        frame.draw_grid(drawing);
+        drawing.clip(Some(frame.area));
+        self.references(drawing);
         for (series, colour) in self.coloured() {
-            self.series(surface, series, colour);
+            self.series(drawing, series, colour);
         }
-        self.legend(surface);
-        surface.clip(None);
-        frame.draw_axes(surface);
+        self.legend(drawing);
+        drawing.clip(None);
+        frame.draw_axes(drawing);
         let shift = if frame.y.ticks.exponent == 0 { 0.0 } else { 3.4 * em };
         let at = [frame.area.left + shift, frame.area.top - 1.15 * em];
-        surface.text(at, &self.plot.title, &TextStyle::new(1.1 * em, Anchor::Start));
+        drawing.text(at, &self.plot.title, &TextStyle::new(1.1 * em, Anchor::Start));
     }
 
     /// The series with their colours.
@@ -103,35 +104,35 @@ impl Panel<'_> {
         series.points.iter().map(|p| self.frame.place(p.0, p.1)).collect()
     }
 
-    fn references(&self, surface: &mut impl Surface) {
+    fn references(&self, drawing: &mut Drawing) {
         let (area, em) = (self.frame.area, self.frame.em);
         let pen = Pen::new(Rgb::GREY, 0.09 * em);
         let style = TextStyle { colour: Rgb::GREY, ..TextStyle::new(0.85 * em, Anchor::End) };
         for (value, label) in &self.plot.references {
             let y = self.frame.place(self.frame.x.low, *value)[1];
-            surface.dashed(&[[area.left, y], [area.right(), y]], &pen, [0.45 * em, 0.3 * em]);
+            drawing.dashed(&[[area.left, y], [area.right(), y]], &pen, [0.45 * em, 0.3 * em]);
             let side = if y - area.top < 1.6 * em { 0.75 } else { -0.75 };
-            surface.text([area.right() - 0.5 * em, y + side * em], label, &style);
+            drawing.text([area.right() - 0.5 * em, y + side * em], label, &style);
         }
     }
 
-    fn series(&self, surface: &mut impl Surface, series: &Series, colour: Rgb) {
+    fn series(&self, drawing: &mut Drawing, series: &Series, colour: Rgb) {
         let em = self.frame.em;
         let pixels = self.pixels(series);
         if series.line {
             for piece in pixels.split(|p| !(p[0].is_finite() && p[1].is_finite())).filter(|p| p.len() > 1) {
-                line(surface, piece, series, colour, em);
+                line(drawing, piece, series, colour, em);
             }
         }
         if let Some(marker) = series.marker {
             for at in pixels.into_iter().filter(|p| p[0].is_finite() && p[1].is_finite()) {
-                draw_marker(surface, marker, at, 0.3 * em, colour);
+                draw_marker(drawing, marker, at, 0.3 * em, colour);
             }
         }
     }
 
     /// Draws the legend in the corner where it hides the fewest points.
-    fn legend(&self, surface: &mut impl Surface) {
+    fn legend(&self, drawing: &mut Drawing) {
         let em = self.frame.em;
         let size = 0.9 * em;
         let entries: Vec<(&Series, Rgb)> = self.coloured().into_iter().filter(|(s, _)| !s.label.is_empty()).collect();
@@ -163,32 +164,32 @@ impl Panel<'_> {
             self.plot.series.iter().map(share).sum::<usize>() + 50 * ends.filter(inside).count()
         };
         let Some(panel) = corners.min_by_key(hidden) else { return };
-        surface.fill(&[panel.outline()], Rgb::WHITE, 0.85);
+        drawing.fill(&[panel.outline()], Rgb::WHITE, 0.85);
         for (k, (series, colour)) in entries.into_iter().enumerate() {
             let y = panel.top + (1.4 * k as f64 + 0.95) * em;
             let (from, to) = (panel.left + 0.5 * em, panel.left + 2.5 * em);
             if series.line {
-                line(surface, &[[from, y], [to, y]], series, colour, em);
+                line(drawing, &[[from, y], [to, y]], series, colour, em);
             }
             if let Some(marker) = series.marker {
-                draw_marker(surface, marker, [0.5 * (from + to), y], 0.3 * em, colour);
+                draw_marker(drawing, marker, [0.5 * (from + to), y], 0.3 * em, colour);
             }
-            surface.text([panel.left + 3.0 * em, y], &series.label, &TextStyle::new(size, Anchor::Start));
+            drawing.text([panel.left + 3.0 * em, y], &series.label, &TextStyle::new(size, Anchor::Start));
         }
     }
 }
 
 /// The line of a series.
-fn line(surface: &mut impl Surface, path: &[Pixel], series: &Series, colour: Rgb, em: f64) {
+fn line(drawing: &mut Drawing, path: &[Pixel], series: &Series, colour: Rgb, em: f64) {
     let pen = Pen::new(colour, 0.14 * em);
     if series.dashed {
-        surface.dashed(path, &pen, [0.55 * em, 0.35 * em]);
+        drawing.dashed(path, &pen, [0.55 * em, 0.35 * em]);
     } else {
-        surface.stroke(path, &pen);
+        drawing.stroke(path, &pen);
     }
 }
 
-fn draw_marker(surface: &mut impl Surface, marker: Marker, [x, y]: Pixel, radius: f64, colour: Rgb) {
+fn draw_marker(drawing: &mut Drawing, marker: Marker, [x, y]: Pixel, radius: f64, colour: Rgb) {
     let (corners, size, turn) = match marker {
         Marker::Disc | Marker::Circle => (20, radius, 0.0),
         Marker::Square => (4, 1.25 * radius, std::f64::consts::FRAC_PI_4),
@@ -198,10 +199,10 @@ fn draw_marker(surface: &mut impl Surface, marker: Marker, [x, y]: Pixel, radius
     let angle = |k: usize| turn + std::f64::consts::TAU * k as f64 / corners as f64;
     let outline: Vec<Pixel> = (0..=corners).map(|k| [x + size * angle(k).sin(), y - size * angle(k).cos()]).collect();
     if marker == Marker::Circle {
-        surface.fill(std::slice::from_ref(&outline), Rgb::WHITE, 1.0);
-        surface.stroke(&outline, &Pen::new(colour, 0.45 * radius));
+        drawing.fill(std::slice::from_ref(&outline), Rgb::WHITE, 1.0);
+        drawing.stroke(&outline, &Pen::new(colour, 0.45 * radius));
     } else {
-        surface.fill(&[outline], colour, 1.0);
+        drawing.fill(&[outline], colour, 1.0);
     }
 }
 

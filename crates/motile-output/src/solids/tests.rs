@@ -19,6 +19,9 @@ fn walls_of_a_channel() {
     for solid in solids(system) {
         let shape = solid_shape(solid);
         assert_eq!((shape.area.len(), shape.edges.len()), (1, 2));
+        let triangles: f64 = shape.triangles.iter().map(|corners| area(corners)).sum();
+        assert!((triangles - 4.0 * thickness).abs() < 1e-9, "{triangles}");
+        assert!(shape.stress.iter().chain(&shape.displacement).all(|v| v.abs() < 1e-9));
         assert!((area(&shape.area[0]) - 4.0 * thickness).abs() < 1e-9, "{}", area(&shape.area[0]));
     }
     let mut meter = SolidMeter::of(system).unwrap();

@@ -8,27 +8,30 @@ fn braces_raise_and_lower() {
 }
 
 #[test]
-fn every_glyph_reads_and_stays_in_its_cell() {
-    for line in GLYPHS.lines() {
-        let c = line.chars().next().unwrap();
-        let strokes = line.rsplit(':').next().unwrap();
-        let words: usize = strokes.split('|').map(|s| s.split_whitespace().count()).sum();
-        let read: usize = strokes.split('|').map(|s| points(s).len()).sum();
-        assert_eq!(words, read, "{c}");
-        let glyph = parse(line);
-        for p in glyph.strokes.iter().flatten() {
-            assert!(p[0] >= -0.01 && p[0] <= glyph.width + 1.01, "{c}: x = {}", p[0]);
-            assert!(p[1] >= -4.6 && p[1] <= 16.01, "{c}: y = {}", p[1]);
-        }
-        assert!(glyph.strokes.iter().all(|s| s.len() >= 2), "{c}");
+fn the_font_has_what_labels_need() {
+    let face = Face::parse(FONT, 0).unwrap();
+    let others = "αβγδεζηθικλμνξπρστυφχψωΓΔΘΛΞΠΣΦΨΩ−±×·°∂∇∞√≈≠≤≥→⟨⟩∥⊥é";
+    for c in (' '..='~').chain(others.chars()) {
+        assert!(face.glyph_index(c).is_some(), "{c}");
     }
+    assert_eq!(f64::from(face.capital_height().unwrap()), CAPITAL * f64::from(face.units_per_em()));
 }
 
 #[test]
-fn the_font_has_all_printable_ascii() {
-    for c in '!'..='~' {
-        assert!(GLYPHS.lines().any(|line| line.starts_with(c)), "{c}");
+fn text_stands_where_it_is_put() {
+    for (anchor, left) in [(Anchor::Start, 0.0), (Anchor::Middle, -0.5), (Anchor::End, -1.0)] {
+        let width = text_width("HH", 20.0);
+        let across = place("HH", [100.0, 50.0], &TextStyle::new(20.0, anchor)).unwrap().bounds();
+        let up = place("HH", [100.0, 50.0], &TextStyle::new(20.0, anchor).upwards()).unwrap().bounds();
+        let [low, high] = [left, left + 1.0].map(|part| part * width);
+        // The letters begin some two pixels within their advance.
+        let near = |a: f32, b: f64| (f64::from(a) - b).abs() < 2.5;
+        assert!(near(across.left(), 100.0 + low) && near(across.right(), 100.0 + high), "{across:?}");
+        assert!(near(up.bottom(), 50.0 - low) && near(up.top(), 50.0 - high), "{up:?}");
+        // Halfway up the capitals.
+        assert!((across.top() + across.bottom() - 100.0).abs() < 1e-3, "{across:?}");
     }
+    assert!(place(" ", [0.0; 2], &TextStyle::new(20.0, Anchor::Start)).is_none());
 }
 
 #[test]

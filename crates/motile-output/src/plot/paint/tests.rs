@@ -17,5 +17,5 @@ fn ranges_hold_the_data_and_survive_data_that_cannot_be_shown() {
 fn figures_without_panels_and_tiny_panels_are_refused() {
     assert!(Figure::new(2).svg().is_err());
     assert!(Figure::new(1).panel(Plot::new("")).panel_size(10.0, 10.0).svg().is_err());
-    assert!(Figure::new(1).panel(Plot::new("empty")).image().is_ok());
+    assert!(Figure::new(1).panel(Plot::new("empty")).svg().is_ok());
 }

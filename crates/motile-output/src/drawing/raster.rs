@@ -1,0 +1,91 @@
+//! Drawings as pixels.
+
+use std::{fs, path::Path};
+
+use tiny_skia::{
+    Color, FillRule, FilterQuality, LineCap, LineJoin, Mask, Paint, PathBuilder, Pixmap, PixmapPaint, Stroke, Transform,
+};
+
+use super::{Drawing, Shape};
+use crate::{Error, Rgb};
+
+/// Largest width and height (pixels).
+const LARGEST: f64 = 16_384.0;
+
+impl Drawing {
+    /// The drawing painted with `scale` pixels a unit of its size.
+    ///
+    /// # Errors
+    /// [`Error::Size`]: no pixels, or more than 16384 in a direction.
+    pub(crate) fn pixels(&self, scale: f64) -> Result<Pixmap, Error> {
+        let size = self.size.map(|side| (side * scale).round());
+        for side in size {
+            Error::check_size("an image with a side (pixels)", side, 1.0, LARGEST)?;
+        }
+        let [width, height] = size.map(|side| side as u32);
+        let refused = Error::Size { what: "an image with a side (pixels)", given: size[0], least: 1.0, most: LARGEST };
+        let mut image = Pixmap::new(width, height).ok_or(refused)?;
+        image.fill(Color::WHITE);
+        let transform = Transform::from_scale(scale as f32, scale as f32);
+        let mut clip: Option<Mask> = None;
+        for shape in &self.shapes {
+            match shape {
+                Shape::Area { path, colour, opacity, .. } => {
+                    image.fill_path(path, &paint(*colour, *opacity), FillRule::EvenOdd, transform, clip.as_ref());
+                }
+                Shape::Line { path, pen } => {
+                    let (line_cap, line_join) = (LineCap::Round, LineJoin::Round);
+                    let stroke = Stroke { width: pen.width as f32, line_cap, line_join, ..Stroke::default() };
+                    image.stroke_path(path, &paint(pen.colour, pen.opacity), &stroke, transform, clip.as_ref());
+                }
+                Shape::Image { corner, image: part } => {
+                    let place = transform.pre_translate(corner[0] as f32, corner[1] as f32);
+                    let quality = PixmapPaint { quality: FilterQuality::Nearest, ..PixmapPaint::default() };
+                    image.draw_pixmap(0, 0, part.as_ref(), &quality, place, clip.as_ref());
+                }
+                Shape::Clip(None) => clip = None,
+                Shape::Clip(Some(rect)) => {
+                    let sides = [rect.left, rect.top, rect.width, rect.height].map(|v| v as f32);
+                    let area = tiny_skia::Rect::from_xywh(sides[0], sides[1], sides[2], sides[3]);
+                    clip = Mask::new(width, height);
+                    if let (Some(mask), Some(area)) = (&mut clip, area) {
+                        mask.fill_path(&PathBuilder::from_rect(area), FillRule::Winding, true, transform);
+                    }
+                }
+            }
+        }
+        Ok(image)
+    }
+
+    /// Writes the drawing to `path`: vectors where its name ends in `.svg`, else PNG with `scale` pixels a unit of its
+    /// size.
+    ///
+    /// # Errors
+    /// [`Error::Write`], [`Error::Size`].
+    pub(crate) fn write(&self, path: &Path, scale: f64) -> Result<(), Error> {
+        if path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("svg")) {
+            return fs::write(path, self.svg()).map_err(Error::writing(path));
+        }
+        fs::write(path, png(&self.pixels(scale)?)).map_err(Error::writing(path))
+    }
+}
+
+/// An image as the bytes of a PNG file.
+pub(crate) fn png(image: &Pixmap) -> Vec<u8> {
+    // Only an image too large for the format fails, and sizes are bounded.
+    image.encode_png().unwrap_or_default()
+}
+
+/// The colours of the pixels of an image without transparency, row after row from the top.
+pub(crate) fn colours(image: &Pixmap) -> impl Iterator<Item = Rgb> {
+    image.pixels().iter().map(|pixel| Rgb([pixel.red(), pixel.green(), pixel.blue()]))
+}
+
+fn paint(Rgb([r, g, b]): Rgb, opacity: f64) -> Paint<'static> {
+    let mut paint = Paint { anti_alias: true, ..Paint::default() };
+    paint.set_color_rgba8(r, g, b, (255.0 * opacity.clamp(0.0, 1.0)).round() as u8);
+    paint
+}
+
+#[cfg(test)]
+mod tests;
