@@ -82,14 +82,31 @@ pub(crate) fn commit(inputs: &[&str]) -> Result<String> {
 /// Those of [`commit`]; files that cannot be written.
 pub(crate) fn write(name: &str, command: &str, inputs: &[&str], found: &[Table]) -> Result<()> {
     let (commit, inputs) = (commit(inputs)?, inputs.join(" "));
-    let directory = root().join("docs/tables");
-    fs::create_dir_all(&directory)?;
     for (k, table) in found.iter().enumerate() {
-        let file = if k == 0 { format!("{name}.csv") } else { format!("{name}-{}.csv", k + 1) };
         let made = format!("# cargo run --release -p studies -- {command}\n{COMMIT}{commit}\n{INPUTS}{inputs}\n");
-        fs::write(directory.join(file), made + &table.csv())?;
+        fs::write(file(name, k), made + &table.csv())?;
     }
     Ok(())
+}
+
+/// Whether the files have the tables that were made now.
+///
+/// # Errors
+/// A file whose title, columns or rows are others.
+pub(crate) fn check(name: &str, found: &[Table]) -> Result<()> {
+    for (k, table) in found.iter().enumerate() {
+        let path = file(name, k);
+        let kept = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+        let same = kept.ends_with(&table.csv());
+        ensure!(same, "{} has other values than are found now: write it anew", path.display());
+    }
+    Ok(())
+}
+
+/// Where the table number `k` (from 0) of a study is.
+fn file(name: &str, k: usize) -> PathBuf {
+    let number = if k == 0 { String::new() } else { format!("-{}", k + 1) };
+    root().join(format!("docs/tables/{name}{number}.csv"))
 }
 
 /// Commits since `commit` that changed more than comments and tests of what a table depends on.
@@ -140,7 +157,7 @@ pub(crate) fn stale(_: &StaleFlags) -> Result<()> {
 pub(crate) fn pages(flags: &PagesFlags) -> Result<()> {
     for path in pages_of()? {
         let text = fs::read_to_string(&path)?;
-        let filled = filled(&text, &|name| Ok(fs::read_to_string(root().join(format!("docs/tables/{name}.csv")))?))
+        let filled = filled(&text, &|name| Ok(fs::read_to_string(file(name, 0))?))
             .with_context(|| path.display().to_string())?;
         if filled == text {
             continue;

@@ -72,8 +72,11 @@ pub(crate) struct Flags {
     #[arg(long)]
     quick: bool,
     /// Write the tables to docs/tables, with the commit and what they depend on
-    #[arg(long)]
+    #[arg(long, conflicts_with = "quick")]
     write: bool,
+    /// Fail if the tables are not those of docs/tables
+    #[arg(long, conflicts_with = "quick")]
+    check: bool,
 }
 
 type Tables = Result<Vec<Table>, StudyError>;
@@ -122,11 +125,15 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
         if flags.study == Study::All || flags.study == study {
             let found = run(flags.quick)?;
             found.iter().for_each(say);
-            if flags.write {
+            if flags.write || flags.check {
                 let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
                 let solids = if study == Study::Solids { &["crates/elastic-solids"][..] } else { &[] };
                 let inputs = [&tables::RUNS[..], solids].concat();
-                tables::write(&name, &format!("validation {name} --write"), &inputs, &found)?;
+                if flags.check {
+                    tables::check(&name, &found)?;
+                } else {
+                    tables::write(&name, &format!("validation {name} --write"), &inputs, &found)?;
+                }
             }
         }
     }
