@@ -1,6 +1,9 @@
 //! What prints the tables and figures of motile's documents.
 //!
 //! `cargo run --release -p studies -- NAME` runs one of them; `--help` lists the names, `NAME --help` its flags.
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod channels;
 mod elastic_step;

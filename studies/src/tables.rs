@@ -98,7 +98,7 @@ pub(crate) fn check(name: &str, found: &[Table]) -> Result<()> {
         let path = file(name, k);
         let kept = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
         let same = kept.ends_with(&table.csv());
-        ensure!(same, "{} has other values than are found now: write it anew", path.display());
+        ensure!(same, "{} has other values than are found now: run the study with --write", path.display());
     }
     Ok(())
 }
@@ -164,7 +164,7 @@ pub(crate) fn pages(flags: &PagesFlags) -> Result<()> {
         }
         ensure!(!flags.check, "{}: its tables are not those of docs/tables: run `studies -- pages`", path.display());
         fs::write(&path, filled)?;
-        say(format_args!("{} is filled anew", name(&path)));
+        say(format_args!("{} is updated", name(&path)));
     }
     Ok(())
 }

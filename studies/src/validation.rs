@@ -225,7 +225,7 @@ fn swim(quick: bool) -> Tables {
         for (name, resolutions) in [("default", accurate), ("thesis", thesis)] {
             for &(h, ds) in resolutions {
                 let (preset, base) = if name == "thesis" {
-                    // The error of the time step is far below that of the grid at ten times the thesis' step.
+                    // The error of the time step is far below that of the grid at ten times Cowley's step.
                     (GridMethod::thesis(), Setup { step: StepSize::Fixed(0.2 * h), ..Setup::thesis() })
                 } else {
                     (GridMethod::default(), Setup::default())

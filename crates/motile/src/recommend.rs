@@ -10,7 +10,7 @@ use crate::{GridMethod, IntegralMethod, Method, MethodKind};
 pub enum SceneKind {
     /// Droplets in a periodic box.
     Box,
-    /// Droplets in a periodic box, more viscous than their surroundings by a factor of up to a hundred.
+    /// Droplets in a periodic box, more viscous than the exterior fluid by a factor of up to a hundred.
     ViscosityContrast,
     /// Droplets in a channel with rigid walls, with films of some hundredths of the radius.
     Channel,
@@ -21,7 +21,7 @@ const OF_LIMIT: f64 = 0.9;
 /// In a channel films drain and the limit falls on the way.
 const OF_LIMIT_IN_CHANNELS: f64 = 0.5;
 
-/// The largest error over the scenes of docs/speed-against-error.md of that kind, of these settings and of all finer
+/// The largest error over the scenes of docs/work-precision.md of that kind, of these settings and of all finer
 /// ones of the same kind; in boxes also at activity -4 at 0.2, 0.4 and 0.6 radians from the axes to t = 80, in a
 /// channel of width two also, by boundary integrals, at activity -4. From coarse to fine.
 fn measured(scene: SceneKind, method: MethodKind) -> Vec<(f64, Method)> {
@@ -58,7 +58,7 @@ pub struct Recommendation {
 /// speed of a droplet with a relative error below `target_error` (no dimension; 0.01 is one per cent) in a kind of
 /// scene by a method; the grid spacing is that for a radius of one.
 ///
-/// The data are those of `docs/speed-against-error.md`. They are for one droplet at activities down to -4 in the units
+/// The data are those of `docs/work-precision.md`. They are for one droplet at activities down to -4 in the units
 /// of the defaults (-1 with a contrast, -2 on a grid in a channel); a sharper edge of the concentration needs more
 /// cells ([`ib_core::Warnings`] tell).
 ///

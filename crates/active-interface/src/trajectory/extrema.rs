@@ -20,7 +20,7 @@ pub struct Extremum {
 }
 
 /// The turning points of heights y (length) sampled at increasing times: maxima and minima in turn, each of which the
-/// motion comes back from by more than `hysteresis` (length), so that wiggles below it do not count. The first and last
+/// motion comes back from by more than `hysteresis` (length), so that oscillations below it do not count. The first and last
 /// sample are none.
 ///
 /// Time and height are those of a quartic fitted to the samples of the upper 5 per cent of the swing around each, at
