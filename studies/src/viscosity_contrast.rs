@@ -16,7 +16,7 @@ use anyhow::Result;
 use clap::Args;
 use motile_examples::{OutputFlags, Summary, positive, say};
 
-use crate::viscosity_contrast::run::{Job, Domain};
+use crate::viscosity_contrast::run::{Domain, Job};
 
 /// Droplets of another viscosity than the exterior fluid, beside the statements of Cowley.
 #[derive(Debug, Args)]

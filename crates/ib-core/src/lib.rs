@@ -37,7 +37,7 @@
 //! ```
 //!
 //! Interfaces may have fluid of another viscosity inside, [`MarkerKind::Interface`]: a double layer on the markers
-//! takes care of it, at any ratio of viscosities and with errors that do not grow with it. [`SmearedContrast`] has 
+//! takes care of it, at any ratio of viscosities and with errors that do not grow with it. [`SmearedContrast`] has
 //! Cowley's way, a viscosity that varies on the grid.
 //!
 //! Accuracy: velocities on an interface have errors of first order in h without the mobility correction and of second

@@ -15,9 +15,9 @@ const EVERY: f64 = 0.8;
 
 const INTEGRALS: [(usize, usize); 9] =
     [(16, 64), (24, 48), (24, 96), (32, 128), (48, 192), (64, 192), (64, 256), (80, 320), (96, 384)];
-const SPACINGS: [f64; 5] = [0.2, 0.15, 0.1, 0.075, 0.05];
+const SPACINGS: &[f64] = &[0.2, 0.15, 0.1, 0.075, 0.05];
 /// Those that divide the widths and lengths of the channels.
-const CHANNEL_SPACINGS: [f64; 5] = [0.2, 0.1, 0.08, 0.0625, 0.05];
+const CHANNEL_SPACINGS: &[f64] = &[0.2, 0.1, 0.0625, 0.05];
 
 /// The scenes of a kind: name, and description, with places of droplets in units of the grid spacing.
 fn scenes(kind: SceneKind, quick: bool) -> Vec<(String, Setup)> {
@@ -53,7 +53,7 @@ fn scenes(kind: SceneKind, quick: bool) -> Vec<(String, Setup)> {
             all[..if quick { 0 } else { all.len() }].iter().map(one).collect()
         }
         SceneKind::Channel => {
-            let all = [(2.0, -2.0), (3.0, -2.0), (2.0, -4.0), (3.0, -4.0)];
+            let all = [(2.0, -2.0), (3.0, -2.0), (2.0, -4.0)];
             let one = |&(width, activity): &(f64, f64)| {
                 let region: Region = open_channel(12.0, width);
                 let droplets = vec![DropletSetup::active(activity)];

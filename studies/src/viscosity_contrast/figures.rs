@@ -3,7 +3,7 @@
 use motile_examples::Summary;
 use motile_output::{AxisScale, Figure, Marker, Plot, SERIES_COLOURS, Series};
 
-use crate::viscosity_contrast::run::{Job, Domain};
+use crate::viscosity_contrast::run::{Domain, Job};
 use crate::viscosity_contrast::statements::{Points, equal, pairs, source_dipole};
 
 /// All figures with their names.

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use motile_examples::Summary;
 
-use crate::viscosity_contrast::run::{Job, Domain};
+use crate::viscosity_contrast::run::{Domain, Job};
 
 /// Runs and their results.
 pub(crate) type Points = [(Job, Summary)];
