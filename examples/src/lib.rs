@@ -24,8 +24,8 @@ mod watched_run;
 
 pub use checkpoint_flags::CheckpointFlags;
 pub use command_line::{run, say};
-pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, OutputFlags, SceneFlags};
-pub use job::Job;
+pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, OutputFlags, RegionFlags, SceneFlags};
+pub use job::{Job, Watch};
 pub use method_flags::{MethodFlags, Preset, settle_contrast};
 pub use parse::{activity, pair, positive};
 pub use passage::{Decided, Passage, Verdict};

@@ -211,7 +211,8 @@ fn grow(quick: bool) -> Tables {
 
 fn swim(quick: bool) -> Tables {
     let mut table = Table::new(
-        "Steady swimmers in a 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active fraction, maximum concentration",
+        "Steady swimmers in a 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active fraction, maximum \
+         concentration",
         &["preset", "activity", "h", "ds", "errors", "area change", "steps", "seconds"],
     );
     let accurate: &[(f64, f64)] = if quick {
@@ -287,7 +288,8 @@ fn threshold(quick: bool) -> Tables {
 
 fn integrals(quick: bool) -> Tables {
     let mut table = Table::new(
-        "Steady swimmers without a grid, 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active fraction, maximum concentration",
+        "Steady swimmers without a grid, 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active \
+         fraction, maximum concentration",
         &["viscosities in/out", "activity", "nodes", "cells", "errors", "area change", "steps", "seconds"],
     );
     let all = [(32, 256), (48, 256), (64, 256), (64, 512), (96, 384), (128, 512), (192, 768)];

@@ -102,7 +102,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
 
 fn point((study, settings): &(Study, Settings)) -> Result<Summary> {
     let (error, cost) = study.run(settings)?;
-    let mut summary = Summary::new();
+    let mut summary = Summary::default();
     summary.put("study", study.name(), "");
     settings.put(&mut summary);
     summary.put("error", error, "");

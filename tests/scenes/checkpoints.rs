@@ -451,7 +451,9 @@ proptest! {
     /// Contents whose checksum is right but that were never written: an error, or a checkpoint that a scene refuses or
     /// takes, never a panic.
     #[test]
-    fn contents_of_any_kind_do_no_harm(edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
+    fn contents_of_any_kind_do_no_harm(
+        edits in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
+    ) {
         thread_local!(static SAVED: Vec<u8> = saved());
         let mut contents = SAVED.with(|bytes| bytes[24..].to_vec());
         for (at, value) in edits {

@@ -44,8 +44,8 @@ pub enum InterfaceError {
     },
     /// Points of very different distances.
     #[error(
-        "the longest distance between neighbouring points is {ratio:.4} times the shortest, more than {bound}: space them evenly, \
-         for instance by Curve::through_points"
+        "the longest distance between neighbouring points is {ratio:.4} times the shortest, more than {bound}: space \
+         them evenly, for instance by Curve::through_points"
     )]
     UnevenSpacing {
         /// Longest over shortest distance.
@@ -83,8 +83,8 @@ pub enum InterfaceError {
     },
     /// A tension law without a plateau has drawn the particles together to a point.
     #[error(
-        "{part:.2} of all particles are on one segment: the tension law has no plateau, so that they collapse towards a point at any \
-         resolution; use an activity below the strength of the excluded volume"
+        "{part:.2} of all particles are on one segment: the tension law has no plateau, so that they collapse towards \
+         a point at any resolution; use an activity below the strength of the excluded volume"
     )]
     Collapse {
         /// Part of the particles on the fullest segment.

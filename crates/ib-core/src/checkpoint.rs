@@ -146,8 +146,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             steps: system.steps() as u64,
             minimum_wall_gap: system.minimum_wall_gap(),
             minimum_gap: system.narrowest_so_far(),
-            domain: system.hydrodynamics().medium().domain,
-            spacing: system.hydrodynamics().medium().spacing,
+            domain: system.hydrodynamics().discretisation().domain,
+            spacing: system.hydrodynamics().discretisation().spacing,
             properties: system.properties(),
             bodies: system.all_bodies().map(|(_, body)| Part::of(body)).collect(),
             flow: system.hydrodynamics().save(),
@@ -178,7 +178,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     fn compare(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         let system = self.system();
         let foreign = |problem: String| Err(SceneError::ForeignCheckpoint { problem });
-        let domain = system.hydrodynamics().medium().domain;
+        let domain = system.hydrodynamics().discretisation().domain;
         if domain != checkpoint.domain {
             let describe = |Domain { origin, periods, walls }: Domain| {
                 format!("origin {origin:?}, periods {periods:?}, walls {walls:?}")
@@ -217,7 +217,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             })?;
         }
         self.report = checkpoint.report.clone();
-        let same = self.system().hydrodynamics().medium().spacing == checkpoint.spacing;
+        let same = self.system().hydrodynamics().discretisation().spacing == checkpoint.spacing;
         if let Some((velocities, report)) = checkpoint.known.as_ref().filter(|_| same) {
             let velocities = velocities.iter().copied().map(Vec2::from_array);
             self.system_mut().take_flow(&checkpoint.flow, velocities, *report)?;

@@ -93,8 +93,8 @@ pub enum BodyError {
     },
     /// An interface crosses itself.
     #[error(
-        "the interface crosses itself at ({x:.4}, {y:.4}), between markers {first} and {second}: use a smaller time step or \
-         activity, or a finer grid"
+        "the interface crosses itself at ({x:.4}, {y:.4}), between markers {first} and {second}: use a smaller time \
+         step or activity, or a finer grid"
     )]
     SelfCrossing {
         /// x coordinate of the first marker (length).
@@ -152,7 +152,8 @@ pub enum SceneError {
     },
     /// Bodies that overlap before anything is computed for them.
     #[error(
-        "at time {time} {body} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move the bodies apart"
+        "at time {time} {body} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move the \
+         bodies apart"
     )]
     Overlap {
         /// Time of the state.
@@ -172,8 +173,9 @@ pub enum SceneError {
     },
     /// An interface inside another one whose fluid has another viscosity than the exterior: not solved yet.
     #[error(
-        "at time {time} {inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has {exterior}: \
-         interfaces inside one another are possible only where the outer one has the exterior's viscosity inside"
+        "at time {time} {inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has \
+         {exterior}: interfaces inside one another are possible only where the outer one has the exterior's viscosity \
+         inside"
     )]
     NestedInterfaces {
         /// Time of the state.
@@ -189,8 +191,8 @@ pub enum SceneError {
     },
     /// An interface and another body, or its own image in a periodic domain, have come to overlap.
     #[error(
-        "at time {time} {body} has crossed {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: use a smaller time \
-         step, a finer grid or a repulsion between the interfaces"
+        "at time {time} {body} has crossed {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: use a \
+         smaller time step, a finer grid or a repulsion between the interfaces"
     )]
     Crossing {
         /// Time at the start of the step.
@@ -210,8 +212,8 @@ pub enum SceneError {
     },
     /// A gap is narrower than the bound that was set.
     #[error(
-        "at time {time} the gap between {body} and {other} is {gap:.3e}, below the bound of {bound:.3e}: use a finer grid, no grid or a \
-         repulsion, or a lower bound if the film between them does not matter"
+        "at time {time} the gap between {body} and {other} is {gap:.3e}, below the bound of {bound:.3e}: use a finer \
+         grid, no grid or a repulsion, or a lower bound if the film between them does not matter"
     )]
     Gap {
         /// Time at the start of the step.
@@ -254,8 +256,9 @@ pub enum SceneError {
     },
     /// Adaptive steps have become shorter than the bound that was set.
     #[error(
-        "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: the state cannot be followed any \
-         further with this tolerance and resolution; refine the grid and the markers, or look at the last state for what goes wrong"
+        "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: the state cannot \
+         be followed any further with this tolerance and resolution; refine the grid and the markers, or look at the \
+         last state for what goes wrong"
     )]
     Stagnation {
         /// When (time).
@@ -309,7 +312,8 @@ pub enum SceneError {
     },
     /// A checkpoint of a scene whose fluid or bodies are made of something else.
     #[error(
-        "the checkpoint is of other physics: for {of}, {property} is {} in it and {} here; resume with what it was saved with",
+        "the checkpoint is of other physics: for {of}, {property} is {} in it and {} here; resume with what it was \
+         saved with",
         shown(*saved),
         shown(*present)
     )]

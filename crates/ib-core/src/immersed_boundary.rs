@@ -14,8 +14,8 @@ use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesS
 use crate::contrast::other_viscosity;
 use crate::mobility::{Clearance, MobilityCorrection};
 use crate::{
-    Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Medium, MobilityDeficit, Transfer, Vec2,
-    checkpoint::SavedState, hydrodynamics::FlowWork,
+    Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, MobilityDeficit,
+    Transfer, Vec2, checkpoint::SavedState, hydrodynamics::FlowWork,
 };
 use contrast_flow::ContrastFlow;
 
@@ -29,8 +29,8 @@ const WALL_TOLERANCE: f64 = 0.25;
 /// [`Hydrodynamics::sample`] interpolates bilinearly between grid points: second order further than the kernel's reach
 /// from interfaces, first order within it.
 ///
-/// **Other viscosities inside interfaces.** The grid solves for one viscosity, that of the exterior fluid; where a group
-/// of markers has another one inside, the boundary integral equation
+/// **Other viscosities inside interfaces.** The grid solves for one viscosity, that of the exterior fluid; where a
+/// group of markers has another one inside, the boundary integral equation
 ///
 /// `(eta_in + eta)/2 v(x) = eta u(x) - (eta_in - eta)/(4 pi) PV INT v(y) T(x, y) n ds`
 ///
@@ -228,11 +228,11 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
 }
 
 impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
-    fn medium(&self) -> Medium {
+    fn discretisation(&self) -> Discretisation {
         let grid = self.grid();
         let [lx, ly] = grid.lengths();
         let walls = self.walls();
-        Medium {
+        Discretisation {
             domain: Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls },
             viscosity: self.solver.viscosity(),
             spacing: Some(grid.spacing()),

@@ -16,7 +16,8 @@
 //! use ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2};
 //! use stokes_grid::{Grid, PeriodicStokes};
 //!
-//! let mut flow = ImmersedBoundary::new(PeriodicStokes::new(Grid::periodic(64, 64, 0.1)?, 1.0)?, CubicQuadratic::default());
+//! let solver = PeriodicStokes::new(Grid::periodic(64, 64, 0.1)?, 1.0)?;
+//! let mut flow = ImmersedBoundary::new(solver, CubicQuadratic::default());
 //! // 128 markers on an ellipse (equally spaced to some per cent), pulled together by a line tension of one
 //! let mut markers = Markers::new();
 //! markers.push_group(128, MarkerKind::Interface { viscosity_inside: None });
@@ -64,7 +65,7 @@ pub use body::{Body, MarkerBody, Observe};
 pub use checkpoint::Checkpoint;
 pub use error::{BodyError, FlowError, SceneError};
 pub use gap::Repulsion;
-pub use hydrodynamics::{Domain, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Vec2};
+pub use hydrodynamics::{Discretisation, Domain, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
 pub use input_checks as input;
 pub use integrator::{Integrator, Midpoint, RungeKuttaChebyshev};

@@ -17,8 +17,8 @@ pub fn explanation(error: &dyn Error) -> String {
     told
 }
 
-/// Implements `Debug` of errors as their [`explanation()`]: what `fn main() -> Result<(), Box<dyn Error>>` prints is the
-/// `Debug` of the error that it returns.
+/// Implements `Debug` of errors as their [`explanation()`]: what `fn main() -> Result<(), Box<dyn Error>>` prints is
+/// the `Debug` of the error that it returns.
 ///
 /// ```
 /// #[derive(thiserror::Error)]

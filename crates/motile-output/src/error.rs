@@ -53,7 +53,8 @@ pub enum Error {
     },
     /// Streamlines so dense that they would fill the picture, or a distance that is none.
     #[error(
-        "streamlines cannot be {spacing} apart in a rectangle of {size:?}: give a distance of at least a thousandth of it"
+        "streamlines cannot be {spacing} apart in a rectangle of {size:?}: give a distance of at least a thousandth of \
+         it"
     )]
     Streamlines {
         /// Their distance (length).

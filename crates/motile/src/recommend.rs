@@ -54,9 +54,9 @@ pub struct Recommendation {
     pub step: StepSize,
 }
 
-/// The cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to give the speed of
-/// a steady swimmer with a relative error below `target_error` (no dimension; 0.01 is one per cent) at every time, in a
-/// kind of scene by a method; the grid spacing is that for a radius of one.
+/// The cheapest settings (nodes and cells, or spacings and kernel, and the time step) that are known to give the speed
+/// of a steady swimmer with a relative error below `target_error` (no dimension; 0.01 is one per cent) at every time,
+/// in a kind of scene by a method; the grid spacing is that for a radius of one.
 ///
 /// On a grid the speed oscillates while a droplet crosses the cells, by an amount that depends on its direction and on
 /// where its path lies between grid lines; the error is that of the worst that was tried, the mean being several times

@@ -51,8 +51,8 @@ pub enum StokesError {
     },
     /// An iteration that did not reach its tolerance.
     #[error(
-        "the relative residual is {residual:e} after {iterations} iterations, above {tolerance:e}: allow more iterations, \
-         ask for less, or use viscosities that differ less"
+        "the relative residual is {residual:e} after {iterations} iterations, above {tolerance:e}: allow more \
+         iterations, ask for less, or use viscosities that differ less"
     )]
     NoConvergence {
         /// Iterations done.

@@ -10,7 +10,7 @@
 //! |---|---|---|---|
 //! | [`PeriodicStokes`] | box | streamfunction | 1 + 1 in two dimensions |
 //! | [`ChannelStokes`] | channel | streamfunction | 1 + 1 along x, tridiagonal sweeps along y |
-//! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients around one of the above | one solve an iteration |
+//! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients around one of these | a solve an iteration |
 //!
 //! All but the last are direct: their velocity and pressure satisfy the discrete equations (second-order differences on
 //! the marker-and-cell grid) to round-off. They are plans behind one trait, [`StokesSolver`]: made once for a grid, run
@@ -30,7 +30,9 @@
 //! Poiseuille flow, whose fastest fluid has the speed `width^2 / (8 eta)`.
 //!
 //! ```
-//! use stokes_grid::{CentreField, ChannelStokes, Drive, Grid, PeriodicStokes, StaggeredField, StokesSolver, divergence};
+//! use stokes_grid::{
+//!     CentreField, ChannelStokes, Drive, Grid, PeriodicStokes, StaggeredField, StokesSolver, divergence,
+//! };
 //!
 //! # fn main() -> Result<(), stokes_grid::StokesError> {
 //! let grid = Grid::periodic(64, 48, 0.1)?;

@@ -41,7 +41,8 @@ pub(crate) fn print_speeds(points: &Points) {
             if let Some([Some(fit), Some(expression)]) = job.map(Job::thesis_speeds) {
                 let deviation = 100.0 * (speed / fit - 1.0);
                 say(format_args!(
-                    "  {length:>6} {activity:>8} {viscosity:>9}  {speed:>7.4}  {fit:>11.4} {expression:>12.4}  {deviation:>+7.1} %"
+                    "  {length:>6} {activity:>8} {viscosity:>9}  {speed:>7.4}  {fit:>11.4} {expression:>12.4}  \
+                     {deviation:>+7.1} %"
                 ));
             }
         }

@@ -113,7 +113,7 @@ impl Job {
         let report = recorder.regime(&RegimeCriteria::default())?;
         let [fit, expression] = self.thesis_speeds();
 
-        let mut summary = Summary::new();
+        let mut summary = Summary::default();
         let parameters = [
             ("length", self.length),
             ("width", self.width),

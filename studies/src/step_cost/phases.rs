@@ -111,7 +111,7 @@ impl<H: Hydrodynamics> Case<H> {
         iterations: f64,
         evaluations: usize,
     ) -> Summary {
-        let mut summary = Summary::new();
+        let mut summary = Summary::default();
         let fast = fastest(&steps);
         let (step, pair) = (median_of(&fast, &steps), median_of(&fastest(&pairs), &pairs));
         summary.put("scene", self.kind, "");

@@ -6,7 +6,7 @@ use motile::active_interface::{
     ActiveDroplet,
     trajectory::{RegimeCriteria, TrajectoryRecorder},
 };
-use motile::elastic_solids::{Moduli, Solid, channel::width_between, solid::Observables};
+use motile::elastic_solids::{Moduli, Solid, channel::width_between, solid::Deformation};
 use motile::ib_core::gap::SolidGap;
 use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize};
 use motile::stokes_grid::Drive;
@@ -117,7 +117,8 @@ impl Job {
         let surface = if self.surface == Surface::SetBack { "_setback" } else { "" };
         let ratio = if self.ratio == 1.0 { String::new() } else { format!("_ratio{}", self.ratio) };
         format!(
-            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}{method}{surface}{equidistant}{back}"
+            "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}\
+             {method}{surface}{equidistant}{back}"
         )
     }
 
@@ -300,8 +301,8 @@ impl Job {
         let width = width_between(lower, upper)?;
         summary.put("channel_width_min", width.minimum - 2.0 * set_back, "");
         summary.put("channel_width_max", width.maximum - 2.0 * set_back, "");
-        let seen = [lower, upper].map(Observables::of);
-        let largest = |of: fn(&Observables) -> f64| of(&seen[0]).max(of(&seen[1]));
+        let seen = [lower, upper].map(Deformation::of);
+        let largest = |of: fn(&Deformation) -> f64| of(&seen[0]).max(of(&seen[1]));
         summary.put("largest_displacement", largest(|wall| wall.largest_displacement), "");
         summary.put("largest_normal_displacement", largest(|wall| wall.largest_normal_displacement), "");
         summary.put("smallest_jacobian", seen[0].smallest_jacobian.min(seen[1].smallest_jacobian), "");
@@ -316,7 +317,7 @@ fn measured(recorder: &TrajectoryRecorder) -> Result<Summary> {
     let speeds: Vec<(f64, f64)> = recorder.records().iter().map(|r| (r.time, r.observables.speed())).collect();
     let steadiness = Steadiness::of(&speeds, Particles::default().diffusion);
     let report = recorder.regime(&RegimeCriteria::default())?;
-    let mut summary = Summary::new();
+    let mut summary = Summary::default();
     summary.put("speed", steadiness.final_speed, "");
     summary.put("speed_deviation", steadiness.deviation, "");
     summary.put("aspect_ratio", seen.aspect_ratio_moments, "");

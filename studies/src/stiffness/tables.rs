@@ -226,7 +226,8 @@ fn narrow(points: &Points) {
     let chosen = section(points, Purpose::Narrow, "Neo-Hookean channel of width 1 R0 (figure 4.25)");
     for (job, summary) in chosen {
         say(format_args!(
-            "  activity {:>3} E {:>6} h {:<5} speed {:.5} (+- {:.1e})  aspect {:.3}  width {:.3} to {:.3}  J {:.3}  gap {:.3}{}",
+            "  activity {:>3} E {:>6} h {:<5} speed {:.5} (+- {:.1e})  aspect {:.3}  width {:.3} to {:.3}  J {:.3}  \
+             gap {:.3}{}",
             job.activity,
             job.stiffness,
             job.spacing,

@@ -69,7 +69,8 @@ pub(crate) fn channel_shapes(quick: bool) -> Tables {
 
 pub(crate) fn channel_swimmers(quick: bool) -> Tables {
     let mut table = Table::new(
-        "Steady swimmers in channels (period 12, A = 10): errors in % of speed, aspect ratio, stresslet, beta, flux, gap",
+        "Steady swimmers in channels (period 12, A = 10): errors in % of speed, aspect ratio, stresslet, beta, flux, \
+         gap",
         &["width", "activity", "preset", "h", "errors", "area change", "particle change"],
     );
     for (width, activity, time) in

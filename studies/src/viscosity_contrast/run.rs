@@ -83,7 +83,7 @@ impl Job {
             Err(error) => (f64::NAN, error.to_string()),
         };
         let swims = ended.is_ok() && seen.speed() > LEAST_SPEED && rate > LEAST_RATE;
-        let mut summary = Summary::new();
+        let mut summary = Summary::default();
         summary.put("unbounded", self.domain == Domain::Unbounded, "");
         let parameters = [
             ("viscosity_inside", self.inside),

@@ -12,13 +12,13 @@ const TARGETS: [f64; 3] = [0.01, 0.003, 0.001];
 /// Methods that are compared.
 const FAMILIES: [&str; 4] = ["boundary integrals", "grid, corrected", "grid, arithmetic", "thesis"];
 
-/// The points on the front of each scene and the presets; the cheapest settings for given errors, and what the scheme of
-/// Cowley costs in comparison.
+/// The points on the front of each scene and the presets; the cheapest settings for given errors, and what Cowley's
+/// scheme costs in comparison.
 pub(crate) fn tables(points: &[Point], machine: &str) -> Vec<Table> {
     let mut pairs: Vec<f64> = points.iter().map(|point| point.summary.number("pair_us")).collect();
     let title = format!(
-        "Error and cost: settings than which nothing is both cheaper and more accurate (front), and the presets; one pair is one \
-         forward and one inverse real FFT of {UNIT} x {UNIT} values, here {:.0} us; {machine}, one thread",
+        "Error and cost: settings than which nothing is both cheaper and more accurate (front), and the presets; one \
+         pair is one forward and one inverse real FFT of {UNIT} x {UNIT} values, here {:.0} us; {machine}, one thread",
         median(&mut pairs)
     );
     let mut table = Table::new(
@@ -77,8 +77,9 @@ fn section(table: &mut Table, study: Study, points: &[Point]) {
 /// The cheapest settings for given errors, and what the scheme of Cowley costs in comparison.
 fn summary(points: &[Point]) -> Table {
     let mut table = Table::new(
-        "The cheapest settings whose error and that of all refinements is at most the target; cost in pairs per time and, in brackets, \
-         the factor by which the scheme of Cowley costs more for the same error (about: extrapolated from its finest grids)",
+        "The cheapest settings whose error and that of all refinements is at most the target; cost in pairs per time \
+         and, in brackets, the factor by which the scheme of Cowley costs more for the same error (about: extrapolated \
+         from its finest grids)",
         &["scene", "method", "1 %", "0.3 %", "0.1 %"],
     );
     for study in Study::ALL {

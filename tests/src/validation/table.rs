@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// A table with a title, printed as Markdown.
+/// A table with a title, printed as Markdown: what stands behind a colon in the title is a sentence below the heading.
 ///
 /// ```
 /// use motile_tests::validation::Table;
@@ -45,7 +45,12 @@ impl Table {
 
 impl fmt::Display for Table {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "### {}\n", self.title)?;
+        let (heading, values) = self.title.split_once(": ").unwrap_or((&self.title, ""));
+        writeln!(f, "### {heading}\n")?;
+        let mut letters = values.chars();
+        if let Some(first) = letters.next() {
+            writeln!(f, "{}\n", wrapped(&format!("{}{}.", first.to_uppercase(), letters.as_str())))?;
+        }
         writeln!(f, "| {} |", self.header.join(" | "))?;
         writeln!(f, "|{}", "---|".repeat(self.header.len()))?;
         for row in &self.rows {
@@ -53,4 +58,24 @@ impl fmt::Display for Table {
         }
         Ok(())
     }
+}
+
+/// A text in lines of at most 120 columns.
+fn wrapped(text: &str) -> String {
+    let mut lines = String::new();
+    let mut column = 0;
+    for word in text.split(' ') {
+        let length = word.chars().count();
+        let separator = if column == 0 {
+            ""
+        } else if column + 1 + length > 120 {
+            "\n"
+        } else {
+            " "
+        };
+        column = if separator == " " { column + 1 + length } else { length };
+        lines += separator;
+        lines += word;
+    }
+    lines
 }

@@ -97,7 +97,7 @@ impl SolidGap {
             solid.write_boundary(markers, surfaces);
         }
         surfaces.sort();
-        let periods = system.hydrodynamics().medium().domain.periods;
+        let periods = system.hydrodynamics().discretisation().domain.periods;
         let interfaces = system.all_bodies().filter(|(_, body)| body.kind().is_interface());
         let nearest = interfaces.filter_map(|(interface, body)| {
             place(body, markers);

@@ -6,7 +6,7 @@ use stokes_grid::{
 
 use crate::contrast::other_viscosity;
 use crate::{
-    FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Medium, Transfer, Vec2,
+    Discretisation, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Transfer, Vec2,
     checkpoint::SavedState,
     hydrodynamics::{FlowWork, SolveReport},
 };
@@ -179,8 +179,8 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
 }
 
 impl<S: StokesSolver, K: Kernel> Hydrodynamics for SmearedContrast<S, K> {
-    fn medium(&self) -> Medium {
-        self.flow.medium()
+    fn discretisation(&self) -> Discretisation {
+        self.flow.discretisation()
     }
 
     fn drive(&self) -> Option<Drive> {

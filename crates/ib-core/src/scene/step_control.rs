@@ -1,5 +1,6 @@
 //! How long steps are, and what made them so.
 
+use input_checks::{InputError, positive, within};
 use serde::{Deserialize, Serialize};
 
 use crate::checkpoint::SavedState;
@@ -11,8 +12,8 @@ pub enum StepSize {
     /// All of this length (time); refused at the start if above the stability limit, and an error during the run if the
     /// limit falls below it.
     Fixed(f64),
-    /// This fraction of the stability limit at each step, from 1e-6 to 1; shorter where the integrator bounds the error of such steps
-    /// ([`crate::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
+    /// This fraction of the stability limit at each step, from 1e-6 to 1; shorter where the integrator bounds the error
+    /// of such steps ([`crate::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
     OfLimit(f64),
     /// As long as accuracy and stability allow: the error of each step is estimated, steps whose error is above the
     /// tolerance or that fail otherwise are retried with a shorter one.
@@ -22,6 +23,22 @@ pub enum StepSize {
         /// make for speeds right to about 1e-4, at most 0.5 is taken.
         tolerance: f64,
     },
+}
+
+impl StepSize {
+    /// Refuses a length that is not positive and finite, a fraction of the limit that is not from 1e-6 to 1, a
+    /// tolerance that is not positive and at most 0.5.
+    ///
+    /// # Errors
+    /// The value.
+    pub fn check(self) -> Result<(), InputError> {
+        match self {
+            Self::Fixed(dt) => positive("the time step", dt),
+            Self::OfLimit(part) => within("the part of the stable step", part, 1e-6, 1.0),
+            Self::Adaptive { tolerance } => within("the tolerance of the steps", tolerance, f64::EPSILON, 0.5),
+        }
+        .map(drop)
+    }
 }
 
 impl Default for StepSize {

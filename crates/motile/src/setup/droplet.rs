@@ -166,8 +166,8 @@ pub enum Start {
 pub enum MarkerMotion {
     /// At a velocity of their own that keeps them equally spaced.
     Equidistributed {
-        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi R
-        /// the perimeter; without particles, of tension over mean viscosity and R.
+        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi
+        /// R the perimeter; without particles, of tension over mean viscosity and R.
         relaxation: f64,
     },
     /// With the fluid, as in Cowley; markers are inserted where they thin out and removed where they crowd.
