@@ -15,11 +15,11 @@ use motile_timing::{PlainPair, print_ratios};
 fn body(c: &mut Criterion, name: &str, n: usize, mut body: impl Body) {
     let grid = Grid::periodic(n, n, 6.0 / n as f64).expect("a good grid");
     let solver = PeriodicStokes::new(grid, 1.0).expect("a good viscosity");
-    let medium = ImmersedBoundary::new(solver, AnyKernel::BSpline4).medium();
+    let discretisation = ImmersedBoundary::new(solver, AnyKernel::BSpline4).discretisation();
     let count = body.marker_count();
     let (mut positions, mut forces) = (vec![Vec2::ZERO; count], vec![Vec2::ZERO; count]);
     body.write_markers(&mut positions);
-    body.write_forces(&medium, &mut forces).expect("a good state");
+    body.write_forces(&discretisation, &mut forces).expect("a good state");
     let given = forces.clone();
     let (mut density, velocity) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
     let mut velocities = vec![Vec2::ZERO; count];
@@ -28,7 +28,7 @@ fn body(c: &mut Criterion, name: &str, n: usize, mut body: impl Body) {
     let (spreading, interpolating) = (transfer.clone(), transfer.clone());
     let mut pair = PlainPair::new(n, n);
     let mut pair = || pair.run();
-    let mut force = || body.write_forces(black_box(&medium), &mut forces).expect("a good state");
+    let mut force = || body.write_forces(black_box(&discretisation), &mut forces).expect("a good state");
     let mut locate = || transfer.locate(black_box(&positions));
     let mut spread = || spreading.spread(black_box(&given), &mut density);
     let mut interpolate = || interpolating.interpolate(black_box(&velocity), &mut velocities);

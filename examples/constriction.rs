@@ -1,8 +1,8 @@
-//! An active droplet meets a constriction between elastic walls (thesis, section 4.1.3).
+//! An active droplet meets a constriction between elastic walls (Cowley, section 4.1.3).
 //!
 //! `cargo run --release --example constriction` simulates it until it is clear what becomes of the droplet, prints that
 //! and what was measured, and writes to `out/constriction/` what the example `elastic_channel` writes. The channel is
-//! that of thesis figure 4.18, the droplet starts in the middle of its wide part; `--width`, `--throat` and
+//! that of Cowley figure 4.18, the droplet starts in the middle of its wide part; `--width`, `--throat` and
 //! `--throat-length` change it. Walls are set back (`--surface set-back`) unless another `--surface` is asked for.
 //! `--help` lists the flags.
 
@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
-use motile::{Built, ChannelShape, Surface};
+use motile::{ChannelShape, Surface};
 use motile_examples::{ElasticFlags, Passage, SceneFlags, WatchedRun, positive};
 
 /// An active droplet meets a constriction between elastic walls.
@@ -44,23 +44,22 @@ fn meet(flags: &Flags) -> Result<()> {
     ensure!(throat <= width, "--throat {throat} is wider than the channel: give a number up to --width {width}");
     ensure!(
         throat_length + 2.0 * ramp <= period,
-        "--throat-length {throat_length} and two --ramp {ramp} do not fit into --length {period}: make one of them smaller"
+        "--throat-length {throat_length} and two --ramp {ramp} do not fit into --length {period}: make one of them \
+         smaller"
     );
     let shape = ChannelShape::Constriction { width, throat, throat_length, ramp, centre: 0.0 };
     // Droplets that are pressed against the mouth for long enter corrected surfaces.
     let setup = flags.setup(&shape, -0.5 * period, Some(Surface::SetBack))?;
-    let Built { mut scene, droplets, .. } = setup.build()?;
 
     // The run, with all that watches it, until the verdict.
-    let caption = flags.region.caption()?;
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "constriction", &caption)?;
+    let mut run = WatchedRun::new(setup.build()?, &setup, flags, "constriction")?;
     let mut passage = Passage::new(0.5 * throat_length + ramp);
-    run.go(&mut scene, Some(&mut passage))?;
+    run.go(Some(&mut passage))?;
 
     // The results, also of a run that broke off.
-    let mut summary = run.summary(&scene)?;
+    let mut summary = run.summary()?;
     passage.put(&mut summary);
     summary.put("throat", throat, "(R0)");
     summary.put("throat_length", throat_length, "(R0)");
-    run.finish(&mut scene, &summary)
+    run.finish(&summary)
 }

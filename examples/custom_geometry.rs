@@ -85,18 +85,17 @@ fn swim(Flags { case, scene: flags }: &Flags) -> Result<()> {
         Case::Branch => branch(length, width),
     };
     let setup = flags.setup(&shape, -0.5 * length, None)?;
-    let Built { mut scene, droplets, solids } = match case {
+    let built = match case {
         Case::Closure => build_with(&setup, &closure(length, width)?)?,
         Case::Ratchet | Case::Branch => setup.build()?,
     };
-    for solid in &solids {
-        say(format_args!("{}", scene.body(*solid)?.mesh().quality()));
+    for solid in &built.solids {
+        say(built.scene.body(*solid)?.mesh().quality());
     }
 
     // The run and its results.
-    let caption = flags.region.caption()?;
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "custom_geometry", &caption)?;
-    run.go(&mut scene, None)?;
-    let summary = run.summary(&scene)?;
-    run.finish(&mut scene, &summary)
+    let mut run = WatchedRun::new(built, &setup, flags, "custom_geometry")?;
+    run.go(None)?;
+    let summary = run.summary()?;
+    run.finish(&summary)
 }

@@ -1,4 +1,4 @@
-//! An active droplet swims between elastic walls (thesis, chapter 4).
+//! An active droplet swims between elastic walls (Cowley, chapter 4).
 //!
 //! `cargo run --release --example elastic_channel` simulates it, prints what was measured, and writes to
 //! `out/elastic_channel/` what the example `rigid_channel` writes, with the walls in the pictures, in the table and for
@@ -8,8 +8,8 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
+use motile::ChannelShape;
 use motile::ib_core::Body;
-use motile::{Built, ChannelShape};
 use motile_examples::{ElasticFlags, SceneFlags, WatchedRun, say};
 
 /// An active droplet swims between elastic walls.
@@ -27,19 +27,19 @@ fn swim(Flags { scene: flags }: &Flags) -> Result<()> {
     // The droplet and the walls.
     let shape = ChannelShape::Straight { width: flags.region.width };
     let setup = flags.setup(&shape, 0.0, None)?;
-    let Built { mut scene, droplets, solids } = setup.build()?;
-    for wall in &solids {
-        say(format_args!("{}: {}", scene.body(*wall)?.name(), scene.body(*wall)?.mesh().quality()));
+    let built = setup.build()?;
+    for wall in &built.solids {
+        let wall = built.scene.body(*wall)?;
+        say(format_args!("{}: {}", wall.name(), wall.mesh().quality()));
     }
 
     // The run, with all that watches it.
-    let caption = flags.region.caption()?;
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "elastic_channel", &caption)?;
-    run.go(&mut scene, None)?;
+    let mut run = WatchedRun::new(built, &setup, flags, "elastic_channel")?;
+    run.go(None)?;
 
     // The results, also of a run that broke off.
-    let mut summary = run.summary(&scene)?;
+    let mut summary = run.summary()?;
     run.put_regime(&mut summary)?;
     summary.put("pressure_gradient", run.last()?.pressure_gradient, "mean along the channel");
-    run.finish(&mut scene, &summary)
+    run.finish(&summary)
 }

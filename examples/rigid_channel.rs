@@ -1,4 +1,4 @@
-//! An active droplet swims in a channel with rigid no-slip walls (thesis, chapter 3).
+//! An active droplet swims in a channel with rigid no-slip walls (Cowley, chapter 3).
 //!
 //! `cargo run --release --example rigid_channel` simulates it, prints what was measured, and writes to
 //! `out/rigid_channel/` what the example `swimming_droplet` writes, with the channel and the path of the droplet in the
@@ -8,7 +8,6 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use clap::Parser;
-use motile::Built;
 use motile::active_interface::{observables::net_flux, trajectory::Evidence};
 use motile_examples::{ChannelFlags, SceneFlags, WatchedRun};
 
@@ -25,28 +24,26 @@ fn main() -> ExitCode {
 
 fn swim(Flags { scene: flags }: &Flags) -> Result<()> {
     // The droplet, in the middle of its channel unless an offset is given, and the channel.
-    let (width, length) = (flags.region.width, flags.region.along.length);
     let mut setup = flags.method.setup(&flags.droplet, None)?;
-    flags.region.apply(&mut setup, &flags.method)?;
-    let Built { mut scene, droplets, .. } = setup.build()?;
+    flags.region.apply(&mut setup)?;
 
     // The run, with all that watches it.
-    let caption = format!("w = {width},  l = {length}");
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "rigid_channel", &caption)?;
-    run.go(&mut scene, None)?;
+    let mut run = WatchedRun::new(setup.build()?, &setup, flags, "rigid_channel")?;
+    run.go(None)?;
 
     // The results, also of a run that broke off.
-    let mut summary = run.summary(&scene)?;
+    let mut summary = run.summary()?;
     let Evidence { period, growth_rate, .. } = run.put_regime(&mut summary)?;
     summary.put("period", period.map(|period| period.value), "of the oscillation");
     summary.put("growth_rate", growth_rate.map(|rate| rate.value), "of its amplitude");
-    let last = run.last()?;
+    let last = run.last()?.clone();
     summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
     // Far from the interface, where the flow is smooth.
-    let flux = net_flux(scene.system_mut(), last.observables.centroid.x + 0.5 * length)?;
+    let opposite = last.observables.centroid.x + 0.5 * flags.region.along.length;
+    let flux = net_flux(run.scene.system_mut(), opposite)?;
     summary.put("net_flux", flux, "along the channel (R0^2 per time)");
     summary.put("retrograde_flow", last.flow.map(|flow| flow.retrograde()), "past the droplet, seen from it");
     summary.put("gap", last.gap, "to the walls, in the end (R0)");
-    summary.put("minimum_gap", scene.system().minimum_wall_gap(), "to the walls, over the run (R0)");
-    run.finish(&mut scene, &summary)
+    summary.put("minimum_gap", run.scene.system().minimum_wall_gap(), "to the walls, over the run (R0)");
+    run.finish(&summary)
 }

@@ -15,7 +15,7 @@ use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use clap::Parser;
-use motile::{Built, Setup};
+use motile::Setup;
 use motile_examples::{BoxFlags, SceneFlags, WatchedRun};
 
 /// An active droplet swims in a periodic box.
@@ -39,14 +39,13 @@ fn swim(Flags { file, scene: flags }: &Flags) -> Result<()> {
         read().with_context(|| format!("--scene {}", path.display()))
     });
     let mut setup = flags.method.setup(&flags.droplet, file.transpose()?)?;
-    flags.region.apply(&mut setup, &flags.method)?;
-    let Built { mut scene, droplets, .. } = setup.build()?;
+    flags.region.apply(&mut setup)?;
 
     // The run, with all that watches it.
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, flags, "swimming_droplet", "")?;
-    run.go(&mut scene, None)?;
+    let mut run = WatchedRun::new(setup.build()?, &setup, flags, "swimming_droplet")?;
+    run.go(None)?;
 
     // The results, also of a run that broke off.
-    let summary = run.summary(&scene)?;
-    run.finish(&mut scene, &summary)
+    let summary = run.summary()?;
+    run.finish(&summary)
 }

@@ -17,7 +17,7 @@ use motile::active_interface::{
     curve::polygon_moments,
     observables::{InterfaceState, centroid_velocity},
 };
-use motile::ib_core::{Every, Handle, Hydrodynamics, System, Vec2};
+use motile::ib_core::{Every, Handle, System, Vec2};
 use motile::{AnyFlow, Built, DropletSetup, Particles, Region, RepulsionSetup};
 use motile_examples::{DropletFlags, Job, MethodFlags, OutputFlags, Summary, pair, positive, settle_contrast};
 use motile_output::{CsvTable, Look, Raster, Snapshot};
@@ -89,7 +89,6 @@ fn meet(flags: &Flags) -> Result<()> {
     };
     let mut setup = flags.method.setup(&flags.droplet, None)?;
     setup.region = Region::Box { lengths: flags.sides };
-    flags.method.check(&setup, &[(flags.sides[0], "box"), (flags.sides[1], "box")])?;
     setup.repulsion = flags.repulsion.map(|[strength, range]| RepulsionSetup { strength, range });
     let first = DropletSetup { name: "first droplet".to_owned(), centre: places[0], ..setup.droplets[0].clone() };
     let activity = flags.second_activity.unwrap_or(first.activity());
@@ -104,21 +103,21 @@ fn meet(flags: &Flags) -> Result<()> {
     setup.droplets = vec![first, second];
     settle_contrast(&mut setup);
     let Built { scene, droplets, .. } = setup.build()?;
-    let droplets = [droplets[0], droplets[1]];
+    let (droplets, sides) = ([droplets[0], droplets[1]], Vec2::from(flags.sides));
     // Films that a method cannot see drain until the droplets overlap: that is an error here.
     let mut scene = scene.with_least_gap(0.0)?;
 
     // The run, observed.
-    let mut job = Job::new(&mut scene, &setup, &flags.method, &flags.output, "two_droplets")?;
+    let mut job = Job::new(&mut scene, &setup, flags.method.time, &flags.output, "two_droplets")?;
     let names = ["time", "x1", "y1", "speed1", "x2", "y2", "speed2", "distance"];
     let mut table = CsvTable::create(job.directory.join("trajectory.csv"), &names)?;
-    let mut record = |system: &mut System<AnyFlow>| -> Result<()> { Ok(table.push(&look(system, droplets)?)?) };
+    let mut record = |system: &mut System<AnyFlow>| -> Result<()> { Ok(table.push(&look(system, droplets, sides)?)?) };
     let every = Every::StepAfter(job.end / ROWS);
     job.go(&mut scene, vec![(every, &mut record)])?;
 
     // The results, also of a run that broke off.
-    let [_, x1, y1, speed1, x2, y2, speed2, distance] = look(scene.system_mut(), droplets)?;
-    let mut summary = Summary::new();
+    let [_, x1, y1, speed1, x2, y2, speed2, distance] = look(scene.system_mut(), droplets, sides)?;
+    let mut summary = Summary::default();
     summary.put("first", [x1, y1].to_vec(), "position of the first droplet (R0)");
     summary.put("second", [x2, y2].to_vec(), "position of the second droplet (R0)");
     summary.put("first_speed", speed1, "(R0 per time)");
@@ -148,10 +147,9 @@ fn meet(flags: &Flags) -> Result<()> {
     })
 }
 
-/// Time, position and speed of both droplets, and the distance of their centres or nearest images.
-fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> Result<[f64; 8]> {
-    let domain = system.hydrodynamics().medium().domain;
-    let time = system.time();
+/// Time, position and speed of both droplets in a box of these sides, and the distance of their centres or nearest
+/// images.
+fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2], sides: Vec2) -> Result<[f64; 8]> {
     system.evaluate()?;
     let mut seen = [(Vec2::ZERO, 0.0); 2];
     for ((place, speed), droplet) in seen.iter_mut().zip(droplets) {
@@ -160,9 +158,7 @@ fn look(system: &mut System<AnyFlow>, droplets: [Handle<ActiveDroplet>; 2]) -> R
         *speed = centroid_velocity(state.markers, state.velocities)?.length();
     }
     let [(a, speed1), (b, speed2)] = seen;
-    let mut apart = b - a;
-    for (axis, period) in domain.periods.into_iter().enumerate() {
-        apart[axis] -= period.map_or(0.0, |period| period * (apart[axis] / period).round());
-    }
-    Ok([time, a.x, a.y, speed1, b.x, b.y, speed2, apart.length()])
+    let apart = b - a;
+    let distance = (apart - sides * (apart / sides).round()).length();
+    Ok([system.time(), a.x, a.y, speed1, b.x, b.y, speed2, distance])
 }

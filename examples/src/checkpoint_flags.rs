@@ -13,6 +13,9 @@ use crate::parse::steps;
 /// Steps between checkpoints unless something else is said.
 const EVERY: usize = 500;
 
+/// A run of a scene that a description made.
+type FlowRun<'a> = Run<'a, AnyFlow, Midpoint>;
+
 /// Whether the user has asked the run to stop.
 static STOP: AtomicBool = AtomicBool::new(false);
 
@@ -69,11 +72,7 @@ impl CheckpointFlags {
     ///
     /// # Errors
     /// Ctrl-C that cannot be listened to.
-    pub fn watch<'a>(
-        &'a self,
-        run: Run<'a, AnyFlow, Midpoint>,
-        description: &'a str,
-    ) -> Result<Run<'a, AnyFlow, Midpoint>> {
+    pub(crate) fn watch<'a>(&'a self, run: FlowRun<'a>, description: &'a str) -> Result<FlowRun<'a>> {
         let Some(path) = &self.checkpoint else { return Ok(run) };
         match ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed)) {
             // A second run of the same program is listened to already.

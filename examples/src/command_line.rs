@@ -32,7 +32,7 @@ const MISUSE: u8 = 2;
 ///
 /// fn swim(flags: &Flags) -> anyhow::Result<()> {
 ///     let mut setup = flags.method.setup(&flags.droplet, None)?;
-///     flags.region.apply(&mut setup, &flags.method)?;
+///     flags.region.apply(&mut setup)?;
 ///     println!("{setup:?}");
 ///     Ok(())
 /// }

@@ -1,6 +1,6 @@
 //! Command line flags that scenes share, in groups to be put together with `#[command(flatten)]`.
 //!
-//! Units are those of the thesis' simulations: lengths in R0, tensions such that gamma0 = 10, times such that D = 0.1;
+//! Units are those of Cowley's simulations: lengths in R0, tensions such that gamma0 = 10, times such that D = 0.1;
 //! its Appendix A converts them.
 
 use std::path::{Path, PathBuf};
@@ -22,13 +22,13 @@ const PERTURBATION: f64 = 0.05;
 
 /// How the concentration starts; the seed is that of `--seed`.
 const STARTS: [(&str, &str, Start); 2] = [
-    ("polarised", "c = (1 - cos(theta)) c0, thesis (2.46)", Start::Polarised),
+    ("polarised", "c = (1 - cos(theta)) c0, Cowley (2.46)", Start::Polarised),
     ("perturbed", "c0 with a small random perturbation", Start::Perturbed { amplitude: PERTURBATION, seed: 1 }),
 ];
 /// What drives the flow along a channel.
 const DRIVES: [(&str, &str, Drive); 2] = [
     ("zero-flux", "No net flux", Drive::ZeroFlux),
-    ("zero-gradient", "No mean pressure gradient, as in the thesis", Drive::ZeroGradient),
+    ("zero-gradient", "No mean pressure gradient, as in Cowley", Drive::ZeroGradient),
 ];
 
 /// The droplet, the first one of a scene. What is not given stays as it is in the scene, by default as listed.
@@ -105,25 +105,19 @@ pub struct BoxFlags {
 }
 
 impl BoxFlags {
-    /// Overrides the entries of a scene, and refuses what does not fit together.
+    /// Overrides the entries of a scene.
     ///
     /// # Errors
-    /// A box that the droplet does not fit into, or is unreasonably large; a time step or spacing that does not fit
-    /// ([`MethodFlags::check`]).
-    pub fn apply(&self, setup: &mut Setup, method: &MethodFlags) -> Result<()> {
+    /// A box that is unreasonably large.
+    pub fn apply(&self, setup: &mut Setup) -> Result<()> {
         if let Some(side) = self.side {
-            ensure!(side > 2.0 * RADIUS, "--box {side} is too small for a droplet of diameter 2: give more than 2");
             ensure!(side <= LONGEST, "--box {side} is too large: give at most {LONGEST}");
             setup.region = Region::Box { lengths: [side, side] };
         }
         if let (Some(offset), Some(droplet)) = (self.offset, setup.droplets.first_mut()) {
             droplet.centre = offset;
         }
-        let sides = match setup.region {
-            Region::Box { lengths: [x, y] } if x == y => vec![(x, "box")],
-            _ => Vec::new(),
-        };
-        method.check(setup, &sides)
+        Ok(())
     }
 }
 
@@ -142,9 +136,8 @@ impl ChannelFlags {
     /// Puts the channel into a scene, and refuses what does not fit together.
     ///
     /// # Errors
-    /// A droplet that does not fit between the walls or into the period; a time step or spacing that does not fit
-    /// ([`MethodFlags::check`]).
-    pub fn apply(&self, setup: &mut Setup, method: &MethodFlags) -> Result<()> {
+    /// A droplet that does not fit between the walls, a channel that is unreasonably large.
+    pub fn apply(&self, setup: &mut Setup) -> Result<()> {
         let (width, offset) = (self.width, self.along.lateral_offset);
         ensure!(width >= 2.0 * RADIUS, "--width {width} is too small for a droplet of diameter 2: give at least 2");
         let room = 0.5 * width - RADIUS;
@@ -152,7 +145,7 @@ impl ChannelFlags {
             offset.abs() <= room,
             "--lateral-offset {offset} puts the droplet into a wall: give at most {room} for --width {width}"
         );
-        self.along.apply(setup, method, 0.0, (width, "width"))
+        self.along.apply(setup, 0.0, width)
     }
 }
 
@@ -171,15 +164,32 @@ pub struct AlongFlags {
 }
 
 impl AlongFlags {
-    /// Puts a channel between rigid walls into a scene, and the droplet `x` along it (R0). The distance of the walls
-    /// (R0) comes with what it is named after.
-    pub(crate) fn apply(&self, setup: &mut Setup, method: &MethodFlags, x: f64, walls: (f64, &str)) -> Result<()> {
-        let (length, width) = (self.length, walls.0);
-        ensure!(length > 2.0 * RADIUS, "--length {length} is too small for a droplet of diameter 2: give more than 2");
+    /// Puts a channel between rigid walls `width` apart (R0) into a scene, and the droplet `x` along it (R0).
+    pub(crate) fn apply(&self, setup: &mut Setup, x: f64, width: f64) -> Result<()> {
+        let length = self.length;
         ensure!(width.max(length) <= LONGEST, "a channel of {length} x {width} is too large: give at most {LONGEST}");
         setup.region = Region::Channel { length, width, drive: self.drive };
         setup.droplets[0].centre = [x, self.lateral_offset];
-        method.check(setup, &[(length, "length"), walls])
+        Ok(())
+    }
+}
+
+/// The flags of a region.
+pub trait RegionFlags: Args {
+    /// The region as it stands above a picture, nothing where that shows it.
+    ///
+    /// # Errors
+    /// Flags that do not fit together.
+    fn caption(&self) -> Result<String> {
+        Ok(String::new())
+    }
+}
+
+impl RegionFlags for BoxFlags {}
+
+impl RegionFlags for ChannelFlags {
+    fn caption(&self) -> Result<String> {
+        Ok(format!("w = {},  l = {}", self.width, self.along.length))
     }
 }
 

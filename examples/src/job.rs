@@ -8,10 +8,13 @@ use motile::ib_core::{Every, Observer, Scene, SceneError, StepSize, Warning};
 use motile::{AnyFlow, Setup};
 use motile_output::RunProgress;
 
-use crate::{Decided, MethodFlags, OutputFlags, Summary, say};
+use crate::{Decided, OutputFlags, Summary, say};
 
 /// Most steps of a run: more would take weeks.
 const MOST_STEPS: f64 = 1e9;
+
+/// An observer of a run, and when it is called.
+pub type Watch<'a> = (Every, &'a mut dyn Observer<AnyFlow>);
 
 /// A run of a scene: its end, its directory, its checkpoints, its progress and how it went.
 #[derive(Debug)]
@@ -32,21 +35,14 @@ pub struct Job {
 }
 
 impl Job {
-    /// A run of the scene that was made from `setup`, from the checkpoint that is asked for on. Its results go where
-    /// `output` says, by default to `out/<name>/`.
+    /// A run to the time `end` of the scene that was made from `setup`, from the checkpoint that is asked for on. Its
+    /// results go where `output` says, by default to `out/<name>/`.
     ///
     /// # Errors
     /// A time step that is not stable or so short that the run would take more than 1e9 steps, before anything is
     /// written; a checkpoint that does not fit; a file or directory that cannot be made, a directory that another run
     /// writes to.
-    pub fn new(
-        scene: &mut Scene<AnyFlow>,
-        setup: &Setup,
-        method: &MethodFlags,
-        output: &OutputFlags,
-        name: &str,
-    ) -> Result<Self> {
-        let end = method.time;
+    pub fn new(scene: &mut Scene<AnyFlow>, setup: &Setup, end: f64, output: &OutputFlags, name: &str) -> Result<Self> {
         check_run(scene, end, setup.step)?;
         output.write_scene(setup)?;
         // The time step may change on the way.
@@ -56,16 +52,8 @@ impl Job {
         let lock = File::open(&directory)?;
         let taken = matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
         ensure!(!taken, "another run writes to {}: give another --out, or wait for its end", directory.display());
-        Ok(Self {
-            _lock: lock,
-            directory,
-            end,
-            output,
-            description,
-            seconds: 0.0,
-            warnings: Vec::new(),
-            outcome: Ok(()),
-        })
+        let (seconds, warnings, outcome) = (0.0, Vec::new(), Ok(()));
+        Ok(Self { directory, end, seconds, warnings, output, description, outcome, _lock: lock })
     }
 
     /// Whether pictures are wanted.
@@ -78,11 +66,7 @@ impl Job {
     ///
     /// # Errors
     /// Checkpoints that cannot be written. Why a run broke off is kept for [`Job::finish`].
-    pub fn go(
-        &mut self,
-        scene: &mut Scene<AnyFlow>,
-        observers: Vec<(Every, &mut dyn Observer<AnyFlow>)>,
-    ) -> Result<()> {
+    pub fn go(&mut self, scene: &mut Scene<AnyFlow>, observers: Vec<Watch<'_>>) -> Result<()> {
         let Self { output, description, .. } = self;
         let mut progress = RunProgress::new(self.end, output.quiet);
         let run = scene.run(self.end).observe(Every::Steps(1), &mut progress);
@@ -119,17 +103,14 @@ impl Job {
 /// Refuses a run that could not start with its time step, or could not end in a lifetime.
 fn check_run(scene: &Scene<AnyFlow>, end: f64, step: StepSize) -> Result<()> {
     let dt = match step {
-        StepSize::Fixed(dt) => {
-            scene.check_step(dt)?;
-            dt
-        }
-        StepSize::OfLimit(fraction) => scene.step_limit().map_or(f64::INFINITY, |(limit, ..)| fraction * limit),
-        StepSize::Adaptive { .. } => f64::INFINITY,
+        StepSize::Fixed(dt) => dt,
+        StepSize::OfLimit(fraction) => scene.step_limit().map_or(end, |(limit, ..)| fraction * limit),
+        StepSize::Adaptive { .. } => end,
     };
     ensure!(
         end / dt <= MOST_STEPS,
         "time {end} would take {:.0e} steps of {dt:.1e}: give a higher viscosity, a larger spacing or a shorter time",
         end / dt
     );
-    Ok(())
+    if let StepSize::Fixed(dt) = step { Ok(scene.check_step(dt)?) } else { Ok(()) }
 }

@@ -6,6 +6,9 @@
 //! | results | [`Summary`] (`summary.json` and a table) |
 //! | runs | [`Job`] of any scene, [`WatchedRun`] of one with a droplet |
 //! | constrictions | [`Passage`] |
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod checkpoint_flags;
 mod command_line;
@@ -21,8 +24,8 @@ mod watched_run;
 
 pub use checkpoint_flags::CheckpointFlags;
 pub use command_line::{run, say};
-pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, OutputFlags, SceneFlags};
-pub use job::Job;
+pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, OutputFlags, RegionFlags, SceneFlags};
+pub use job::{Job, Watch};
 pub use method_flags::{MethodFlags, Preset, settle_contrast};
 pub use parse::{activity, pair, positive};
 pub use passage::{Decided, Passage, Verdict};

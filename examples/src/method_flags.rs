@@ -9,13 +9,10 @@ use crate::DropletFlags;
 use crate::flags::RADIUS;
 use crate::parse::{count, kernel, one_of, positive, time_step};
 
-/// Most cells of a grid in a direction.
-const MOST_CELLS: f64 = 4096.0;
-
 /// Settings that go together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Preset {
-    /// Those of the thesis, to reproduce its results.
+    /// Those of Cowley, to reproduce its results.
     Thesis,
     /// Accurate ones.
     Accurate,
@@ -29,7 +26,7 @@ pub(crate) const METHODS: [(&str, &str, MethodKind); 2] = [
 /// How a grid treats two viscosities.
 const CONTRASTS: [(&str, &str, Contrast); 2] = [
     ("sharp", "A jump at the interface", Contrast::Sharp),
-    ("arithmetic", "A smooth viscosity, as in the thesis", Contrast::Arithmetic),
+    ("arithmetic", "A smooth viscosity, as in Cowley", Contrast::Arithmetic),
 ];
 
 /// The numerical method.
@@ -70,7 +67,7 @@ impl MethodFlags {
     /// entries.
     ///
     /// # Errors
-    /// A flag that the method has no use for; fewer cells than nodes.
+    /// A flag that the method has no use for; fewer cells than nodes; a time step longer than the run.
     pub fn setup(&self, droplet: &DropletFlags, file: Option<Setup>) -> Result<Setup> {
         let mut setup = file.unwrap_or_else(|| match self.preset {
             Preset::Thesis => Setup::thesis(),
@@ -86,12 +83,15 @@ impl MethodFlags {
             MethodKind::Integral => Method::Integral(self.integral(integral)?),
         };
         setup.step = self.dt.unwrap_or(setup.step);
+        if let StepSize::Fixed(dt) = setup.step {
+            ensure!(dt <= self.time, "--dt {dt} is longer than --time {}: give a smaller time step", self.time);
+        }
         droplet.apply(&mut setup)?;
         settle_contrast(&mut setup);
         Ok(setup)
     }
 
-    /// How the flow is computed: as `--method` says, or else on a grid if the preset is the thesis' or a flag is given
+    /// How the flow is computed: as `--method` says, or else on a grid if the preset is Cowley's or a flag is given
     /// that only a grid has a use for, without a grid if one of the nodes is, and as `base` otherwise.
     fn kind(&self, base: MethodKind) -> MethodKind {
         let for_nodes = self.nodes.is_some() || self.concentration_cells.is_some();
@@ -111,8 +111,11 @@ impl MethodFlags {
                 "--{flag} means nothing on a grid: leave it out or give --method boundary-integral"
             );
         }
+        let spacing = self.spacing.unwrap_or(base.spacing);
+        let coarse = self.spacing.is_some_and(|spacing| spacing > 0.25 * RADIUS);
+        ensure!(!coarse, "--spacing {spacing} is too coarse for a droplet of radius 1: give at most 0.25");
         Ok(GridMethod {
-            spacing: self.spacing.unwrap_or(base.spacing),
+            spacing,
             kernel: self.kernel.unwrap_or(base.kernel),
             contrast: self.contrast_method.unwrap_or(base.contrast),
             ..base
@@ -140,23 +143,6 @@ impl MethodFlags {
             Method::Integral(_) => self.spacing.unwrap_or(GridMethod::default().spacing),
         }
     }
-
-    /// Refuses what does not fit together, for a region with sides of these lengths (R0), each with the name of its
-    /// flag.
-    ///
-    /// # Errors
-    /// On a grid, a spacing that does not divide a length; a time step that is too long or too short for the run.
-    pub fn check(&self, setup: &Setup, sides: &[(f64, &str)]) -> Result<()> {
-        if let Method::Grid(grid) = setup.method {
-            sides.iter().try_for_each(|&(side, flag)| check_cells(grid.spacing, side, flag))?;
-        }
-        if let StepSize::Fixed(dt) = setup.step {
-            let (time, steps) = (self.time, self.time / dt);
-            ensure!(dt <= time, "--dt {dt} is longer than --time {time}: give a smaller time step");
-            ensure!(steps <= 1e9, "--time {time} takes {steps:.1e} steps of --dt {dt}: give a larger time step");
-        }
-        Ok(())
-    }
 }
 
 /// Leaves the mobility correction out where an arithmetic contrast of different viscosities has none.
@@ -168,25 +154,4 @@ pub fn settle_contrast(setup: &mut Setup) {
     {
         grid.corrected = false;
     }
-}
-
-/// Refuses a spacing `h` over `length` (R0), the value of flag `flag`.
-///
-/// # Errors
-/// A spacing that does not divide the length, that is too coarse for a droplet (less than four cells a radius), or
-/// that makes for more than 4096 cells.
-fn check_cells(h: f64, length: f64, flag: &str) -> Result<()> {
-    ensure!(h <= 0.25 * RADIUS, "--spacing {h} is too coarse for a droplet of radius 1: give at most 0.25");
-    let cells = length / h;
-    ensure!(
-        cells <= MOST_CELLS,
-        "--{flag} {length} at --spacing {h} makes {cells:.0} cells, more than {MOST_CELLS}: give a larger spacing"
-    );
-    let whole = cells.round();
-    let fitting = (whole * h * 1e9).round() / 1e9;
-    ensure!(
-        (cells - whole).abs() <= 1e-9 * whole,
-        "--{flag} {length} is {cells:.3} cells of --spacing {h}: give --{flag} {fitting} or a spacing that divides it"
-    );
-    Ok(())
 }

@@ -1,5 +1,7 @@
 //! Values of command line flags: from text to numbers, or a reason why not.
 
+use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
+
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
 
@@ -24,19 +26,15 @@ pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
 /// # Errors
 /// The rule that `text` breaks.
 pub(crate) fn time_step(text: &str) -> Result<StepSize, String> {
-    let above_zero = |number: &str| number.parse::<f64>().ok().filter(|v| v.is_finite() && *v > 0.0);
+    let number = |number: &str| number.parse().ok();
     let step = match (text, text.strip_prefix("adaptive:")) {
         ("auto", _) => Some(StepSize::OfLimit(OF_LIMIT)),
         ("adaptive", _) => Some(StepSize::Adaptive { tolerance: TOLERANCE }),
-        (_, Some(tolerance)) => above_zero(tolerance).map(|tolerance| StepSize::Adaptive { tolerance }),
-        _ => above_zero(text).map(StepSize::Fixed),
+        (_, Some(tolerance)) => number(tolerance).map(|tolerance| StepSize::Adaptive { tolerance }),
+        _ => number(text).map(StepSize::Fixed),
     };
-    match step {
-        Some(StepSize::Adaptive { tolerance: 1.0.. }) => Err("must have a tolerance below 1".into()),
-        step => {
-            step.ok_or_else(|| "must be a number above 0, 'auto', 'adaptive' or 'adaptive:' and a tolerance".to_owned())
-        }
-    }
+    let rule = "must be a number above 0, 'auto', 'adaptive' or 'adaptive:' and a tolerance of at most 0.5";
+    step.filter(|step| step.check().is_ok()).ok_or_else(|| rule.to_owned())
 }
 
 /// Largest magnitude of a number.
@@ -48,6 +46,12 @@ fn number(text: &str, rule: &str, valid: impl Fn(f64) -> bool) -> Result<f64, St
         Ok(number) if number.is_finite() && number.abs() <= LARGEST && valid(number) => Ok(number),
         _ => Err(rule.to_string()),
     }
+}
+
+/// A whole number in this range, or the rule that it breaks.
+fn whole<T: FromStr + PartialOrd + Display>(text: &str, range: RangeInclusive<T>) -> Result<T, String> {
+    let number = text.trim().parse().ok().filter(|number| range.contains(number));
+    number.ok_or_else(|| format!("must be a whole number from {} to {}", range.start(), range.end()))
 }
 
 /// A number of magnitude up to a million.
@@ -71,10 +75,7 @@ pub fn positive(text: &str) -> Result<f64, String> {
 /// # Errors
 /// The rule that `text` breaks.
 pub(crate) fn count(text: &str) -> Result<usize, String> {
-    match text.trim().parse::<usize>() {
-        Ok(count) if (16..=16384).contains(&count) => Ok(count),
-        _ => Err("must be a whole number from 16 to 16384".into()),
-    }
+    whole(text, 16..=16384)
 }
 
 /// A number of steps.
@@ -82,10 +83,7 @@ pub(crate) fn count(text: &str) -> Result<usize, String> {
 /// # Errors
 /// The rule that `text` breaks.
 pub(crate) fn steps(text: &str) -> Result<usize, String> {
-    match text.trim().parse::<usize>() {
-        Ok(steps) if (1..=1_000_000_000).contains(&steps) => Ok(steps),
-        _ => Err("must be a whole number from 1 to 1e9".into()),
-    }
+    whole(text, 1..=1_000_000_000)
 }
 
 /// A number from zero to a million.
@@ -126,7 +124,7 @@ pub(crate) fn kernel(text: &str) -> Result<AnyKernel, String> {
 /// # Errors
 /// The rule that `text` breaks.
 pub(crate) fn seed(text: &str) -> Result<u64, String> {
-    text.trim().parse().map_err(|_| format!("must be a whole number from 0 to {}", u64::MAX))
+    whole(text, 0..=u64::MAX)
 }
 
 #[cfg(test)]

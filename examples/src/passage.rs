@@ -1,9 +1,9 @@
 //! What becomes of a droplet that meets a constriction.
 
-use std::fmt;
-
 use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
 use motile::ib_core::{Hydrodynamics, Observer, System};
+use serde::Serialize;
+use serde_json::json;
 
 use crate::Summary;
 
@@ -12,8 +12,9 @@ const BACK: f64 = 1.0;
 /// A droplet is stuck that has stayed within this distance (R0) for this time, four times R0^2/D.
 const REST: (f64, f64) = (0.02, 40.0);
 
-/// What became of a droplet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// What became of a droplet, as it stands in `summary.json`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// Its centroid is beyond the far end of the constriction.
     Passed,
@@ -25,30 +26,10 @@ pub enum Verdict {
     Undecided,
 }
 
-impl Verdict {
-    /// As it stands in `summary.json`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Passed => "passed",
-            Self::TurnedBack => "turned_back",
-            Self::Stuck => "stuck",
-            Self::Undecided => "undecided",
-        }
-    }
-}
-
 /// Ends a run: what it was to find out is known.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, thiserror::Error)]
+#[error("the run has shown what it was to show")]
 pub struct Decided;
-
-impl fmt::Display for Decided {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the run has shown what it was to show")
-    }
-}
-
-impl std::error::Error for Decided {}
 
 /// Follows the first droplet of a scene to the far end of a constriction, or wherever else it goes. To be called after
 /// every step; ends the run by the error [`Decided`].
@@ -103,7 +84,7 @@ impl Passage {
 
     /// Puts verdict, time and furthest x into the results of a run.
     pub fn put(&self, summary: &mut Summary) {
-        summary.put("verdict", self.verdict.name(), "what became of the droplet");
+        summary.put("verdict", json!(self.verdict), "what became of the droplet");
         summary.put("verdict_time", self.time(), "when that was clear");
         summary.put("furthest_x", self.furthest, "of the centroid (R0)");
     }

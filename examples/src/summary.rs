@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 /// ```
 /// use motile_examples::Summary;
 ///
-/// let mut summary = Summary::new();
+/// let mut summary = Summary::default();
 /// summary.put("speed", 0.138_612_3, "of the centroid (R0/T)");
 /// summary.put("beta", f64::NAN, "B2/|B1|");
 /// assert_eq!(summary.json(), "{\n  \"speed\": 0.1386123,\n  \"beta\": null\n}\n");
@@ -23,12 +23,6 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// No results yet.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// Puts in a result: a number (`null` if it is not finite), integer, flag, text, list or `serde_json::json!` value,
     /// and a few words about it for the table. The same name again replaces it.
     pub fn put(&mut self, name: &str, value: impl Into<Value>, about: &str) {

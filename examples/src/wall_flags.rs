@@ -7,9 +7,9 @@ use motile::elastic_solids::Moduli;
 use motile::{ChannelShape, MeshKind, MethodKind, Setup, SolidOutline, SolidSetup, Surface};
 
 use crate::parse::{one_of, positive};
-use crate::{AlongFlags, MethodFlags, Preset, SceneFlags};
+use crate::{AlongFlags, MethodFlags, Preset, RegionFlags, SceneFlags};
 
-/// Spring constant of the thesis' softest walls.
+/// Spring constant of Cowley's softest walls.
 const SOFT: f64 = 1e4;
 /// Fewest points along a channel.
 const LEAST_ALONG: f64 = 6.0;
@@ -19,9 +19,9 @@ const MOST_POINTS: f64 = 4e6;
 /// What the walls are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Material {
-    /// Springs, thesis section 4.1.
+    /// Springs, Cowley section 4.1.
     Springs,
-    /// Neo-Hookean material, thesis section 4.2.
+    /// Neo-Hookean material, Cowley section 4.2.
     NeoHookean,
 }
 
@@ -43,7 +43,7 @@ pub struct ElasticFlags {
     /// What the walls are made of
     #[arg(long, value_enum, default_value_t = Material::Springs)]
     pub material: Material,
-    /// Stiffness of the walls as the thesis' spring constant k [default: 1e4]
+    /// Stiffness of the walls as Cowley's spring constant k [default: 1e4]
     #[arg(long, value_parser = positive, allow_hyphen_values = true, conflicts_with = "shear_modulus")]
     pub stiffness: Option<f64>,
     /// Stiffness of the walls as their shear modulus
@@ -76,8 +76,8 @@ impl SceneFlags<ElasticFlags> {
     /// The scene of a channel of that shape, with the droplet at `x` along it (R0).
     ///
     /// # Errors
-    /// Flags that do not fit together: a method without a grid, a bulk modulus of springs, lengths that are no whole
-    /// number of cells, a time step that does not fit the run.
+    /// Flags that do not fit together: a method without a grid, a bulk modulus of springs, a time step longer
+    /// than the run.
     pub fn setup(&self, shape: &ChannelShape, x: f64, preset: Option<Surface>) -> Result<Setup> {
         let Self { droplet, region: walls, method, .. } = self;
         ensure!(
@@ -85,7 +85,6 @@ impl SceneFlags<ElasticFlags> {
             "elastic walls need a grid: leave --method boundary-integral and --nodes out"
         );
         let method = MethodFlags { method: Some(MethodKind::Grid), ..method.clone() };
-        let height = walls.width + 2.0 * walls.wall_thickness;
         let mut setup = method.setup(droplet, None)?;
         setup.solids = SolidSetup::walls(shape, &walls.material()?);
         for solid in &mut setup.solids {
@@ -102,7 +101,7 @@ impl SceneFlags<ElasticFlags> {
             };
         }
         walls.check_mesh(&setup, method.spacing(&setup))?;
-        walls.along.apply(&mut setup, &method, x, (height, "width plus twice --wall-thickness"))?;
+        walls.along.apply(&mut setup, x, walls.width + 2.0 * walls.wall_thickness)?;
         if let Err(SetupError::NoRoom { .. }) = setup.droplet(&setup.droplets[0]) {
             let AlongFlags { length, lateral_offset, .. } = walls.along;
             bail!(
@@ -129,7 +128,8 @@ impl ElasticFlags {
         let thinnest = spacing + setup.set_back();
         ensure!(
             thickness >= thinnest,
-            "walls of --wall-thickness {thickness} do not hold points {spacing} apart: give {} or more, or a smaller {flag}",
+            "walls of --wall-thickness {thickness} do not hold points {spacing} apart: give {} or more, or a smaller \
+             {flag}",
             rounded_up(thinnest)
         );
         // Two walls, which between them may fill the channel.
@@ -159,12 +159,10 @@ impl ElasticFlags {
             }
         })
     }
+}
 
-    /// The walls as they stand above a picture.
-    ///
-    /// # Errors
-    /// As [`SceneFlags::setup`].
-    pub fn caption(&self) -> Result<String> {
+impl RegionFlags for ElasticFlags {
+    fn caption(&self) -> Result<String> {
         let (length, width, material) = (self.along.length, self.width, self.material()?);
         let name = match material {
             motile::Material::Springs { .. } => "springs",

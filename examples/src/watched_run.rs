@@ -6,12 +6,12 @@ use anyhow::{Context, Result, bail};
 use motile::active_interface::observables::{ConcentrationProfile, Frame, concentration_profile};
 use motile::active_interface::{ActiveDroplet, trajectory::TrajectoryRecord};
 use motile::ib_core::{Every, Handle, Observer, Scene, Vec2, gap::SolidGap};
-use motile::{AnyFlow, DropletSetup, Exclusion, MethodKind, Particles, Region, Setup};
+use motile::{AnyFlow, Built, DropletSetup, Exclusion, MethodKind, Particles, Region, Setup};
 use motile_output::{
     Film, Look, ParaView, Raster, Snapshot, SolidColour, TrajectoryCsv, concentration_plot, time_series,
 };
 
-use crate::{Job, SceneFlags, Summary};
+use crate::{Job, RegionFlags, SceneFlags, Summary, Watch};
 
 /// Rows of the trajectory and files for ParaView in a run.
 const ROWS: f64 = 1000.0;
@@ -33,6 +33,8 @@ const STREAMLINES: f64 = 0.24;
 /// A run of a scene with one droplet, and all that watches it.
 #[derive(Debug)]
 pub struct WatchedRun {
+    /// The scene.
+    pub scene: Scene<AnyFlow>,
     job: Job,
     droplet: Handle<ActiveDroplet>,
     particles: Particles,
@@ -47,25 +49,19 @@ pub struct WatchedRun {
 }
 
 impl WatchedRun {
-    /// A run of a scene that was made from `setup`, watching its first droplet. Its results go where the flags say, by
-    /// default to `out/<name>/`; pictures bear a caption that ends with that of the `region`.
+    /// A run of the scene that was made from `setup`, watching its first droplet. Its results go where the flags say,
+    /// by default to `out/<name>/`.
     ///
     /// # Errors
     /// Those of [`Job::new`]; a first droplet without particles.
-    pub fn new<R: clap::Args>(
-        scene: &mut Scene<AnyFlow>,
-        droplets: &[Handle<ActiveDroplet>],
-        setup: &Setup,
-        flags: &SceneFlags<R>,
-        name: &str,
-        region: &str,
-    ) -> Result<Self> {
+    pub fn new<R: RegionFlags>(built: Built, setup: &Setup, flags: &SceneFlags<R>, name: &str) -> Result<Self> {
+        let Built { mut scene, droplets, .. } = built;
         let (Some(&droplet), Some(&DropletSetup { centre: [x, y], angle, particles: Some(particles), .. })) =
             (droplets.first(), setup.droplets.first())
         else {
             bail!("the first droplet of the scene is the one that is watched: give one with particles");
         };
-        let job = Job::new(scene, setup, &flags.method, &flags.output, name)?;
+        let job = Job::new(&mut scene, setup, flags.method.time, &flags.output, name)?;
         let body = scene.body(droplet)?;
         let (area, frame) = (body.initial_area(), Frame::new(Vec2::new(x, y), angle)?);
         let start = concentration_profile(body.markers(), body.particle_numbers(), &frame)?;
@@ -85,13 +81,14 @@ impl WatchedRun {
         let gap = SolidGap::new(SOLID_OVERLAP * spacing).with_set_back(setup.set_back());
         let mut pictures = None;
         if job.draws() {
-            let (caption, concentration) = (caption(setup, &particles, region), Some(particles.concentration));
+            let caption = caption(setup, &particles, &flags.region.caption()?);
+            let concentration = Some(particles.concentration);
             let (streamline_spacing, solids) = (Some(STREAMLINES), SolidColour::Stress);
             let look = Look { caption, concentration, streamline_spacing, solids };
             let vtk = ParaView::create(job.directory.join("vtk"), watched)?;
             pictures = Some((look.clone(), Film::new(look, watched), vtk));
         }
-        Ok(Self { job, droplet, particles, method, area, raster: still, start, recorder, pictures, gap })
+        Ok(Self { scene, job, droplet, particles, method, area, raster: still, start, recorder, pictures, gap })
     }
 
     /// Runs to the end, or until the observer `end`, which looks at every step, ends it by the error
@@ -99,9 +96,9 @@ impl WatchedRun {
     ///
     /// # Errors
     /// Files that cannot be written. Why a run broke off is kept for [`WatchedRun::finish`].
-    pub fn go(&mut self, scene: &mut Scene<AnyFlow>, end: Option<&mut dyn Observer<AnyFlow>>) -> Result<()> {
+    pub fn go(&mut self, end: Option<&mut dyn Observer<AnyFlow>>) -> Result<()> {
         let time = self.job.end;
-        let mut observers: Vec<(Every, &mut dyn Observer<AnyFlow>)> =
+        let mut observers: Vec<Watch<'_>> =
             vec![(Every::StepAfter(time / ROWS), &mut self.recorder), (Every::Steps(1), &mut self.gap)];
         if let Some(end) = end {
             observers.push((Every::Steps(1), end));
@@ -111,8 +108,8 @@ impl WatchedRun {
             observers.push((Every::StepAfter(time / frames), film));
             observers.push((Every::StepAfter(time / FILES), vtk));
         }
-        self.job.go(scene, observers)?;
-        Ok(self.recorder.finish(scene.system_mut())?)
+        self.job.go(&mut self.scene, observers)?;
+        Ok(self.recorder.finish(self.scene.system_mut())?)
     }
 
     /// The last of what was measured of the droplet.
@@ -128,8 +125,8 @@ impl WatchedRun {
     ///
     /// # Errors
     /// What made the run break off; files that cannot be written.
-    pub fn finish(self, scene: &mut Scene<AnyFlow>, summary: &Summary) -> Result<()> {
-        let Self { job, droplet, particles, raster, start, recorder, pictures, .. } = self;
+    pub fn finish(self, summary: &Summary) -> Result<()> {
+        let Self { mut scene, job, droplet, particles, raster, start, recorder, pictures, .. } = self;
         let directory = job.directory.clone();
         job.finish(summary, || {
             let (Some((look, film, _)), Some(last)) = (pictures, recorder.records().records().last()) else {

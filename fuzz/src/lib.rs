@@ -3,7 +3,7 @@
 
 use active_interface::{ActiveDroplet, ContractileTension, Curve, InitialConcentration};
 use clap::Parser;
-use elastic_solids::mesh::GmshMesh;
+use elastic_solids::mesh::{GmshMesh, equilateral_block};
 use motile::{ChannelShape, IntegralMethod, Method, Setup};
 use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
 use stokes_grid::{Grid, PeriodicStokes};
@@ -90,8 +90,8 @@ pub fn flags(bytes: &[u8]) {
     let Ok(mut setup) = method.setup(&droplet, None) else { return };
     let checked = match &region {
         None => Ok(()),
-        Some(Region::Box(region)) => region.apply(&mut setup, &method),
-        Some(Region::Channel(channel)) => channel.apply(&mut setup, &method),
+        Some(Region::Box(region)) => region.apply(&mut setup),
+        Some(Region::Channel(channel)) => channel.apply(&mut setup),
         Some(Region::Elastic(walls)) => {
             let shape = ChannelShape::Straight { width: walls.width };
             let (droplet, region, method) = (droplet.clone(), walls.clone(), method.clone());
@@ -129,8 +129,10 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
             files.clone().into_iter().chain(contents).collect()
         }
         "gmsh" => {
-            let strip = |columns, rows| elastic_solids::mesh::equilateral_block(ib_core::Vec2::ZERO, columns, rows, 0.5);
-            [strip(2, 2), strip(4, 3)].into_iter().flatten().flat_map(|mesh| GmshMesh { mesh, groups: Vec::new() }.to_text()).map(String::into_bytes).collect()
+            let strip = |columns, rows| equilateral_block(ib_core::Vec2::ZERO, columns, rows, 0.5);
+            let meshes = [strip(2, 2), strip(4, 3)].into_iter().flatten();
+            let texts = meshes.flat_map(|mesh| GmshMesh { mesh, groups: Vec::new() }.to_text());
+            texts.map(String::into_bytes).collect()
         }
         "scene" => [Setup::default(), Setup::thesis()]
             .into_iter()
@@ -138,9 +140,12 @@ pub fn corpus(target: &str) -> Vec<Vec<u8>> {
             .map(String::into_bytes)
             .collect(),
         _ => [
-            "--activity -4 --excluded-volume 8 --viscosity 10 --spacing 0.1 --dt auto --time 250 box --box 12 --offset -0.03,0.01",
-            "--kernel gaussian6 --preset thesis --initial perturbed --seed 7 --no-pictures --out somewhere channel --width 2 --length 8",
-            "--dt adaptive:1e-4 --checkpoint file --checkpoint-every 10 --resume other --spacing 0.1 elastic --width 3 --material neo-hookean",
+            "--activity -4 --excluded-volume 8 --viscosity 10 --spacing 0.1 --dt auto --time 250 box --box 12 --offset \
+             -0.03,0.01",
+            "--kernel gaussian6 --preset thesis --initial perturbed --seed 7 --no-pictures --out somewhere channel \
+             --width 2 --length 8",
+            "--dt adaptive:1e-4 --checkpoint file --checkpoint-every 10 --resume other --spacing 0.1 elastic --width 3 \
+             --material neo-hookean",
             "--method boundary-integral --nodes 64 --concentration-cells 256 --viscosity-in 1000 --viscosity-out 10",
         ]
         .map(|line| line.as_bytes().to_vec())

@@ -41,12 +41,12 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     };
     let Built { mut scene, solids: walls, .. } = setup.build()?;
     (0..10).try_for_each(|_| scene.step(0.01))?;
-    let medium = scene.system().hydrodynamics().medium();
+    let discretisation = scene.system().hydrodynamics().discretisation();
     let markers = scene.system_mut().evaluate()?.clone();
 
     let cells = [lx, height].map(|length| (length / flags.spacing).round() as usize);
     let grid = Grid::channel(cells[0], cells[1], flags.spacing)?;
-    let mut solver = ChannelStokes::new(grid, medium.viscosity)?;
+    let mut solver = ChannelStokes::new(grid, discretisation.viscosity)?;
     let mut transfer = Transfer::new(grid, AnyKernel::BSpline4);
     let (mut density, mut velocity) = (StaggeredField::zeros(grid), StaggeredField::zeros(grid));
     let mut velocities = vec![Vec2::ZERO; markers.len()];
@@ -69,7 +69,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         for wall in &walls {
             let wall = scene.body_mut(*wall)?;
             let count = wall.marker_count();
-            wall.write_forces(&medium, &mut forces[..count])?;
+            wall.write_forces(&discretisation, &mut forces[..count])?;
         }
         Ok(())
     })?;

@@ -40,7 +40,8 @@ const CONCENTRATION: f64 = 100.0;
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     make_directory(&flags.out)?;
     let extent = if flags.quick { Extent::Quick } else { Extent::Long };
-    let heading = "| case | what is hard | method | outcome | time | steps | taken back | area | particles | seconds |\n\
+    let heading = "| case | what is hard | method | outcome | time | steps | rejected | area | particles | seconds \
+        |\n\
                    |---|---|---|---|---|---|---|---|---|---|\n";
     let mut table = heading.to_owned();
     say(heading.trim_end());
@@ -84,7 +85,7 @@ fn row(trial: &Trial, outcome: &Outcome) -> String {
 }
 
 fn summary(trial: &Trial, outcome: &Outcome, picture: &str) -> Summary {
-    let mut summary = Summary::new();
+    let mut summary = Summary::default();
     summary.put("case", trial.number, "");
     summary.put("name", trial.name, "");
     summary.put("method", trial.way.to_string(), "");

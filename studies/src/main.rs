@@ -1,6 +1,9 @@
 //! What prints the tables and figures of motile's documents.
 //!
 //! `cargo run --release -p studies -- NAME` runs one of them; `--help` lists the names, `NAME --help` its flags.
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod channels;
 mod elastic_step;
@@ -11,6 +14,7 @@ mod run_pool;
 mod scaling;
 mod step_cost;
 mod stiffness;
+mod tables;
 mod threads;
 mod time_steps;
 mod validation;
@@ -46,6 +50,8 @@ enum Study {
     ElasticStep(elastic_step::Flags),
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
+    Stale(tables::StaleFlags),
+    Pages(tables::PagesFlags),
 }
 
 fn main() -> ExitCode {
@@ -63,5 +69,7 @@ fn main() -> ExitCode {
         Study::ElasticStep(flags) => elastic_step::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),
+        Study::Stale(flags) => tables::stale(flags),
+        Study::Pages(flags) => tables::pages(flags),
     })
 }

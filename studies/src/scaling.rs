@@ -82,9 +82,14 @@ fn solver(n: usize, budget: Duration) -> Result<Value> {
         1e9 * time / cells,
         1e-6 * bytes * cells
     ));
-    Ok(
-        json!({ "n": n, "pair_us": 1e6 * pair, "solve_us": 1e6 * time, "solve_pairs": ratio, "ns_per_cell": 1e9 * time / cells, "bytes_per_cell": bytes }),
-    )
+    Ok(json!({
+        "n": n,
+        "pair_us": 1e6 * pair,
+        "solve_us": 1e6 * time,
+        "solve_pairs": ratio,
+        "ns_per_cell": 1e9 * time / cells,
+        "bytes_per_cell": bytes,
+    }))
 }
 
 /// A strip of springs of about `count` points, in a box it fills a good part of.
@@ -98,7 +103,8 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
     let (mut solid, mut transfer) = (None, None);
     let mut density = StaggeredField::zeros(grid);
     let velocity = StaggeredField::zeros(grid);
-    let medium = ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0)?, CubicQuadratic::default()).medium();
+    let discretisation =
+        ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0)?, CubicQuadratic::default()).discretisation();
     let mut forces = Vec::new();
     let mut positions = Vec::new();
     let used = measure(|| {
@@ -120,7 +126,7 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
     let mut locate = || moving.locate(black_box(&positions));
     let mut spread = || fixed.spread(&other, black_box(&mut density));
     let mut interpolate = || transfer.interpolate(black_box(&velocity), &mut velocities);
-    let mut force = || drop(black_box(solid.write_forces(&medium, &mut forces)));
+    let mut force = || drop(black_box(solid.write_forces(&discretisation, &mut forces)));
     let turns = Turns::measure(budget, &mut [&mut locate, &mut spread, &mut interpolate, &mut force]);
     let per_marker = |work: usize| 1e9 * turns.least(work) / markers as f64;
     let [locate, spread, interpolate, force] = [0, 1, 2, 3].map(per_marker);

@@ -81,7 +81,7 @@ const ACTIVITY: f64 = -2.0;
 
 type Channel<I> = Scene<AnyFlow, I>;
 
-/// The thesis' stiffest walls: k = 1e6, viscosity 10, width 2, with a droplet of this activity between them.
+/// Cowley's stiffest walls: k = 1e6, viscosity 10, width 2, with a droplet of this activity between them.
 fn channel<I: Integrator>(integrator: I, activity: f64) -> Result<(Channel<I>, Handle<ActiveDroplet>)> {
     let shear = Moduli::from_thesis_spring_constant(1e6)?.shear();
     let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear });
@@ -142,7 +142,8 @@ fn line(name: &str, step: &str, cost: &Cost, exact: &Cost) -> Result<String> {
     ))
 }
 
-const HEADING: &str = "| method | step | steps | taken back | evaluations | seconds | error of position | error of shape |\n\
+const HEADING: &str = "| method | step | steps | rejected | evaluations | seconds | error of position | error of \
+    shape |\n\
                        |---|---|---|---|---|---|---|---|";
 
 fn stiff_walls(until: f64, report: &mut String) -> Result<()> {
@@ -188,7 +189,8 @@ fn is_stable<I: Integrator>(integrator: I, dt: f64, steps: usize) -> Result<bool
 fn limits(report: &mut String) -> Result<()> {
     tell(
         report,
-        "Largest stable step between walls k = 1e6, viscosity 10, droplet without activity (60 steps stay bounded), over the predicted one:\n\n\
+        "Largest stable step between walls k = 1e6, viscosity 10, droplet without activity (60 steps stay bounded), \
+         over the predicted one:\n\n\
          | method | predicted | largest stable (tried 0.7 to 3 times) |\n|---|---|---|",
     )?;
     let factors = [0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0, 2.5, 3.0];
@@ -262,7 +264,8 @@ fn steady_limit<I: Integrator>(
 fn coupling(report: &mut String) -> Result<()> {
     tell(
         report,
-        "\nLargest step that keeps the speed of a steady swimmer (viscosity 100, h = 0.1 or 48 nodes; 150 steps, to 1 %), over the predicted one:\n\n\
+        "\nLargest step that keeps the speed of a steady swimmer (viscosity 100, h = 0.1 or 48 nodes; 150 steps, to 1 \
+         %), over the predicted one:\n\n\
          | activity | flow | steps | predicted | set by | largest/predicted |\n|---|---|---|---|---|---|",
     )?;
     for (flow, method) in [

@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use fourier::PeriodicSeries;
 use ib_core::input::{InputError, all_finite, not_negative, positive, same_length};
-use ib_core::{Medium, Vec2};
+use ib_core::{Discretisation, Vec2};
 
 use crate::{
     Flux, InterfaceError, Tension,
@@ -43,14 +43,14 @@ pub enum Motion {
     /// With the fluid's normal velocity (its mean removed, so that the area stays) and a tangential velocity W of their
     /// own that keeps them equally spaced; the default (docs/method.md, section 4). The mobility correction needs it.
     Equidistributed {
-        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi R
-        /// the perimeter; without particles, of tension over mean viscosity and R.
+        /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi
+        /// R the perimeter; without particles, of tension over mean viscosity and R.
         relaxation: f64,
         /// Whether modes of the markers shorter than the kernel are filtered after each step; without it they grow in
         /// long runs. Only on a grid.
         filter: bool,
     },
-    /// With the fluid's full velocity (thesis (2.8)), markers being inserted where they thin out (1.5 times the spacing
+    /// With the fluid's full velocity (Cowley (2.8)), markers being inserted where they thin out (1.5 times the spacing
     /// at the start) and removed where they crowd (half of it), without a loss of particles.
     WithFluid,
 }
@@ -61,11 +61,11 @@ impl Default for Motion {
     }
 }
 
-/// A droplet: a closed fluid interface that may carry active particles, which raise its tension (thesis section 2.1).
+/// A droplet: a closed fluid interface that may carry active particles, which raise its tension (Cowley section 2.1).
 ///
 /// The unknowns are the marker positions and the particle numbers n_k of the segments between them; c_k = n_k / l_k.
-/// Force of marker k on the fluid: `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (thesis (2.5), (2.31); t_k along segment
-/// k), whose sum over the curve is zero. Particles move with the fluid along the interface and diffuse (thesis (2.3)).
+/// Force of marker k on the fluid: `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (Cowley (2.5), (2.31); t_k along segment
+/// k), whose sum over the curve is zero. Particles move with the fluid along the interface and diffuse (Cowley (2.3)).
 #[derive(Debug, Clone)]
 pub struct ActiveDroplet {
     pub(crate) name: String,
@@ -338,24 +338,24 @@ impl ActiveDroplet {
         self.tension.values(&self.concentrations, &mut self.tensions);
     }
 
-    /// The truncation and the geometry that `medium` asks for, made anew only where they have changed.
-    pub(crate) fn fit(&mut self, medium: &Medium) {
+    /// The truncation and the geometry that `discretisation` asks for, remade only where they have changed.
+    pub(crate) fn fit(&mut self, discretisation: &Discretisation) {
         let count = self.shape.markers.len();
-        let smooth = medium.shape_modes.is_some() && matches!(self.motion, Motion::Equidistributed { .. });
+        let smooth = discretisation.shape_modes.is_some() && matches!(self.motion, Motion::Equidistributed { .. });
         if smooth != self.spectral.as_ref().is_some_and(|spectral| spectral.len() == count) {
             self.spectral = smooth.then(|| SpectralCurve::new(count));
             self.other.markers.clear();
             self.update();
         }
-        let band = medium.shape_modes.filter(|&modes| modes < count).map(|modes| (count, modes));
+        let band = discretisation.shape_modes.filter(|&modes| modes < count).map(|modes| (count, modes));
         if band != self.band.as_ref().map(|(series, modes)| (series.len(), *modes)) {
             self.band = band.map(|(count, modes)| (PeriodicSeries::new(count), modes));
         }
     }
 
     /// Mean of the viscosities on both sides, on which the speed of an interface depends (stress times time).
-    pub(crate) fn mean_viscosity(&self, medium: &Medium) -> f64 {
-        self.viscosity_inside.map_or(medium.viscosity, |inside| 0.5 * (inside + medium.viscosity))
+    pub(crate) fn mean_viscosity(&self, discretisation: &Discretisation) -> f64 {
+        self.viscosity_inside.map_or(discretisation.viscosity, |inside| 0.5 * (inside + discretisation.viscosity))
     }
 }
 

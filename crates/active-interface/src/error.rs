@@ -3,7 +3,7 @@
 use ib_core::input::{InputError, all_finite};
 
 /// An error of this crate, with the offending values and the remedy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InterfaceError {
     /// A number or list that cannot be used.
@@ -44,8 +44,8 @@ pub enum InterfaceError {
     },
     /// Points of very different distances.
     #[error(
-        "the longest distance between neighbouring points is {ratio:.4} times the shortest, more than {bound}: space them evenly, \
-         for instance by Curve::through_points"
+        "the longest distance between neighbouring points is {ratio:.4} times the shortest, more than {bound}: space \
+         them evenly, for instance by Curve::through_points"
     )]
     UnevenSpacing {
         /// Longest over shortest distance.
@@ -83,8 +83,8 @@ pub enum InterfaceError {
     },
     /// A tension law without a plateau has drawn the particles together to a point.
     #[error(
-        "{part:.2} of all particles are on one segment: the tension law has no plateau, so that they collapse towards a point at any \
-         resolution; use an activity below the strength of the excluded volume"
+        "{part:.2} of all particles are on one segment: the tension law has no plateau, so that they collapse towards \
+         a point at any resolution; use an activity below the strength of the excluded volume"
     )]
     Collapse {
         /// Part of the particles on the fullest segment.
@@ -115,6 +115,8 @@ pub enum InterfaceError {
         points: usize,
     },
 }
+
+ib_core::input::debug_as_explanation!(InterfaceError);
 
 /// Whether all entries are finite and each is above the one before it.
 pub(crate) fn increasing(name: &'static str, values: &[f64]) -> Result<(), InterfaceError> {

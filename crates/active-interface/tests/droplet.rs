@@ -3,7 +3,7 @@
 #[cfg(test)]
 mod tests {
     use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion};
-    use ib_core::{Body, CubicQuadratic, Hydrodynamics, ImmersedBoundary, Medium, Scene, Vec2};
+    use ib_core::{Body, CubicQuadratic, Discretisation, Hydrodynamics, ImmersedBoundary, Scene, Vec2};
     use proptest::prelude::*;
     use stokes_grid::{Grid, PeriodicStokes};
 
@@ -12,8 +12,8 @@ mod tests {
         ImmersedBoundary::new(PeriodicStokes::new(grid, 1.0).unwrap(), CubicQuadratic::default())
     }
 
-    fn medium() -> Medium {
-        flow(8, 0.5).medium()
+    fn discretisation() -> Discretisation {
+        flow(8, 0.5).discretisation()
     }
 
     /// An active droplet on an ellipse, turned and moved.
@@ -39,7 +39,7 @@ mod tests {
             let curve = Curve::fourier(1.0, &[0.0, bumps[0], bumps[1]], &[0.0, bumps[2], bumps[3]]).unwrap();
             let mut droplet = ActiveDroplet::passive(&curve.markers(40).unwrap(), tension).unwrap();
             let mut forces = vec![Vec2::ZERO; 40];
-            droplet.write_forces(&medium(), &mut forces).unwrap();
+            droplet.write_forces(&discretisation(), &mut forces).unwrap();
             let energy = |markers: &[Vec2]| tension * active_interface::curve::polygon_perimeter(markers).unwrap();
             let step = 1e-6;
             for axis in 0..2 {

@@ -2,7 +2,7 @@
 
 use ib_core::input::positive;
 use ib_core::{
-    Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium,
+    Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers,
     checkpoint::SavedState,
     hydrodynamics::{FlowWork, SolveReport},
 };
@@ -19,7 +19,7 @@ use stokes_layers::{Forcing, Geometry, Interface, InterfaceFlow, LayerError, Set
 #[derive(Debug, Clone)]
 pub struct BoundaryIntegral {
     flow: InterfaceFlow,
-    /// Fastest relaxation, as in [`Medium`].
+    /// Fastest relaxation, as in [`Discretisation`].
     stiffness: f64,
     work: FlowWork,
 }
@@ -35,8 +35,9 @@ impl BoundaryIntegral {
         Ok(Self { flow, stiffness, work: FlowWork::default() })
     }
 
-    /// The same solver for interfaces of which the smallest has this perimeter (length): what [`Hydrodynamics::medium`]
-    /// assumes until a first evaluation has seen the real ones; 2 pi unless it is set.
+    /// The same solver for interfaces of which the smallest has this perimeter (length): what
+    /// [`Hydrodynamics::discretisation`] assumes until a first evaluation has seen the real ones; 2 pi unless it is
+    /// set.
     ///
     /// # Errors
     /// A perimeter that is not positive and finite.
@@ -79,8 +80,8 @@ impl Hydrodynamics for BoundaryIntegral {
     /// A wave number q on an interface relaxes at the rate `gamma q/(2 (eta_in + eta_out))`, so the stiffness is
     /// `q eta_out/(2 (eta_in + eta_out))` with the largest wave number that the nodes carry, the largest over the
     /// interfaces of the last evaluation; before the first one `q/4` with the reference perimeter.
-    fn medium(&self) -> Medium {
-        Medium {
+    fn discretisation(&self) -> Discretisation {
+        Discretisation {
             domain: domain(self.geometry()),
             viscosity: self.flow.viscosity(),
             spacing: None,

@@ -77,12 +77,16 @@ fn iterations_do_not_grow_with_the_nodes_and_little_with_the_ratio() {
 fn stiffness_is_the_rate_of_the_finest_wave() {
     // Wave number 32 of 64 nodes on a unit circle relaxes at the rate 32/(2 (eta_in + eta_out)) tension.
     let mut solver = BoundaryIntegral::new(Geometry::Plane, 2.0, Settings::default()).expect("a valid scene");
-    assert!((solver.medium().interface_stiffness - 8.0).abs() < 1e-12);
+    assert!((solver.discretisation().interface_stiffness - 8.0).abs() < 1e-12);
     for (inside, expected) in [(2.0, 8.0), (14.0, 2.0), (0.002, 2.0 / 2.002 * 16.0)] {
         let droplet = Ellipse { viscosity: Some(inside), ..pair(1.0)[0] };
         solver.velocities(&mut markers(&[droplet], 128)).expect("a valid scene");
-        let medium = solver.medium();
-        assert!((medium.interface_stiffness - expected).abs() < 1e-10, "{inside}: {}", medium.interface_stiffness);
-        assert!(medium.spacing.is_none() && medium.domain.walls.is_none());
+        let discretisation = solver.discretisation();
+        assert!(
+            (discretisation.interface_stiffness - expected).abs() < 1e-10,
+            "{inside}: {}",
+            discretisation.interface_stiffness
+        );
+        assert!(discretisation.spacing.is_none() && discretisation.domain.walls.is_none());
     }
 }

@@ -75,7 +75,9 @@ proptest! {
         }
         solver.velocities(&mut one).unwrap();
         solver.velocities(&mut two).unwrap();
-        let work = |a: &Markers, b: &Markers| -> f64 { a.forces.iter().zip(&b.velocities).map(|(f, v)| f.dot(*v)).sum() };
+        let work = |a: &Markers, b: &Markers| -> f64 {
+            a.forces.iter().zip(&b.velocities).map(|(f, v)| f.dot(*v)).sum()
+        };
         let (ab, ba) = (work(&one, &two), work(&two, &one));
         prop_assert!((ab - ba).abs() < 1e-9 * (1.0 + ab.abs()), "{} {}", ab, ba);
     }

@@ -3,7 +3,7 @@
 use ib_core::input::{InputError, positive, within};
 
 /// An error of this crate, with the offending values and the remedy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolidError {
     /// A number or list that cannot be used.
@@ -11,7 +11,8 @@ pub enum SolidError {
     Input(#[from] InputError),
     /// A deformation that inverts the material, flattens it, or is not finite.
     #[error(
-        "the deformation gradient [[{a11:.4}, {a12:.4}], [{a21:.4}, {a22:.4}]] has the determinant {jacobian:.3e}: it must be positive"
+        "the deformation gradient [[{a11:.4}, {a12:.4}], [{a21:.4}, {a22:.4}]] has the determinant {jacobian:.3e}: it \
+         must be positive"
     )]
     NotOrientationPreserving {
         /// Entry 11.
@@ -69,7 +70,8 @@ pub enum SolidError {
     },
     /// An edge with more than one triangle on a side.
     #[error(
-        "the edge between points {first} and {second} has two triangles on one side, one of them {triangle}: triangles must not overlap"
+        "the edge between points {first} and {second} has two triangles on one side, one of them {triangle}: triangles \
+         must not overlap"
     )]
     FoldedMesh {
         /// A point of the edge.
@@ -99,7 +101,8 @@ pub enum SolidError {
     },
     /// A line that does not return to its start.
     #[error(
-        "the outline ends at ({x:.4}, {y:.4}), {gap:.3e} from where it must: close it, or let a profile return to its first height"
+        "the outline ends at ({x:.4}, {y:.4}), {gap:.3e} from where it must: close it, or let a profile return to its \
+         first height"
     )]
     OpenOutline {
         /// x of its end (length).
@@ -129,7 +132,8 @@ pub enum SolidError {
     },
     /// A fillet that does not fit.
     #[error(
-        "a fillet of radius {radius} does not fit on the side of length {side:.4} from ({x:.4}, {y:.4}): give at most {maximum:.4}"
+        "a fillet of radius {radius} does not fit on the side of length {side:.4} from ({x:.4}, {y:.4}): give at most \
+         {maximum:.4}"
     )]
     FilletTooLarge {
         /// The radius (length).
@@ -159,7 +163,8 @@ pub enum SolidError {
     },
     /// Outlines that cross.
     #[error(
-        "outlines cross or touch near ({x:.4}, {y:.4}): move them apart, or use a smaller spacing where they only come close"
+        "outlines cross or touch near ({x:.4}, {y:.4}): move them apart, or use a smaller spacing where they only come \
+         close"
     )]
     Crossing {
         /// x of the place (length).
@@ -169,7 +174,8 @@ pub enum SolidError {
     },
     /// A line of a channel on the wrong side of the others.
     #[error(
-        "the line through ({x:.4}, {y:.4}) is not below the upper side of the channel and above the lower one: exchange or move them"
+        "the line through ({x:.4}, {y:.4}) is not below the upper side of the channel and above the lower one: \
+         exchange or move them"
     )]
     NotBetween {
         /// x of a point of it (length).
@@ -179,7 +185,8 @@ pub enum SolidError {
     },
     /// A hole that the mesh cannot resolve.
     #[error(
-        "the hole at ({x:.4}, {y:.4}) is {width:.4} wide, less than the mesh spacing {spacing}: leave it out or use a smaller spacing"
+        "the hole at ({x:.4}, {y:.4}) is {width:.4} wide, less than the mesh spacing {spacing}: leave it out or use a \
+         smaller spacing"
     )]
     HoleTooSmall {
         /// x of a point of its outline (length).
@@ -193,7 +200,8 @@ pub enum SolidError {
     },
     /// A wall that the mesh cannot resolve.
     #[error(
-        "the solid at ({x:.4}, {y:.4}) is {thickness:.4} thick, less than the mesh spacing {spacing}: make it thicker, round its tip, or use a smaller spacing"
+        "the solid at ({x:.4}, {y:.4}) is {thickness:.4} thick, less than the mesh spacing {spacing}: make it thicker, \
+         round its tip, or use a smaller spacing"
     )]
     WallTooThin {
         /// x of a point of its outline (length).
@@ -229,7 +237,8 @@ pub enum SolidError {
     },
     /// An inverted triangle.
     #[error(
-        "triangle {triangle} near ({x:.4}, {y:.4}) is inverted (area ratio {jacobian:.4}): use a smaller time step or mesh spacing, or stiffer material"
+        "triangle {triangle} near ({x:.4}, {y:.4}) is inverted (area ratio {jacobian:.4}): use a smaller time step or \
+         mesh spacing, or stiffer material"
     )]
     Inverted {
         /// Which triangle.
@@ -243,13 +252,16 @@ pub enum SolidError {
     },
     /// Points that found no equilibrium.
     #[error(
-        "the inner points found no equilibrium, {residual:.1e} of the force is left: use a smaller strain or a stable material"
+        "the inner points found no equilibrium, {residual:.1e} of the force is left: use a smaller strain or a stable \
+         material"
     )]
     NotRelaxed {
         /// Force left over that at the boundary.
         residual: f64,
     },
 }
+
+ib_core::input::debug_as_explanation!(SolidError);
 
 /// Most points of a mesh or an outline: sizes are bounded before anything is allocated.
 pub(crate) const MOST_POINTS: f64 = 1e6;

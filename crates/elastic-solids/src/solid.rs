@@ -1,7 +1,7 @@
 //! An elastic solid: a mesh, its forces, and where its points are now.
 
 mod body;
-mod observables;
+mod deformation;
 mod rounded_kink;
 mod surface_correction;
 
@@ -14,11 +14,11 @@ use crate::forces::{Hyperelastic, Springs};
 use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
 use surface_correction::SurfaceCorrection;
 
-pub use observables::Observables;
+pub use deformation::Deformation;
 
 /// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid
-/// and move with it. It is made of springs along the edges of its mesh (thesis section 4.1), of a hyperelastic material
-/// (thesis section 4.2), or has forces of your own.
+/// and move with it. It is made of springs along the edges of its mesh (Cowley section 4.1), of a hyperelastic material
+/// (Cowley section 4.2), or has forces of your own.
 ///
 /// Points may be pinned, that is, stay where they are and put no force on the fluid, or tethered to where they are in
 /// the reference state.
@@ -28,7 +28,8 @@ pub use observables::Observables;
 /// use elastic_solids::{Mesher, NeoHookean, Solid, SolidError};
 /// use ib_core::Vec2;
 ///
-/// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest row pinned.
+/// // The wall below a straight channel of width 2, soft on the left and ten times as stiff on the right, its lowest
+/// // row pinned.
 /// let channel = ChannelShape::Straight { width: 2.0 }.channel(12.0)?;
 /// let mesh = channel.lower_wall(-2.5, &Mesher::new(0.1)?)?;
 /// let shear = |s: Vec2| if s.x < 0.0 { 100.0 } else { 1000.0 };

@@ -2,7 +2,7 @@
 
 use allocation_counter::measure;
 use elastic_solids::{NeoHookean, Outline, Solid, TriangleMesh, mesh::fitted_strip};
-use ib_core::{AnyKernel, Body, FlowSample, Hydrodynamics, ImmersedBoundary, Medium, Scene, Vec2};
+use ib_core::{AnyKernel, Body, Discretisation, FlowSample, Hydrodynamics, ImmersedBoundary, Scene, Vec2};
 use stokes_grid::{ChannelStokes, Drive, Grid};
 
 type Channel = Scene<ImmersedBoundary<ChannelStokes, AnyKernel>>;
@@ -99,11 +99,11 @@ fn walls_are_in_their_place_with_every_kernel() {
 
 #[test]
 fn a_corrected_solid_needs_a_grid() {
-    let grid = channel(0.1).system().hydrodynamics().medium();
+    let grid = channel(0.1).system().hydrodynamics().discretisation();
     let mut solid = springs(layer(0.5, 0.1)).surface_corrected();
     let mut forces = vec![Vec2::ZERO; solid.marker_count()];
     solid.write_forces(&grid, &mut forces).expect("a grid");
-    let error = solid.write_forces(&Medium { spacing: None, mobility_deficit: None, ..grid }, &mut forces);
+    let error = solid.write_forces(&Discretisation { spacing: None, mobility_deficit: None, ..grid }, &mut forces);
     assert!(error.unwrap_err().to_string().contains("use a grid"));
 }
 

@@ -8,7 +8,9 @@ pub use step_limit::{StepCause, StepLimit};
 
 use std::any::Any;
 
-use crate::{BodyError, MarkerKind, Medium, Vec2, Warning, checkpoint::SavedState, gap::Boundary, scene::BodyFlow};
+use crate::{
+    BodyError, Discretisation, MarkerKind, Vec2, Warning, checkpoint::SavedState, gap::Boundary, scene::BodyFlow,
+};
 
 /// What can be seen of a body beyond its markers: the speed of a droplet, say.
 pub trait Observe: Body {
@@ -19,7 +21,8 @@ pub trait Observe: Body {
     ///
     /// # Errors
     /// A state in which it cannot be computed.
-    fn observables(&self, medium: &Medium, flow: &BodyFlow<'_>) -> Result<Self::Observables, BodyError>;
+    fn observables(&self, discretisation: &Discretisation, flow: &BodyFlow<'_>)
+    -> Result<Self::Observables, BodyError>;
 }
 
 /// A step that is about to be taken.
@@ -55,7 +58,7 @@ pub trait Body: Any + std::fmt::Debug + Send {
     ///
     /// # Errors
     /// A state in which the forces are not defined.
-    fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError>;
+    fn write_forces(&mut self, discretisation: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError>;
 
     /// Number of entries of the state, in units that only the body knows.
     fn state_len(&self) -> usize;
@@ -77,7 +80,7 @@ pub trait Body: Any + std::fmt::Debug + Send {
     ///
     /// # Errors
     /// A state from which no step can start.
-    fn begin_step(&mut self, _medium: &Medium, _step: StepInfo) -> Result<(), BodyError> {
+    fn begin_step(&mut self, _medium: &Discretisation, _step: StepInfo) -> Result<(), BodyError> {
         Ok(())
     }
 
@@ -93,21 +96,21 @@ pub trait Body: Any + std::fmt::Debug + Send {
     ///
     /// # Errors
     /// A state that cannot be.
-    fn end_step(&mut self, _medium: &Medium, _dt: f64) -> Result<(), BodyError> {
+    fn end_step(&mut self, _medium: &Discretisation, _dt: f64) -> Result<(), BodyError> {
         Ok(())
     }
 
     /// Called when the step that [`Body::end_step`] has ended stays: for what is counted over a run. Steps that are
-    /// taken back do not come here.
+    /// rejected do not come here.
     fn keep_step(&mut self) {}
 
     /// Tells `limits` the largest stable time steps of the explicit midpoint rule at the present state, one for each
     /// reason there is.
-    fn step_limits(&self, _medium: &Medium, _limits: &mut dyn FnMut(StepLimit)) {}
+    fn step_limits(&self, _medium: &Discretisation, _limits: &mut dyn FnMut(StepLimit)) {}
 
     /// What a user should know of the present state though a run can go on from it, from the flow of the last
     /// evaluation; by default nothing.
-    fn warnings(&self, _medium: &Medium) -> Vec<Warning> {
+    fn warnings(&self, _medium: &Discretisation) -> Vec<Warning> {
         Vec::new()
     }
 
@@ -132,7 +135,7 @@ pub trait Body: Any + std::fmt::Debug + Send {
         vec![("the number of markers".to_owned(), self.marker_count() as f64)]
     }
 
-    /// Everything from which [`Body::load`] makes the present state again, bit for bit: by default what
+    /// Everything from which [`Body::load`] makes the present state again, bitwise: by default what
     /// [`Body::write_state`] writes. A body whose next step depends on more must save that too.
     fn save(&self) -> SavedState {
         let mut reals = vec![0.0; self.state_len()];
@@ -144,7 +147,7 @@ pub trait Body: Any + std::fmt::Debug + Send {
     ///
     /// # Errors
     /// The state of another body, or a state that cannot be.
-    fn load(&mut self, _medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
+    fn load(&mut self, _medium: &Discretisation, saved: &SavedState) -> Result<(), BodyError> {
         self.read_state(saved.reals_of(self.state_len())?)
     }
 }

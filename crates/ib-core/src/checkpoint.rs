@@ -14,13 +14,13 @@ use crate::{
     scene::StepReport,
 };
 
-/// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
+/// The whole state of a scene, to go on from later, bitwise as if it had never stopped.
 ///
 /// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. What the scene is must
 /// be the same: the domain, what drives the fluid along it, the viscosities, the bodies and what they are made of
 /// ([`crate::Body::properties`], with the numbers of markers and points that they started with). How it is computed may
 /// be another then: time step, integrator and observers, grid spacing (with markers and meshes as before), kernel,
-/// corrections, transport of particles. The flow of the state is then computed anew.
+/// corrections, transport of particles. The flow of the state is then recomputed.
 ///
 /// ```
 /// use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
@@ -146,8 +146,8 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             steps: system.steps() as u64,
             minimum_wall_gap: system.minimum_wall_gap(),
             minimum_gap: system.narrowest_so_far(),
-            domain: system.hydrodynamics().medium().domain,
-            spacing: system.hydrodynamics().medium().spacing,
+            domain: system.hydrodynamics().discretisation().domain,
+            spacing: system.hydrodynamics().discretisation().spacing,
             properties: system.properties(),
             bodies: system.all_bodies().map(|(_, body)| Part::of(body)).collect(),
             flow: system.hydrodynamics().save(),
@@ -159,7 +159,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         }
     }
 
-    /// Goes on from a checkpoint of this scene: the steps that follow are, bit for bit, those that would have followed
+    /// Goes on from a checkpoint of this scene: the steps that follow are, bitwise, those that would have followed
     /// there. With another integrator that starts afresh. After an error the scene is as it was.
     ///
     /// # Errors
@@ -178,7 +178,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     fn compare(&self, checkpoint: &Checkpoint) -> Result<(), SceneError> {
         let system = self.system();
         let foreign = |problem: String| Err(SceneError::ForeignCheckpoint { problem });
-        let domain = system.hydrodynamics().medium().domain;
+        let domain = system.hydrodynamics().discretisation().domain;
         if domain != checkpoint.domain {
             let describe = |Domain { origin, periods, walls }: Domain| {
                 format!("origin {origin:?}, periods {periods:?}, walls {walls:?}")
@@ -217,7 +217,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
             })?;
         }
         self.report = checkpoint.report.clone();
-        let same = self.system().hydrodynamics().medium().spacing == checkpoint.spacing;
+        let same = self.system().hydrodynamics().discretisation().spacing == checkpoint.spacing;
         if let Some((velocities, report)) = checkpoint.known.as_ref().filter(|_| same) {
             let velocities = velocities.iter().copied().map(Vec2::from_array);
             self.system_mut().take_flow(&checkpoint.flow, velocities, *report)?;

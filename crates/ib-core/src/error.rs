@@ -6,7 +6,7 @@ use stokes_grid::StokesError;
 use crate::checkpoint::CheckpointError;
 
 /// The flow could not be computed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlowError {
     /// The grid solver refused.
@@ -75,8 +75,10 @@ pub enum FlowError {
     },
 }
 
+input_checks::debug_as_explanation!(FlowError);
+
 /// A body is in a state that it cannot be in.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum BodyError {
     /// A state that is not finite.
@@ -91,8 +93,8 @@ pub enum BodyError {
     },
     /// An interface crosses itself.
     #[error(
-        "the interface crosses itself at ({x:.4}, {y:.4}), between markers {first} and {second}: use a smaller time step or \
-         activity, or a finer grid"
+        "the interface crosses itself at ({x:.4}, {y:.4}), between markers {first} and {second}: use a smaller time \
+         step or activity, or a finer grid"
     )]
     SelfCrossing {
         /// x coordinate of the first marker (length).
@@ -122,10 +124,12 @@ pub enum BodyError {
     Other(Box<dyn std::error::Error + Send + Sync>),
 }
 
+input_checks::debug_as_explanation!(BodyError);
+
 /// A scene could not be made or advanced. After an error in a step the scene holds the state before that step.
 ///
 /// Causes are in the chain of sources and not repeated in the text; [`SceneError::explanation`] tells all.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
     /// The flow could not be computed.
@@ -148,7 +152,8 @@ pub enum SceneError {
     },
     /// Bodies that overlap before anything is computed for them.
     #[error(
-        "at time {time} {body} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move the bodies apart"
+        "at time {time} {body} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move the \
+         bodies apart"
     )]
     Overlap {
         /// Time of the state.
@@ -168,8 +173,9 @@ pub enum SceneError {
     },
     /// An interface inside another one whose fluid has another viscosity than the exterior: not solved yet.
     #[error(
-        "at time {time} {inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has {exterior}: \
-         interfaces inside one another are possible only where the outer one has the exterior's viscosity inside"
+        "at time {time} {inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has \
+         {exterior}: interfaces inside one another are possible only where the outer one has the exterior's viscosity \
+         inside"
     )]
     NestedInterfaces {
         /// Time of the state.
@@ -185,8 +191,8 @@ pub enum SceneError {
     },
     /// An interface and another body, or its own image in a periodic domain, have come to overlap.
     #[error(
-        "at time {time} {body} has crossed {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: use a smaller time \
-         step, a finer grid or a repulsion between the interfaces"
+        "at time {time} {body} has crossed {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: use a \
+         smaller time step, a finer grid or a repulsion between the interfaces"
     )]
     Crossing {
         /// Time at the start of the step.
@@ -206,8 +212,8 @@ pub enum SceneError {
     },
     /// A gap is narrower than the bound that was set.
     #[error(
-        "at time {time} the gap between {body} and {other} is {gap:.3e}, below the bound of {bound:.3e}: use a finer grid, no grid or a \
-         repulsion, or a lower bound if the film between them does not matter"
+        "at time {time} the gap between {body} and {other} is {gap:.3e}, below the bound of {bound:.3e}: use a finer \
+         grid, no grid or a repulsion, or a lower bound if the film between them does not matter"
     )]
     Gap {
         /// Time at the start of the step.
@@ -250,8 +256,9 @@ pub enum SceneError {
     },
     /// Adaptive steps have become shorter than the bound that was set.
     #[error(
-        "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: the state cannot be followed any \
-         further with this tolerance and resolution; refine the grid and the markers, or look at the last state for what goes wrong"
+        "at time {time} the time step would have to fall to {dt:.3e}, below the least of {least:.3e}: the state cannot \
+         be followed any further with this tolerance and resolution; refine the grid and the markers, or look at the \
+         last state for what goes wrong"
     )]
     Stagnation {
         /// When (time).
@@ -305,7 +312,8 @@ pub enum SceneError {
     },
     /// A checkpoint of a scene whose fluid or bodies are made of something else.
     #[error(
-        "the checkpoint is of other physics: for {of}, {property} is {} in it and {} here; resume with what it was saved with",
+        "the checkpoint is of other physics: for {of}, {property} is {} in it and {} here; resume with what it was \
+         saved with",
         shown(*saved),
         shown(*present)
     )]
@@ -329,6 +337,8 @@ pub enum SceneError {
     },
 }
 
+input_checks::debug_as_explanation!(SceneError);
+
 fn shown(value: Option<f64>) -> String {
     value.map_or_else(|| "not given".to_owned(), |value| value.to_string())
 }
@@ -337,16 +347,6 @@ impl SceneError {
     /// The error and its causes in one sentence.
     #[must_use]
     pub fn explanation(&self) -> String {
-        let mut told = self.to_string();
-        let mut source = std::error::Error::source(self);
-        while let Some(cause) = source {
-            let text = cause.to_string();
-            // A transparent error says what its cause says.
-            if !told.ends_with(&text) {
-                told = format!("{told}: {text}");
-            }
-            source = cause.source();
-        }
-        told
+        input_checks::explanation(self)
     }
 }

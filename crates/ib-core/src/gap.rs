@@ -14,7 +14,7 @@ pub use repulsion::Repulsion;
 pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use wall_gap::wall_gap;
 
-use crate::{Body, Domain, MarkerKind, Markers, Medium, Vec2};
+use crate::{Body, Discretisation, Domain, MarkerKind, Markers, Vec2};
 
 /// How far boundaries are looked for during steps, in units of what a contact is measured in.
 const REACH: f64 = 4.0;
@@ -69,8 +69,8 @@ impl Gaps {
     }
 
     /// The narrowest gap of those that are looked at during steps, below four times what contacts are measured in.
-    pub(crate) fn narrowest_near(&self, medium: &Medium) -> Option<Gap> {
-        self.narrowest(&medium.domain, REACH * self.contact_scale(medium))
+    pub(crate) fn narrowest_near(&self, discretisation: &Discretisation) -> Option<Gap> {
+        self.narrowest(&discretisation.domain, REACH * self.contact_scale(discretisation))
     }
 
     /// The narrowest gap below `reach` (length), if there is one: from the corners of interfaces to all bodies, and

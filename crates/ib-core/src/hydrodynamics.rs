@@ -26,10 +26,10 @@ pub struct Domain {
 
 /// What a body needs to know of the fluid around it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Medium {
+pub struct Discretisation {
     /// The region.
     pub domain: Domain,
-    /// Viscosity of the surroundings (stress times time).
+    /// Viscosity of the exterior fluid (stress times time).
     pub viscosity: f64,
     /// Grid spacing (length); `None` where there is no grid.
     pub spacing: Option<f64>,
@@ -68,7 +68,7 @@ pub struct FlowWork {
 /// An implementation owns its scratch and allocates nothing per call while the numbers of markers stay the same.
 pub trait Hydrodynamics: std::fmt::Debug + Send {
     /// The fluid, as bodies see it.
-    fn medium(&self) -> Medium;
+    fn discretisation(&self) -> Discretisation;
 
     /// What drives the flow along a channel; by default nothing is said of it.
     fn drive(&self) -> Option<Drive> {
@@ -103,8 +103,8 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
 
 /// Hydrodynamics that were chosen at run time.
 impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
-    fn medium(&self) -> Medium {
-        self.as_ref().medium()
+    fn discretisation(&self) -> Discretisation {
+        self.as_ref().discretisation()
     }
 
     fn drive(&self) -> Option<Drive> {

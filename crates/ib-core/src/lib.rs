@@ -16,7 +16,8 @@
 //! use ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, MarkerKind, Markers, Vec2};
 //! use stokes_grid::{Grid, PeriodicStokes};
 //!
-//! let mut flow = ImmersedBoundary::new(PeriodicStokes::new(Grid::periodic(64, 64, 0.1)?, 1.0)?, CubicQuadratic::default());
+//! let solver = PeriodicStokes::new(Grid::periodic(64, 64, 0.1)?, 1.0)?;
+//! let mut flow = ImmersedBoundary::new(solver, CubicQuadratic::default());
 //! // 128 markers on an ellipse (equally spaced to some per cent), pulled together by a line tension of one
 //! let mut markers = Markers::new();
 //! markers.push_group(128, MarkerKind::Interface { viscosity_inside: None });
@@ -37,12 +38,15 @@
 //! ```
 //!
 //! Interfaces may have fluid of another viscosity inside, [`MarkerKind::Interface`]: a double layer on the markers
-//! takes care of it, at any ratio of viscosities and with errors that do not grow with it. [`SmearedContrast`] has the
-//! thesis' way, a viscosity that varies on the grid.
+//! takes care of it, at any ratio of viscosities and with errors that do not grow with it. [`SmearedContrast`] has
+//! Cowley's way, a viscosity that varies on the grid.
 //!
 //! Accuracy: velocities on an interface have errors of first order in h without the mobility correction and of second
 //! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
 //! docs/method.md in the repository.
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 pub mod body;
 pub mod checkpoint;
@@ -61,7 +65,7 @@ pub use body::{Body, MarkerBody, Observe};
 pub use checkpoint::Checkpoint;
 pub use error::{BodyError, FlowError, SceneError};
 pub use gap::Repulsion;
-pub use hydrodynamics::{Domain, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Vec2};
+pub use hydrodynamics::{Discretisation, Domain, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2};
 pub use immersed_boundary::{ImmersedBoundary, SmearedContrast};
 pub use input_checks as input;
 pub use integrator::{Integrator, Midpoint, RungeKuttaChebyshev};

@@ -67,7 +67,9 @@ proptest! {
     }
 
     #[test]
-    fn adjoint_in_a_box_smaller_than_the_kernel(positions in vectors(3.0), forces in vectors(5.0), seed in 0..1000_u64) {
+    fn adjoint_in_a_box_smaller_than_the_kernel(
+        positions in vectors(3.0), forces in vectors(5.0), seed in 0..1000_u64,
+    ) {
         let grid = Grid::periodic(3, 2, 0.5).unwrap();
         for kernel in AnyKernel::ALL {
             check(grid, kernel, &positions, &forces, seed)?;
@@ -136,7 +138,9 @@ proptest! {
     /// Interpolation is the sum of the kernel's values times the field, everywhere: at walls, in corners, across the
     /// ends of the box.
     #[test]
-    fn interpolation_is_the_sum_over_the_grid(x in -7.0..7.0_f64, height in -0.2..1.2_f64, walls: bool, seed in 0..1000_u64) {
+    fn interpolation_is_the_sum_over_the_grid(
+        x in -7.0..7.0_f64, height in -0.2..1.2_f64, walls: bool, seed in 0..1000_u64,
+    ) {
         let h = 0.25;
         let grid = if walls { Grid::channel(14, 11, h) } else { Grid::periodic(14, 11, h) }.unwrap();
         let [x0, y0] = grid.origin();

@@ -1,7 +1,7 @@
 //! The gap to the walls, followed through steps.
 
 use ib_core::{
-    Body, BodyError, Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Scene, Vec2,
+    Body, BodyError, Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Scene, Vec2,
     gap::Boundary,
     hydrodynamics::{FlowWork, SolveReport},
 };
@@ -14,8 +14,8 @@ struct Wind {
 }
 
 impl Hydrodynamics for Wind {
-    fn medium(&self) -> Medium {
-        Medium {
+    fn discretisation(&self) -> Discretisation {
+        Discretisation {
             domain: Domain { origin: [0.0, 0.0], periods: [None, None], walls: self.walls },
             viscosity: 1.0,
             spacing: None,
@@ -70,7 +70,7 @@ impl Body for Points {
     fn write_markers(&self, positions: &mut [Vec2]) {
         positions.copy_from_slice(&self.positions);
     }
-    fn write_forces(&mut self, _: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, _: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
         forces.fill(Vec2::ZERO);
         Ok(())
     }
@@ -94,7 +94,7 @@ impl Body for Points {
             pair.copy_from_slice(&velocity.to_array());
         }
     }
-    fn end_step(&mut self, _: &Medium, _: f64) -> Result<(), BodyError> {
+    fn end_step(&mut self, _: &Discretisation, _: f64) -> Result<(), BodyError> {
         self.turned |= self.positions.iter().any(|position| position.y < self.floor);
         Ok(())
     }

@@ -26,7 +26,7 @@
 //! | runs, as observers | [`TrajectoryCsv`], [`ParaView`], [`Film`], [`RunProgress`] |
 //! | pictures of scenes | a [`Look`] at a [`Snapshot`] of all droplets, solids and the flow |
 //! | streamlines | [`streamlines()`] of [`Samples`] on a [`Raster`] |
-//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG; [`time_series`] and [`concentration_plot`] of a droplet |
+//! | plots | [`Figure`] of [`Plot`]s of [`Series`], as SVG and PNG; [`time_series`], [`concentration_plot`] |
 //! | tables | [`CsvTable`], [`SolidMeter`] |
 //! | ParaView | [`VtkFile`], [`VtkSeries`] |
 //! | waiting | [`Progress`] |
@@ -63,7 +63,7 @@ pub use picture::{Look, SolidColour, SolidShape, Track};
 pub use plot::droplet::{concentration_plot, time_series};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::{Progress, RunProgress};
-pub use snapshot::{DropletShape, Snapshot};
+pub use snapshot::{DropletOutline, Snapshot};
 pub use solids::SolidMeter;
 pub use table::CsvTable;
 pub use trajectory::TrajectoryCsv;

@@ -15,11 +15,15 @@ use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_mark
 ///
 /// | file | where | what (dimension) |
 /// |---|---|---|
-/// | fields | in the cells | pressure (force per length), velocity (length per time), vorticity dv/dx - du/dy (1/time) |
-/// | interface | at the markers | concentration (particles per length), tension (force), velocity (length per time), force on the fluid (force) |
+/// | fields | in the cells | pressure (force per length), velocity (length per time), vorticity (1/time) |
+/// | interface | at the markers | concentration (particles per length), tension (force), velocity (length per time) |
+/// | interface | at the markers | force on the fluid (force) |
 /// | interface | one line a droplet | its number, in the order of addition |
 /// | solids | at the points | displacement (length) |
-/// | solids | in the triangles | deformed over reference area J, Cauchy stress (force per length), its deviator `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)`, the number of the solid |
+/// | solids | in the triangles | deformed over reference area J, Cauchy stress (force per length), its deviator |
+/// | solids | in the triangles | the number of the solid |
+///
+/// The vorticity is `dv/dx - du/dy`, the deviator of the stress `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)`.
 ///
 /// ```
 /// use motile::prelude::*;

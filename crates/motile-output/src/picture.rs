@@ -14,8 +14,8 @@ pub type Track = Vec<(f64, Vec2)>;
 
 /// How scenes are drawn: pressure in colour, streamlines in the laboratory frame, the interfaces of all droplets
 /// coloured by their concentrations (black without particles), solids, rigid walls, between walls the paths of the
-/// droplets, the time and a scale bar. In periodic directions everything is drawn with its periodic images, so positions
-/// need not be wrapped.
+/// droplets, the time and a scale bar. In periodic directions everything is drawn with its periodic images, so
+/// positions need not be wrapped.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -172,8 +172,8 @@ impl Look {
         })
     }
 
-    /// Draws a state to a file, SVG where its name ends in `.svg` and PNG otherwise, a single droplet in the middle of its periods; between walls with the tracks up to
-    /// that time.
+    /// Draws a state to a file, SVG where its name ends in `.svg` and PNG otherwise, a single droplet in the middle of
+    /// its periods; between walls with the tracks up to that time.
     ///
     /// # Errors
     /// [`Error::Write`], [`Error::Streamlines`]; [`Error::Count`] for a snapshot of your own with other than one sample

@@ -174,7 +174,8 @@ impl Figure {
         Ok(draw(self)?.svg())
     }
 
-    /// Writes the figure as `<name>.svg` and, with two pixels a unit, `<name>.png` into `directory`, which is made if it is not there.
+    /// Writes the figure as `<name>.svg` and, with two pixels a unit, `<name>.png` into `directory`, which is made if
+    /// it is not there.
     ///
     /// # Errors
     /// As [`Figure::svg`], and [`Error::Write`].

@@ -7,7 +7,7 @@ use crate::{Error, Raster, SolidShape, Vec2, solids::solid_shape};
 
 /// A droplet at one time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DropletShape {
+pub struct DropletOutline {
     /// The interface (length).
     pub markers: Vec<Vec2>,
     /// Concentration at the markers (particles per length), the mean of that in the segments on both sides.
@@ -26,7 +26,7 @@ pub struct Snapshot {
     /// The flow at them.
     pub flow: Vec<FlowSample>,
     /// The droplets, in the order of addition.
-    pub droplets: Vec<DropletShape>,
+    pub droplets: Vec<DropletOutline>,
     /// The elastic solids, in the order of addition.
     pub solids: Vec<SolidShape>,
     /// Heights of rigid walls (length).
@@ -45,7 +45,7 @@ impl Snapshot {
         let shape = |(_, droplet): (_, &ActiveDroplet)| {
             let markers = droplet.markers().to_vec();
             let concentration = at_markers(droplet.concentrations());
-            Ok(DropletShape { concentration, centroid: polygon_moments(&markers)?.centroid, markers })
+            Ok(DropletOutline { concentration, centroid: polygon_moments(&markers)?.centroid, markers })
         };
         Ok(Self {
             time: system.time(),
@@ -53,7 +53,7 @@ impl Snapshot {
             flow,
             droplets: system.bodies().map(shape).collect::<Result<_, Error>>()?,
             solids: system.bodies().map(|(_, solid)| solid_shape(solid)).collect(),
-            walls: system.hydrodynamics().medium().domain.walls,
+            walls: system.hydrodynamics().discretisation().domain.walls,
         })
     }
 

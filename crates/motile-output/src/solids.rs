@@ -1,6 +1,6 @@
 //! What is seen of the elastic solids of a scene.
 
-use motile::elastic_solids::{Solid, channel::width_between, solid::Observables};
+use motile::elastic_solids::{Solid, channel::width_between, solid::Deformation};
 use motile::ib_core::gap::SolidGap;
 use motile::ib_core::{Hydrodynamics, System};
 
@@ -98,7 +98,7 @@ impl SolidMeter {
         let (mut total, mut normal, mut drift, mut energy, mut jacobian) =
             (0.0_f64, 0.0_f64, 0.0_f64, 0.0, f64::INFINITY);
         for solid in solids(system) {
-            let seen = Observables::of(solid);
+            let seen = Deformation::of(solid);
             total = total.max(seen.largest_displacement);
             normal = normal.max(seen.largest_normal_displacement);
             drift = if seen.drift.x.abs() > drift.abs() { seen.drift.x } else { drift };

@@ -51,7 +51,7 @@ impl TrajectoryCsv {
         system: &mut System<H>,
         droplet: Handle<ActiveDroplet>,
     ) -> Result<Self, Error> {
-        let walls = system.hydrodynamics().medium().domain.walls.is_some();
+        let walls = system.hydrodynamics().discretisation().domain.walls.is_some();
         let records = TrajectoryRecorder::new(droplet);
         let solids = SolidMeter::of(system);
         let records = if walls && solids.is_none() { records.with_gap_flow() } else { records };

@@ -7,7 +7,7 @@ use ib_core::FlowError;
 use stokes_grid::StokesError;
 
 /// A scene that could not be set up.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum SetupError {
     /// The grid or the solver.
@@ -62,8 +62,8 @@ pub enum SetupError {
     },
     /// A body that starts inside another one, or where another one is.
     #[error(
-        "{key} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move them apart or make one of \
-         them smaller"
+        "{key} overlaps {other} by {depth:.3e} at ({x:.4}, {y:.4}), more than {allowed:.3e}: move them apart or make \
+         one of them smaller"
     )]
     Overlap {
         /// Where it stands in the description, with its name if it has one of its own.
@@ -81,8 +81,8 @@ pub enum SetupError {
     },
     /// A droplet inside another one whose fluid has a viscosity of its own.
     #[error(
-        "{inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has {exterior}: move it \
-         out, or give the outer droplet no viscosity of its own"
+        "{inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has {exterior}: move \
+         it out, or give the outer droplet no viscosity of its own"
     )]
     Nested {
         /// The droplet inside, where it stands in the description.
@@ -105,6 +105,8 @@ pub enum SetupError {
         largest: f64,
     },
 }
+
+ib_core::input::debug_as_explanation!(SetupError);
 
 impl SetupError {
     /// The same with the place of what it is about, unless it says so itself.

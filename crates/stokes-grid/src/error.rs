@@ -5,7 +5,7 @@ pub(crate) mod checks;
 use input_checks::InputError;
 
 /// An error of this crate, with the offending values and the remedy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StokesError {
     /// A number or list that cannot be used.
@@ -51,8 +51,8 @@ pub enum StokesError {
     },
     /// An iteration that did not reach its tolerance.
     #[error(
-        "the relative residual is {residual:e} after {iterations} iterations, above {tolerance:e}: allow more iterations, \
-         ask for less, or use viscosities that differ less"
+        "the relative residual is {residual:e} after {iterations} iterations, above {tolerance:e}: allow more \
+         iterations, ask for less, or use viscosities that differ less"
     )]
     NoConvergence {
         /// Iterations done.
@@ -65,3 +65,5 @@ pub enum StokesError {
         history: Vec<f64>,
     },
 }
+
+input_checks::debug_as_explanation!(StokesError);

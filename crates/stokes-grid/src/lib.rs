@@ -10,7 +10,7 @@
 //! |---|---|---|---|
 //! | [`PeriodicStokes`] | box | streamfunction | 1 + 1 in two dimensions |
 //! | [`ChannelStokes`] | channel | streamfunction | 1 + 1 along x, tridiagonal sweeps along y |
-//! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients around one of the above | one solve an iteration |
+//! | [`TwoPhaseStokes`] | both | any viscosity field, conjugate gradients around one of these | a solve an iteration |
 //!
 //! All but the last are direct: their velocity and pressure satisfy the discrete equations (second-order differences on
 //! the marker-and-cell grid) to round-off. They are plans behind one trait, [`StokesSolver`]: made once for a grid, run
@@ -30,7 +30,9 @@
 //! Poiseuille flow, whose fastest fluid has the speed `width^2 / (8 eta)`.
 //!
 //! ```
-//! use stokes_grid::{CentreField, ChannelStokes, Drive, Grid, PeriodicStokes, StaggeredField, StokesSolver, divergence};
+//! use stokes_grid::{
+//!     CentreField, ChannelStokes, Drive, Grid, PeriodicStokes, StaggeredField, StokesSolver, divergence,
+//! };
 //!
 //! # fn main() -> Result<(), stokes_grid::StokesError> {
 //! let grid = Grid::periodic(64, 48, 0.1)?;
@@ -68,11 +70,14 @@
 //! channel this concerns `nx` alone.
 //!
 //! With the feature `rayon`, off by default, [`PeriodicStokes`] uses the threads of the current pool from 800,000 cells
-//! on, to the same bits for any number of them.
+//! on, with bitwise identical results for any number of them.
 //!
 //! `cargo bench --bench solvers` prints times in units of plain real transforms of the same size in the same run: about
 //! 1.1 pairs for [`PeriodicStokes`] from 120 to 1024 cells squared, and about 2.1 times the passes along x alone for
 //! [`ChannelStokes`].
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod channel;
 mod error;

@@ -24,7 +24,9 @@ pub struct Outcome {
 /// ```
 /// use stokes_layers::gmres::Gmres;
 ///
-/// let product = |x: &[f64], out: &mut [f64], _accuracy: f64| (out[0], out[1]) = (2.0 * x[0] + x[1], x[0] + 3.0 * x[1]);
+/// let product = |x: &[f64], out: &mut [f64], _accuracy: f64| {
+///     (out[0], out[1]) = (2.0 * x[0] + x[1], x[0] + 3.0 * x[1]);
+/// };
 /// let mut x = [0.0; 2];
 /// let outcome = Gmres::default().solve(product, &[5.0, 10.0], &mut x, 1e-12, 10);
 /// assert!((x[0] - 1.0).abs() < 1e-10 && (x[1] - 3.0).abs() < 1e-10 && outcome.iterations == 2);

@@ -4,7 +4,7 @@ use serde_json::json;
 #[test]
 fn files_keep_order_and_come_back() {
     let path = std::env::temp_dir().join(format!("motile-summary-{}.json", std::process::id()));
-    let mut summary = Summary::new();
+    let mut summary = Summary::default();
     summary.put("speed", 0.1, "");
     summary.put("area", f64::INFINITY, "");
     summary.put("steady", json!({ "reached": true, "time": 23.5 }), "");
@@ -21,7 +21,7 @@ fn files_keep_order_and_come_back() {
 
 #[test]
 fn tables_are_aligned() {
-    let mut summary = Summary::new();
+    let mut summary = Summary::default();
     summary.put("speed", 0.138_612_345, "R0/T");
     summary.put("steps", 12_000_usize, "time steps");
     summary.put("steady", json!({ "reached": true, "time": null }), "");

@@ -1,10 +1,9 @@
 //! What is said of a run with a droplet.
 
 use anyhow::{Context, Result};
-use motile::AnyFlow;
 use motile::active_interface::Observables;
 use motile::active_interface::trajectory::{Evidence, RegimeCriteria};
-use motile::ib_core::{Hydrodynamics as _, Scene};
+use motile::ib_core::Hydrodynamics as _;
 use motile_output::SolidMeter;
 
 use super::WatchedRun;
@@ -29,11 +28,11 @@ impl WatchedRun {
     ///
     /// # Errors
     /// A run that has not been.
-    pub fn summary(&self, scene: &Scene<AnyFlow>) -> Result<Summary> {
+    pub fn summary(&self) -> Result<Summary> {
         let first = &self.recorder.records().records().first().context("nothing was measured")?.observables;
-        let mut summary = Summary::new();
+        let mut summary = Summary::default();
         self.put_droplet(&mut summary, first, &self.last()?.observables)?;
-        self.put_cost(&mut summary, scene);
+        self.put_cost(&mut summary);
         let method = METHODS.iter().find(|(_, _, kind)| *kind == self.method);
         summary.put("method", method.map(|(name, ..)| *name), "for the flow");
         if let Some(values) = self.recorder.last_solids() {
@@ -86,7 +85,8 @@ impl WatchedRun {
         Ok(())
     }
 
-    fn put_cost(&self, summary: &mut Summary, scene: &Scene<AnyFlow>) {
+    fn put_cost(&self, summary: &mut Summary) {
+        let scene = &self.scene;
         summary.put("time", scene.time(), "simulated");
         summary.put("steps", scene.steps(), "");
         summary.put("dt", scene.time() / scene.steps() as f64, "mean time step");
@@ -99,7 +99,7 @@ impl WatchedRun {
         });
         summary.put("dt_set_by", limiting, "for most steps");
         summary.put("steps_rejected", report.rejections, "for their error");
-        summary.put("steps_failed", report.failures, "and taken anew");
+        summary.put("steps_failed", report.failures, "and retried");
         summary.put("stages", scene.integrator_work().stages, "of all steps");
         let work = scene.system().hydrodynamics().work();
         summary.put("stokes_solves", work.stokes_solves, "on the grid");

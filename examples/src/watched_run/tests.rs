@@ -5,7 +5,7 @@ use crate::{BoxFlags, OutputFlags};
 use clap::Parser;
 use motile::ib_core::StepSize;
 use motile::stokes_grid::Drive;
-use motile::{Built, GridMethod, Method, Region, Setup};
+use motile::{GridMethod, Method, Region, Setup};
 
 #[derive(Debug, Parser)]
 struct Flags {
@@ -28,15 +28,14 @@ fn a_run_in_a_channel_leaves_all_its_files() {
     let directory = directory("channel-run");
     let region = Region::Channel { length: 6.0, width: 3.0, drive: Drive::ZeroGradient };
     let setup = Setup { region, ..Setup::default() };
-    let Built { mut scene, droplets, .. } = setup.build().unwrap();
     let mut flags = flags("1", &directory, false);
     std::fs::create_dir_all(&directory).unwrap();
     flags.output.write_scene = Some(directory.join("scene.toml"));
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &flags, "", "").unwrap();
-    run.go(&mut scene, None).unwrap();
-    let summary = run.summary(&scene).unwrap();
+    let mut run = WatchedRun::new(setup.build().unwrap(), &setup, &flags, "").unwrap();
+    run.go(None).unwrap();
+    let summary = run.summary().unwrap();
     assert_eq!(run.recorder.table().rows().len(), run.recorder.records().records().len());
-    run.finish(&mut scene, &summary).unwrap();
+    run.finish(&summary).unwrap();
 
     let files = ["final.png", "swim.gif", "time_series.svg", "concentration_profile.png", "trajectory.csv"];
     let files = files.into_iter().chain(["vtk/fields.pvd", "summary.json"]);
@@ -62,16 +61,15 @@ fn a_run_that_breaks_off_keeps_what_it_has() {
         step: StepSize::Fixed(0.1),
         ..Setup::default()
     };
-    let Built { mut scene, droplets, .. } = setup.build().unwrap();
-    let mut run = WatchedRun::new(&mut scene, &droplets, &setup, &flags("100", &directory, true), "", "").unwrap();
-    run.go(&mut scene, None).unwrap();
-    let summary = run.summary(&scene).unwrap();
+    let mut run = WatchedRun::new(setup.build().unwrap(), &setup, &flags("100", &directory, true), "").unwrap();
+    run.go(None).unwrap();
+    let summary = run.summary().unwrap();
     let time = summary.number("time");
     assert!(time > 0.0 && time < 100.0);
     assert_eq!(run.recorder.table().rows().last().map(|row| row[0]), Some(time));
     let files = std::fs::read_dir(&directory).unwrap().count();
     assert_eq!(files, 1, "without pictures there is the trajectory alone");
-    let error = run.finish(&mut scene, &summary).unwrap_err();
+    let error = run.finish(&summary).unwrap_err();
     assert_eq!(summary.values()["failure"], error.to_string());
     assert_eq!(summary.values()["finished"], false);
     assert!(directory.join("summary.json").exists());
@@ -82,8 +80,7 @@ fn a_run_that_breaks_off_keeps_what_it_has() {
 fn an_unstable_step_is_refused_before_anything_is_written() {
     let directory = directory("refused-run");
     let setup = Setup { step: StepSize::Fixed(5.0), ..Setup::default() };
-    let Built { mut scene, droplets, .. } = setup.build().unwrap();
-    let refused = WatchedRun::new(&mut scene, &droplets, &setup, &flags("10", &directory, true), "", "");
+    let refused = WatchedRun::new(setup.build().unwrap(), &setup, &flags("10", &directory, true), "");
     assert!(refused.unwrap_err().to_string().contains("time step 5"));
     assert!(!directory.exists());
 }

@@ -7,7 +7,7 @@ fn results_are_rows() {
     let rows: Vec<Summary> = [0.25, f64::NAN]
         .into_iter()
         .map(|speed| {
-            let mut summary = Summary::new();
+            let mut summary = Summary::default();
             summary.put("regime", "at rest, or nearly", "");
             summary.put("speed", speed, "");
             summary

@@ -15,7 +15,7 @@ fn finished_runs_are_kept_and_spoilt_or_failed_ones_made_again() {
             |&job| {
                 runs.fetch_add(1, Ordering::Relaxed);
                 ensure!(job != fails, "job {job} does not work");
-                let mut summary = Summary::new();
+                let mut summary = Summary::default();
                 summary.put("square", job * job, "");
                 Ok(summary)
             },

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use motile::ib_core::{
-    Body, BodyError, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Medium, Vec2,
+    Body, BodyError, Discretisation, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2,
     body::{StepInfo, StepLimit},
     hydrodynamics::{FlowWork, SolveReport},
 };
@@ -65,8 +65,8 @@ impl<B: Body> Body for Watched<B> {
         self.1.forces.time(|| self.0.write_markers(positions));
     }
 
-    fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        self.1.forces.time(|| self.0.write_forces(medium, forces))
+    fn write_forces(&mut self, discretisation: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        self.1.forces.time(|| self.0.write_forces(discretisation, forces))
     }
 
     fn state_len(&self) -> usize {
@@ -85,8 +85,8 @@ impl<B: Body> Body for Watched<B> {
         self.1.transport.time(|| self.0.rate(velocities, rate));
     }
 
-    fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
-        self.1.upkeep.time(|| self.0.begin_step(medium, step))
+    fn begin_step(&mut self, discretisation: &Discretisation, step: StepInfo) -> Result<(), BodyError> {
+        self.1.upkeep.time(|| self.0.begin_step(discretisation, step))
     }
 
     fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
@@ -97,22 +97,22 @@ impl<B: Body> Body for Watched<B> {
         self.1.transport.time(|| self.0.solve_implicit(factor, state));
     }
 
-    fn end_step(&mut self, medium: &Medium, dt: f64) -> Result<(), BodyError> {
-        self.1.upkeep.time(|| self.0.end_step(medium, dt))
+    fn end_step(&mut self, discretisation: &Discretisation, dt: f64) -> Result<(), BodyError> {
+        self.1.upkeep.time(|| self.0.end_step(discretisation, dt))
     }
 
     fn keep_step(&mut self) {
         self.0.keep_step();
     }
 
-    fn step_limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
-        self.0.step_limits(medium, limits);
+    fn step_limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
+        self.0.step_limits(discretisation, limits);
     }
 }
 
 impl<H: Hydrodynamics> Hydrodynamics for Watched<H> {
-    fn medium(&self) -> Medium {
-        self.0.medium()
+    fn discretisation(&self) -> Discretisation {
+        self.0.discretisation()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -56,7 +56,7 @@ impl Rows {
 
 /// The results of a run without its history, for a table.
 pub(crate) fn without(summary: &Summary) -> Summary {
-    let mut rest = Summary::new();
+    let mut rest = Summary::default();
     for (name, value) in summary.values().iter().filter(|(name, _)| *name != ENTRY) {
         rest.put(name, value.clone(), "");
     }

@@ -34,7 +34,8 @@ type Shape = fn(f64) -> Droplet;
 pub(crate) fn shapes(quick: bool) -> Tables {
     let spacings = spacings(quick);
     let mut table = Table::new(
-        "Fixed shapes of another viscosity in a 6 x 6 box, errors in % at h = R/10, R/20, R/40: velocity of the centroid, root mean square and largest over the markers",
+        "Fixed shapes of another viscosity in a 6 x 6 box, errors in % at h = R/10, R/20, R/40: velocity of the \
+         centroid, root mean square and largest over the markers",
         &["shape, tension", "ratio", "way", "centroid", "rms", "largest", "orders"],
     );
     let shapes: [(&str, Shape); 4] = [
@@ -73,7 +74,8 @@ pub(crate) fn shapes(quick: bool) -> Tables {
 
 pub(crate) fn tables(quick: bool) -> Tables {
     let mut shapes = Table::new(
-        "Ratio 10, 6 x 6 box, largest errors in %: markers, field points inside and outside (as close as 0.05), second and third moments",
+        "Ratio 10, 6 x 6 box, largest errors in %: markers, field points inside and outside (as close as 0.05), second \
+         and third moments",
         &["shape, tension", "h", "markers", "inside", "outside", "second moments", "third moments"],
     );
     for case in Case::ALL {
@@ -96,7 +98,8 @@ pub(crate) fn tables(quick: bool) -> Tables {
         }
     }
     let mut swimming = Table::new(
-        "A steady swimmer, viscosities 100 and 10, activity -1, 6 x 6 box: errors in % of speed, aspect ratio, stresslet, beta, active fraction, maximum concentration",
+        "A steady swimmer, viscosities 100 and 10, activity -1, 6 x 6 box: errors in % of speed, aspect ratio, \
+         stresslet, beta, active fraction, maximum concentration",
         &["h", "errors", "area change", "steps"],
     );
     for &h in spacings(quick) {
@@ -110,7 +113,8 @@ pub(crate) fn tables(quick: bool) -> Tables {
 pub(crate) fn close(quick: bool) -> Tables {
     let spacings = spacings(quick);
     let mut table = Table::new(
-        "Close to each other and to walls, gaps of 1.5 times 0.05, errors in % at h = 0.1, 0.05, 0.025 against boundary integrals",
+        "Close to each other and to walls, gaps of 1.5 times 0.05: errors in % at h = 0.1, 0.05, 0.025 against \
+         boundary integrals",
         &["scene", "droplet", "centroid", "rms", "largest", "orders"],
     );
     for (name, region, droplets) in Droplet::close_scenes() {
@@ -135,7 +139,8 @@ pub(crate) fn close(quick: bool) -> Tables {
 
 pub(crate) fn field(quick: bool) -> Tables {
     let mut table = Table::new(
-        "Flow away from the markers, largest errors in %: velocity (of the fastest marker), gradient (of that over R), pressure (of its range)",
+        "Flow away from the markers, largest errors in %: velocity (of the fastest marker), gradient (of that over R), \
+         pressure (of its range)",
         &["region", "ratio", "h", "inside, nearer than 3h", "outside, nearer than 3h", "inside", "outside"],
     );
     for (name, region) in [("box 6", square(6.0)), ("channel 6 x 4", open_channel(6.0, 4.0))] {
@@ -153,7 +158,8 @@ pub(crate) fn field(quick: bool) -> Tables {
 
 pub(crate) fn iterations(quick: bool) -> Tables {
     let mut cold = Table::new(
-        "Conjugate gradients for a smeared droplet (radius 1, tension 10 + 3 cos + 2 cos 2 + cos 3), cold: iterations to 1e-4 / 1e-6 / 1e-8, and the true residual at the last",
+        "Conjugate gradients for a smeared droplet (radius 1, tension 10 + 3 cos + 2 cos 2 + cos 3), cold: iterations \
+         to 1e-4 / 1e-6 / 1e-8, and the true residual at the last",
         &["region", "ratio", "64", "128", "256"],
     );
     for (name, region) in [("box 4 x 4", square(4.0)), ("channel 4 x 4", open_channel(4.0, 4.0))] {
@@ -173,7 +179,8 @@ pub(crate) fn iterations(quick: bool) -> Tables {
         }
     }
     let mut warm = Table::new(
-        "The same for a swimmer, activity -4, 6 x 6 box, 100 steps after t = 1, each solve from the linear extrapolation of the two before: mean iterations a solve, most, largest true residual",
+        "The same for a swimmer, activity -4, 6 x 6 box: 100 steps after t = 1, each solve from the linear \
+         extrapolation of the two before: mean iterations a solve, most, largest true residual",
         &["ratio", "h", "dt", "to 1e-4", "to 1e-6"],
     );
     for ratio in [10.0, 100.0, 1000.0] {
@@ -189,7 +196,8 @@ pub(crate) fn iterations(quick: bool) -> Tables {
         }
     }
     let mut layer = Table::new(
-        "A smooth layer, a flow that is known: largest errors of velocity and pressure in % on 32, 64, 128, 256 squared, orders, iterations to 1e-10",
+        "A smooth layer, a flow that is known: largest errors of velocity and pressure in % on 32, 64, 128, 256 \
+         squared, orders, iterations to 1e-10",
         &["region", "ratio", "velocity", "pressure", "orders", "iterations"],
     );
     let cells = [32_usize, 64, 128, 256];
@@ -220,7 +228,7 @@ pub(crate) fn decay(quick: bool) -> Tables {
         &["box", "way", "h", "rate", "error in %"],
     );
     let grid = |h: f64| thick(on_grid(h), -1.0, 1000.0);
-    // The thesis' motion of markers and area constraint, with the default flux.
+    // Cowley's motion of markers and area constraint, with the default flux.
     let mut thesis = DropletSetup { viscosity: Some(1000.0), ..DropletSetup::thesis() };
     thesis.particles = Some(Particles { activity: -1.0, flux: Flux::default(), ..Particles::default() });
     let arithmetic = |h: f64| {
@@ -293,7 +301,8 @@ pub(crate) fn runs(quick: bool) -> Tables {
 
 pub(crate) fn cost(quick: bool) -> Tables {
     let mut table = Table::new(
-        "Cost of an evaluation of a droplet that moves by 0.002 between evaluations: time, in units of a forward and an inverse real transform of the grid, solves on the grid, iterations",
+        "Cost of an evaluation of a droplet that moves by 0.002 between evaluations: time, in units of a forward and \
+         an inverse real transform of the grid, solves on the grid, iterations",
         &["scene", "h", "ratio", "way", "ms", "transform pairs", "solves", "iterations"],
     );
     for &h in if quick { &[0.05][..] } else { &[0.1, 0.05, 0.025][..] } {

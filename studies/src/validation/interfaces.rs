@@ -21,7 +21,8 @@ fn resolutions(quick: bool) -> &'static [(usize, usize)] {
 
 pub(crate) fn relaxation(quick: bool) -> Tables {
     let mut table = Table::new(
-        "Relaxation of an ellipse without a grid, 6 x 6 box, to t = 2: errors of aspect ratio and tip, change of the area",
+        "Relaxation of an ellipse without a grid, 6 x 6 box, to t = 2: errors of aspect ratio and tip, change of the \
+         area",
         &["viscosities in/out", "nodes", "markers", "dt", "aspect ratio", "tip", "area"],
     );
     for ratio in [1, 10] {
@@ -96,7 +97,8 @@ pub(crate) fn transients(quick: bool) -> Tables {
 
 pub(crate) fn channel(quick: bool) -> Tables {
     let mut table = Table::new(
-        "Steady swimmers in channels without a grid (period 12, A = 10): errors in % of speed, aspect ratio, stresslet, beta, gap",
+        "Steady swimmers in channels without a grid (period 12, A = 10): errors in % of speed, aspect ratio, \
+         stresslet, beta, gap",
         &["width", "activity", "nodes", "cells", "errors", "area change", "seconds"],
     );
     for (width, activity, time) in
@@ -126,7 +128,8 @@ pub(crate) fn channel(quick: bool) -> Tables {
 
 pub(crate) fn lateral_modes(quick: bool) -> Tables {
     let mut modes = Table::new(
-        "Lateral offset in a channel without a grid (width 5, period 12, A = 10): growth rate and angular frequency from t = 40 to 100",
+        "Lateral offset in a channel without a grid (width 5, period 12, A = 10): growth rate and angular frequency \
+         from t = 40 to 100",
         &["activity", "nodes", "cells", "growth rate", "error in %", "frequency", "error in %"],
     );
     for activity in [-2.0, -4.0] {
@@ -216,7 +219,8 @@ const THICK_OFFSET: f64 = 0.14;
 
 pub(crate) fn long_runs(quick: bool) -> Tables {
     let mut table = Table::new(
-        "Long runs without a grid, 6 x 6 box, A = 2 |activity|, from an angle of 0.02: rate at which the angle grows, speed, what must not change",
+        "Long runs without a grid, 6 x 6 box, A = 2 |activity|, from an angle of 0.02: rate at which the angle grows, \
+         speed, what must not change",
         &[
             "activity",
             "until",
@@ -273,7 +277,8 @@ pub(crate) fn cost(quick: bool) -> Tables {
         }
         let fastest = rows.iter().map(|row| row.2).fold(f64::INFINITY, f64::min);
         let title = format!(
-            "Cost of a swimmer to t = 60, 6 x 6 box, viscosity 100, activity {activity}: times relative to the fastest run"
+            "Cost of a swimmer to t = 60, 6 x 6 box, viscosity 100, activity {activity}: times relative to the fastest \
+             run"
         );
         let mut table = Table::new(&title, &["method", "error of the speed in %", "steps", "time"]);
         for (name, error, seconds, steps) in &rows {

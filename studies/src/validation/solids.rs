@@ -13,7 +13,8 @@ pub(crate) fn solids(quick: bool) -> Tables {
 
 fn stresses() -> Result<Table, StudyError> {
     let mut table = Table::new(
-        "Stress against central differences of the energy, principal stretches 0.5 to 2: largest difference over the stress",
+        "Stress against central differences of the energy, principal stretches 0.5 to 2: largest difference over the \
+         stress",
         &["energy", "error"],
     );
     for (name, energy) in energies()? {
@@ -24,7 +25,8 @@ fn stresses() -> Result<Table, StudyError> {
 
 fn forces() -> Result<Table, StudyError> {
     let mut table = Table::new(
-        "Forces under a large rough deformation: sum and torque over the sum of their sizes; under a uniform one: largest force inside over the largest on the boundary",
+        "Forces under a large rough deformation: sum and torque over the sum of their sizes; under a uniform one: \
+         largest force inside over the largest on the boundary",
         &["law", "mesh", "sum", "torque", "patch test"],
     );
     for (mesh, name) in meshes()?.iter().zip(["unstructured ring", "lattice"]) {
@@ -40,7 +42,8 @@ fn forces() -> Result<Table, StudyError> {
 
 fn measured() -> Result<Table, StudyError> {
     let mut table = Table::new(
-        "Moduli of meshes of spacing 0.05 under a strain of 0.001, inner points in equilibrium, over those of the material",
+        "Moduli of meshes of spacing 0.05 under a strain of 0.001, inner points in equilibrium, over those of the \
+         material",
         &["material", "mesh", "shear modulus", "bulk modulus"],
     );
     let samples = [

@@ -47,7 +47,7 @@ fn area(droplet: &ActiveDroplet, on_grid: bool) -> f64 {
 
 /// Areas and particle numbers of the droplets of `system`.
 fn contents<H: Hydrodynamics>(system: &System<H>) -> Vec<[f64; 2]> {
-    let on_grid = system.hydrodynamics().medium().spacing.is_some();
+    let on_grid = system.hydrodynamics().discretisation().spacing.is_some();
     droplets(system).map(|droplet| [area(droplet, on_grid), droplet.particle_numbers().iter().sum()]).collect()
 }
 

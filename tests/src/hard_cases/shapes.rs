@@ -88,7 +88,7 @@ pub(crate) fn trials() -> Vec<Trial> {
         Recipe::new(18, "a net force in a periodic box", &[Way::Grid], |way, extent, look| {
             let solver = PeriodicStokes::new(Grid::periodic(60, 60, SPACING)?, 10.0)?;
             let flow: AnyFlow = Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
-            assert!(flow.medium().domain.walls.is_none());
+            assert!(flow.discretisation().domain.walls.is_none());
             let mut scene = Scene::new(flow);
             let curve = Curve::circle(1.0)?;
             scene.add(ActiveDroplet::passive(&curve.markers_with_spacing(0.5 * SPACING)?, 10.0)?);

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use ib_core::{
-    Body, BodyError, MarkerKind, Medium, Vec2, Warning,
+    Body, BodyError, Discretisation, MarkerKind, Vec2, Warning,
     body::{StepInfo, StepLimit},
     checkpoint::SavedState,
     input::at_least,
@@ -54,8 +54,8 @@ impl Body for ActiveDroplet {
         positions.copy_from_slice(&self.shape.markers);
     }
 
-    fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        self.fit(medium);
+    fn write_forces(&mut self, discretisation: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        self.fit(discretisation);
         let count = self.shape.markers.len();
         let mut before = self.tensions[count - 1] * self.shape.geometry.directions[count - 1];
         for (k, force) in forces.iter_mut().enumerate() {
@@ -138,16 +138,16 @@ impl Body for ActiveDroplet {
         }
     }
 
-    fn begin_step(&mut self, medium: &Medium, step: StepInfo) -> Result<(), BodyError> {
+    fn begin_step(&mut self, discretisation: &Discretisation, step: StepInfo) -> Result<(), BodyError> {
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
             let radius = self.shape.geometry.perimeter / TAU;
             let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
-            let surface = tension / (self.mean_viscosity(medium) * radius);
+            let surface = tension / (self.mean_viscosity(discretisation) * radius);
             let diffusion = self.diffusion / (radius * radius);
             self.relaxation = relaxation * if self.transport.is_some() { diffusion } else { surface };
         }
         let count = self.shape.markers.len();
-        self.fit(medium);
+        self.fit(discretisation);
         self.diffusivities.resize(count, 0.0);
         self.diffusivities.fill(self.diffusion);
         self.stabiliser.clear();
@@ -155,7 +155,7 @@ impl Body for ActiveDroplet {
             return Ok(());
         }
         self.stabiliser.resize(count, 0.0);
-        let scale = 0.25 * finest_response(medium) / self.mean_viscosity(medium);
+        let scale = 0.25 * finest_response(discretisation) / self.mean_viscosity(discretisation);
         let stiffness = |c: f64| scale * c * (-self.tension.slope(c)).max(0.0);
         let mut before = stiffness(self.concentrations[count - 1]);
         for ((face, all), &c) in self.stabiliser.iter_mut().zip(&mut self.diffusivities).zip(&self.concentrations) {
@@ -184,11 +184,11 @@ impl Body for ActiveDroplet {
         }
     }
 
-    fn end_step(&mut self, medium: &Medium, dt: f64) -> Result<(), BodyError> {
+    fn end_step(&mut self, discretisation: &Discretisation, dt: f64) -> Result<(), BodyError> {
         match self.motion {
             Motion::Equidistributed { filter: true, .. } => {
-                if let Some(spacing) = medium.spacing {
-                    let rate = 0.5 * dt / (self.mean_viscosity(medium) * spacing);
+                if let Some(spacing) = discretisation.spacing {
+                    let rate = 0.5 * dt / (self.mean_viscosity(discretisation) * spacing);
                     let (tensions, count) = (&self.tensions, self.tensions.len());
                     let strength =
                         |k: usize| 0.5 * rate * (tensions[k] + tensions[if k == 0 { count - 1 } else { k - 1 }]);
@@ -230,8 +230,8 @@ impl Body for ActiveDroplet {
         self.repair.accumulate(std::mem::take(&mut self.last_repair));
     }
 
-    fn step_limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
-        self.limits(medium, limits);
+    fn step_limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
+        self.limits(discretisation, limits);
     }
 
     /// The radius of a circle of the same area for positions, the mean for particle numbers.
@@ -261,7 +261,7 @@ impl Body for ActiveDroplet {
         properties
     }
 
-    fn warnings(&self, medium: &Medium) -> Vec<Warning> {
+    fn warnings(&self, discretisation: &Discretisation) -> Vec<Warning> {
         let body = self.name.clone();
         let warning = |cause, excess, message| Warning { body: body.clone(), cause, excess, message };
         let mut warnings = Vec::new();
@@ -280,7 +280,7 @@ impl Body for ActiveDroplet {
             warnings.push(warning("edge of the concentration not resolved", peclet / PECLET_LIMIT, message));
         }
         let radius = self.shape.geometry.perimeter / TAU;
-        if let Some(least) = medium.spacing.map(|h| LEAST_RADIUS * h).filter(|least| radius < *least) {
+        if let Some(least) = discretisation.spacing.map(|h| LEAST_RADIUS * h).filter(|least| radius < *least) {
             let message = format!("its radius is {radius:.2e}, below {least:.2e}: use a finer grid");
             warnings.push(warning("droplet not resolved", least / radius, message));
         }
@@ -297,7 +297,7 @@ impl Body for ActiveDroplet {
         SavedState { reals, counts: counts.map(|count| count as u64).to_vec() }
     }
 
-    fn load(&mut self, medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
+    fn load(&mut self, discretisation: &Discretisation, saved: &SavedState) -> Result<(), BodyError> {
         let [count, segments, furthest, inserted, removed] = saved.counts_of()?;
         let per_marker = if self.transport.is_some() { 4 } else { 3 };
         let count = usize::try_from(count).unwrap_or(usize::MAX).min(saved.reals.len());
@@ -306,7 +306,7 @@ impl Body for ActiveDroplet {
         let (slip, numbers) = rest.split_at(count);
         self.resize(count);
         self.read_state(state)?;
-        self.fit(medium);
+        self.fit(discretisation);
         self.slip.copy_from_slice(slip);
         (self.target_spacing, self.initial_area, self.initial_number) = (numbers[0], numbers[1], numbers[2]);
         self.relaxation = numbers[4];

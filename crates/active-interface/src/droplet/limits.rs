@@ -1,7 +1,7 @@
 //! The stable time steps of a droplet.
 
 use ib_core::{
-    Medium,
+    Discretisation,
     body::{StepCause, StepLimit},
 };
 
@@ -9,10 +9,10 @@ use super::{ActiveDroplet, Motion};
 
 impl ActiveDroplet {
     /// The stable steps; see [`ib_core::Body::step_limits`].
-    pub(crate) fn limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
-        let viscosity = self.mean_viscosity(medium);
+    pub(crate) fn limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
+        let viscosity = self.mean_viscosity(discretisation);
         let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
-        let stiffness = medium.interface_stiffness * tension;
+        let stiffness = discretisation.interface_stiffness * tension;
         limits(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
         if let Motion::Equidistributed { .. } = self.motion {
             limits(StepLimit::decay(2.0 / self.relaxation, "the relaxation of the marker spacing"));
@@ -20,7 +20,7 @@ impl ActiveDroplet {
         if self.transport.is_some() {
             // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.
             let coupling = self.concentrations.iter().map(|&c| c * self.tension.slope(c).abs()).fold(0.0_f64, f64::max);
-            let unit = finest_response(medium) * viscosity / coupling;
+            let unit = finest_response(discretisation) * viscosity / coupling;
             let (remainder, cause) = if self.stabilised {
                 (8.0, StepCause::Stabilised { bare: 2.5 * unit })
             } else {
@@ -39,6 +39,6 @@ impl ActiveDroplet {
 
 /// The length below which the flow no longer responds to forces along an interface: the grid spacing, or 2/q for the
 /// largest resolved wave number q, of which the interface's stiffness is a quarter.
-pub(crate) fn finest_response(medium: &Medium) -> f64 {
-    medium.spacing.unwrap_or(0.5 / medium.interface_stiffness)
+pub(crate) fn finest_response(discretisation: &Discretisation) -> f64 {
+    discretisation.spacing.unwrap_or(0.5 / discretisation.interface_stiffness)
 }

@@ -1,6 +1,6 @@
 //! What is seen of a droplet of a scene.
 
-use ib_core::{BodyError, Handle, Hydrodynamics, Medium, Observe, SceneError, System, scene::BodyFlow};
+use ib_core::{BodyError, Discretisation, Handle, Hydrodynamics, Observe, SceneError, System, scene::BodyFlow};
 
 use crate::observables::InterfaceState;
 use crate::{ActiveDroplet, Convention, Observables, observe};
@@ -9,15 +9,15 @@ impl Observe for ActiveDroplet {
     type Observables = Observables;
 
     /// All observables ([`observe`]) in the far-field convention; for another one see [`InterfaceState::of`].
-    fn observables(&self, medium: &Medium, flow: &BodyFlow<'_>) -> Result<Observables, BodyError> {
-        Ok(observe(&InterfaceState::new(self, medium, flow), Convention::FarField)?)
+    fn observables(&self, discretisation: &Discretisation, flow: &BodyFlow<'_>) -> Result<Observables, BodyError> {
+        Ok(observe(&InterfaceState::new(self, discretisation, flow), Convention::FarField)?)
     }
 }
 
 impl<'a> InterfaceState<'a> {
     /// The state of a droplet with the flow at its markers.
-    fn new(droplet: &'a ActiveDroplet, medium: &Medium, flow: &BodyFlow<'a>) -> Self {
-        let outside = medium.viscosity;
+    fn new(droplet: &'a ActiveDroplet, discretisation: &Discretisation, flow: &BodyFlow<'a>) -> Self {
+        let outside = discretisation.viscosity;
         Self {
             markers: droplet.markers(),
             forces: flow.forces,
@@ -32,7 +32,7 @@ impl<'a> InterfaceState<'a> {
     /// # Errors
     /// A handle of another scene; [`SceneError::NotEvaluated`] where the flow of the present state is not known.
     pub fn of<H: Hydrodynamics>(system: &'a System<H>, droplet: Handle<ActiveDroplet>) -> Result<Self, SceneError> {
-        let medium = system.hydrodynamics().medium();
-        Ok(Self::new(system.body(droplet)?, &medium, &system.flow_at(droplet)?))
+        let discretisation = system.hydrodynamics().discretisation();
+        Ok(Self::new(system.body(droplet)?, &discretisation, &system.flow_at(droplet)?))
     }
 }

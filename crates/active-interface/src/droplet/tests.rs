@@ -12,8 +12,8 @@ struct Converging {
 }
 
 impl Hydrodynamics for Converging {
-    fn medium(&self) -> Medium {
-        Medium {
+    fn discretisation(&self) -> Discretisation {
+        Discretisation {
             domain: Domain { origin: [0.0, 0.0], periods: [None, None], walls: None },
             viscosity: 1.0,
             spacing: (!self.smooth).then_some(0.1),
@@ -58,7 +58,7 @@ fn a_midpoint_step_computes_each_geometry_once() {
         for droplet in [droplet(motion), passive] {
             let mut scene = Scene::new(Converging { smooth });
             let handle = scene.add(droplet);
-            // The first step also fits the geometry to the medium.
+            // The first step also fits the geometry to the discretisation.
             scene.step(0.01).unwrap();
             let evaluations = |scene: &Scene<Converging>| {
                 let droplet = scene.body(handle).unwrap();

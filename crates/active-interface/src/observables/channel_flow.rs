@@ -2,7 +2,7 @@
 
 use ib_core::input::{finite, positive};
 use ib_core::{
-    BodyError, FlowError, FlowSample, Handle, Hydrodynamics, Medium, SceneError, System, Vec2,
+    BodyError, Discretisation, FlowError, FlowSample, Handle, Hydrodynamics, SceneError, System, Vec2,
     hydrodynamics::SolveReport,
 };
 
@@ -16,7 +16,7 @@ use crate::{
 /// The pressure drop along a channel of the length `length` (length): how much lower the pressure is at its right end
 /// (force per length in 2D), `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.
 ///
-/// Positive where pressure drives the fluid to the right. Zero where the pressure is periodic, as in the thesis'
+/// Positive where pressure drives the fluid to the right. Zero where the pressure is periodic, as in Cowley's
 /// channel; in a closed channel (no net flux) it is what a swimmer has to push against.
 ///
 /// # Errors
@@ -35,9 +35,9 @@ pub fn pressure_drop(report: &SolveReport, length: f64) -> Result<f64, Interface
 /// # Errors
 /// A fluid without walls, those of an evaluation and of sampling.
 pub fn net_flux<H: Hydrodynamics>(system: &mut System<H>, x: f64) -> Result<f64, SceneError> {
-    let (medium, time) = (system.hydrodynamics().medium(), system.time());
-    let [bottom, top] = walls(&medium, time)?;
-    let line = Line::new(&medium, &[bottom, top]);
+    let (discretisation, time) = (system.hydrodynamics().discretisation(), system.time());
+    let [bottom, top] = walls(&discretisation, time)?;
+    let line = Line::new(&discretisation, &[bottom, top]);
     let [flux] = line.integrals(system, x)?;
     Ok(flux)
 }
@@ -99,8 +99,8 @@ pub fn gap_flow<H: Hydrodynamics>(
     system: &mut System<H>,
     droplet: Handle<ActiveDroplet>,
 ) -> Result<GapFlow, SceneError> {
-    let (medium, time) = (system.hydrodynamics().medium(), system.time());
-    let [bottom, top] = walls(&medium, time)?;
+    let (discretisation, time) = (system.hydrodynamics().discretisation(), system.time());
+    let [bottom, top] = walls(&discretisation, time)?;
     system.evaluate()?;
     let state = InterfaceState::of(system, droplet)?;
     let markers = state.markers;
@@ -110,7 +110,7 @@ pub fn gap_flow<H: Hydrodynamics>(
     });
     let (x, velocity) = moving.map_err(|source| named(system, droplet, source))?;
     let [low, high] = crossings(markers, x).map(|y| y.clamp(bottom, top));
-    let line = Line::new(&medium, &[bottom, low, high, top]);
+    let line = Line::new(&discretisation, &[bottom, low, high, top]);
     let [below, inside, above] = line.integrals(system, x)?;
     Ok(GapFlow {
         velocity,
@@ -131,12 +131,12 @@ fn named<H: Hydrodynamics>(system: &System<H>, droplet: Handle<ActiveDroplet>, s
     }
 }
 
-fn walls(medium: &Medium, time: f64) -> Result<[f64; 2], SceneError> {
+fn walls(discretisation: &Discretisation, time: f64) -> Result<[f64; 2], SceneError> {
     let source = FlowError::Unsupported {
         what: "the flux through a cross-section",
         remedy: "put the droplet into a channel with walls",
     };
-    medium.domain.walls.ok_or(SceneError::Flow { time, source })
+    discretisation.domain.walls.ok_or(SceneError::Flow { time, source })
 }
 
 /// Lowest and highest point of the polygon at `x`; crossed over without one.
@@ -160,12 +160,12 @@ struct Line {
 impl Line {
     /// Two Gauss points in each panel of the sections between the heights `ends`; panels end where the sampled velocity
     /// has kinks.
-    fn new(medium: &Medium, ends: &[f64]) -> Self {
+    fn new(discretisation: &Discretisation, ends: &[f64]) -> Self {
         let mut points = Vec::new();
         let root = 1.0 / 3.0_f64.sqrt();
         for (section, pair) in ends.windows(2).enumerate() {
             let (from, to) = (pair[0], pair[1]);
-            let mut kinks = match medium.spacing {
+            let mut kinks = match discretisation.spacing {
                 Some(h) => {
                     // Rows of u, half a cell off the walls.
                     let row = |j: f64| ends[0] + (j + 0.5) * h;
@@ -175,7 +175,7 @@ impl Line {
                 }
                 None => Vec::new(),
             };
-            if medium.spacing.is_none() {
+            if discretisation.spacing.is_none() {
                 kinks.extend((1..PANELS).map(|j| from + (to - from) * j as f64 / PANELS as f64));
             }
             kinks.push(to);

@@ -161,7 +161,7 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
         let flow = self.with_gap_flow.then(|| gap_flow(system, self.droplet)).transpose()?;
         let state = InterfaceState::of(system, self.droplet)?;
         let observables = observe(&state, self.convention)?;
-        let walls = system.hydrodynamics().medium().domain.walls;
+        let walls = system.hydrodynamics().discretisation().domain.walls;
         let gap = walls.map(|walls| wall_gap(state.markers, walls));
         if let Some(gap) = gap {
             self.minimum_gap = Some(self.minimum_gap.map_or(gap, |least| least.min(gap)));

@@ -31,7 +31,10 @@ fn smoothing_damps_a_mode_by_its_symbol() {
 
 proptest! {
     #[test]
-    fn the_solution_solves(n in 3usize..60, seed in proptest::collection::vec((-1.0..1.0f64, -1.0..1.0f64, 0.05..1.0f64, -5.0..5.0f64), 60)) {
+    fn the_solution_solves(
+        n in 3usize..60,
+        seed in proptest::collection::vec((-1.0..1.0f64, -1.0..1.0f64, 0.05..1.0f64, -5.0..5.0f64), 60),
+    ) {
         let lower: Vec<f64> = seed[..n].iter().map(|s| s.0).collect();
         let upper: Vec<f64> = seed[..n].iter().map(|s| s.1).collect();
         let diagonal: Vec<f64> = seed[..n].iter().map(|s| s.0.abs() + s.1.abs() + s.2).collect();
@@ -44,7 +47,10 @@ proptest! {
     }
 
     #[test]
-    fn constant_coefficients_agree_with_general(n in 3usize..60, off in -1.0..1.0f64, excess in 0.01..2.0f64, sign in prop::bool::ANY, rhs in proptest::collection::vec(-5.0..5.0f64, 60)) {
+    fn constant_coefficients_agree_with_general(
+        n in 3usize..60, off in -1.0..1.0f64, excess in 0.01..2.0f64, sign in prop::bool::ANY,
+        rhs in proptest::collection::vec(-5.0..5.0f64, 60),
+    ) {
         let diagonal = (2.0 * off.abs() + excess) * if sign { 1.0 } else { -1.0 };
         let mut fast = rhs[..n].to_vec();
         let mut general = fast.clone();

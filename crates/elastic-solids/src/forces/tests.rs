@@ -69,7 +69,9 @@ proptest! {
     }
 
     #[test]
-    fn forces_are_minus_the_gradient_of_the_energy(amplitude in 0.0..0.15, seed in any::<u64>(), pick in any::<usize>()) {
+    fn forces_are_minus_the_gradient_of_the_energy(
+        amplitude in 0.0..0.15, seed in any::<u64>(), pick in any::<usize>(),
+    ) {
         for mesh in [blob(), wall()] {
             let positions = deformed(&mesh, amplitude, 0.03, seed);
             for law in laws(&mesh) {

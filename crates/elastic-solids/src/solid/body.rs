@@ -1,7 +1,7 @@
 //! The solid as a body of a scene.
 
 use ib_core::{
-    Body, BodyError, MarkerKind, Medium, Vec2, body::StepLimit, checkpoint::SavedState, gap::Boundary,
+    Body, BodyError, Discretisation, MarkerKind, Vec2, body::StepLimit, checkpoint::SavedState, gap::Boundary,
     input::same_length,
 };
 
@@ -39,14 +39,14 @@ impl Body for Solid {
         }
     }
 
-    fn write_forces(&mut self, medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, discretisation: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.compute_forces()?;
         if self.corrected {
             let surface = match self.surface.take() {
-                Some(surface) if surface.suits(medium) => surface,
-                _ => SurfaceCorrection::new(&self.mesh, &self.free, medium)?,
+                Some(surface) if surface.suits(discretisation) => surface,
+                _ => SurfaceCorrection::new(&self.mesh, &self.free, discretisation)?,
             };
-            self.surface.insert(surface).update(&self.mesh, &self.free, medium, &self.positions, &self.forces);
+            self.surface.insert(surface).update(&self.mesh, &self.free, discretisation, &self.positions, &self.forces);
         }
         for (force, &point) in forces.iter_mut().zip(&self.free) {
             *force = self.forces[point];
@@ -83,7 +83,7 @@ impl Body for Solid {
         }
     }
 
-    fn end_step(&mut self, _medium: &Medium, _dt: f64) -> Result<(), BodyError> {
+    fn end_step(&mut self, _medium: &Discretisation, _dt: f64) -> Result<(), BodyError> {
         if self.may_invert { Ok(()) } else { Ok(self.check_inversion()?) }
     }
 
@@ -127,7 +127,7 @@ impl Body for Solid {
         SavedState { reals, counts }
     }
 
-    fn load(&mut self, _medium: &Medium, saved: &SavedState) -> Result<(), BodyError> {
+    fn load(&mut self, _medium: &Discretisation, saved: &SavedState) -> Result<(), BodyError> {
         let [points, _] = saved.counts_of()?;
         same_length("a saved solid", self.positions.len(), points as usize)?;
         let split = 2 * self.positions.len();
@@ -145,16 +145,16 @@ impl Body for Solid {
     /// `2 eta/(mu + 0.015 kappa (a/h)^2)` for the midpoint rule, a being the spacing of the mesh and h that of the
     /// grid; of the moduli the largest in the solid. Tethers add to the sum what holding all of them together in the
     /// slowest flow of the domain takes.
-    fn step_limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
+    fn step_limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
-        let coarseness = medium.spacing.map_or(0.0, |spacing| self.spacing / spacing);
+        let coarseness = discretisation.spacing.map_or(0.0, |spacing| self.spacing / spacing);
         let elastic = moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness;
         let (stiffness, reason) = if self.tethers.is_empty() {
             (elastic, "the elastic moduli")
         } else {
-            (elastic + self.tether_stiffness(medium), "the elastic moduli and tethers")
+            (elastic + self.tether_stiffness(discretisation), "the elastic moduli and tethers")
         };
-        limits(StepLimit::decay(2.0 * medium.viscosity / stiffness, reason));
+        limits(StepLimit::decay(2.0 * discretisation.viscosity / stiffness, reason));
     }
 }
 
@@ -166,13 +166,13 @@ impl Solid {
     /// it at `k H/(pi^2 eta)`, one of thickness t in the middle at `k (H/4 - 0.148 t)/eta` (to 4 per cent); without
     /// walls a row in a box of length L at `k L/(12 eta)`. A group shorter than half of H or L moves no more easily
     /// than one of that length.
-    fn tether_stiffness(&self, medium: &Medium) -> f64 {
+    fn tether_stiffness(&self, discretisation: &Discretisation) -> f64 {
         let anchors = || self.tethers.iter().map(|tether| tether.anchor);
         let first = self.tethers[0].anchor;
         let (low, high) = anchors().fold((first, first), |(a, b), p| (a.min(p), b.max(p)));
         let size = (high - low) + Vec2::splat(self.spacing);
         let (length, thickness) = (size.x.max(size.y), size.x.min(size.y));
-        let domain = &medium.domain;
+        let domain = &discretisation.domain;
         let (reach, mobility) = match domain.walls {
             Some([bottom, top]) => (top - bottom, 0.25 * (top - bottom) - 0.148 * thickness.min(top - bottom)),
             None => {

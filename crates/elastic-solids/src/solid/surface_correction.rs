@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ib_core::input::within;
-use ib_core::{Medium, MobilityDeficit, Vec2};
+use ib_core::{Discretisation, MobilityDeficit, Vec2};
 
 use crate::solid::rounded_kink::{Beside, RoundedKink};
 use crate::{SolidError, TriangleMesh};
@@ -115,8 +115,12 @@ impl SurfaceCorrection {
     ///
     /// # Errors
     /// A flow without a grid; a mesh much finer than the grid.
-    pub(crate) fn new(mesh: &TriangleMesh, free: &[usize], medium: &Medium) -> Result<Self, SolidError> {
-        let (Some(spacing), Some(deficit)) = (medium.spacing, &medium.mobility_deficit) else {
+    pub(crate) fn new(
+        mesh: &TriangleMesh,
+        free: &[usize],
+        discretisation: &Discretisation,
+    ) -> Result<Self, SolidError> {
+        let (Some(spacing), Some(deficit)) = (discretisation.spacing, &discretisation.mobility_deficit) else {
             return Err(SolidError::Unsupported {
                 what: "correcting the surface of a solid in a flow without a grid",
                 remedy: "use a grid, or leave the correction out",
@@ -167,9 +171,9 @@ impl SurfaceCorrection {
     }
 
     /// Whether it is made for this flow.
-    pub(crate) fn suits(&self, medium: &Medium) -> bool {
-        medium.spacing == Some(self.spacing)
-            && medium.mobility_deficit.as_ref().is_some_and(|deficit| Arc::ptr_eq(deficit, &self.deficit))
+    pub(crate) fn suits(&self, discretisation: &Discretisation) -> bool {
+        discretisation.spacing == Some(self.spacing)
+            && discretisation.mobility_deficit.as_ref().is_some_and(|deficit| Arc::ptr_eq(deficit, &self.deficit))
     }
 
     /// Finds the points near the surface.
@@ -281,7 +285,7 @@ impl SurfaceCorrection {
         &mut self,
         mesh: &TriangleMesh,
         free: &[usize],
-        medium: &Medium,
+        discretisation: &Discretisation,
         positions: &[Vec2],
         forces: &[Vec2],
     ) {
@@ -290,7 +294,7 @@ impl SurfaceCorrection {
         }
         self.find_edges(mesh, positions);
         self.find_bends();
-        self.find_roots(medium.domain.origin);
+        self.find_roots(discretisation.domain.origin);
         self.missing.fill(0.0);
         self.slopes.fill(0.0);
         let mut feet = std::mem::take(&mut self.feet);
@@ -320,7 +324,7 @@ impl SurfaceCorrection {
             self.missing[vertex.own] *= 2.0 * self.inverse_span(vertex);
         }
         self.smooth();
-        self.weigh(self.spacing / medium.viscosity);
+        self.weigh(self.spacing / discretisation.viscosity);
         for (slope, vertex) in self.slopes.iter_mut().zip(&self.vertices) {
             let span = self.edges[vertex.before].length + self.edges[vertex.own].length;
             let change = self.missing[vertex.after] - self.missing[vertex.before];

@@ -1,7 +1,7 @@
 //! The solid as a body, and what is measured on it.
 
 use ib_core::input::InputError;
-use ib_core::{Body, BodyError, Domain, MarkerKind, Medium, gap::Boundary};
+use ib_core::{Body, BodyError, Discretisation, Domain, MarkerKind, gap::Boundary};
 
 use super::*;
 use crate::channel::{ChannelShape, width_between};
@@ -9,9 +9,9 @@ use crate::material::Mat2;
 use crate::mesh::{equilateral_block, equilateral_strip};
 use crate::{Mesher, NeoHookean};
 
-fn medium() -> Medium {
+fn discretisation() -> Discretisation {
     let domain = Domain { origin: [-2.0, -2.0], periods: [Some(4.0), None], walls: Some([-2.0, 2.0]) };
-    Medium {
+    Discretisation {
         domain,
         viscosity: 10.0,
         spacing: Some(0.2),
@@ -41,7 +41,7 @@ fn pinned_points_are_no_markers() {
     assert!(markers.iter().all(|marker| marker.y > -0.99));
     // Free points feel the pinned ones, so their forces alone do not sum to zero.
     let mut forces = vec![Vec2::ZERO; free];
-    solid.write_forces(&medium(), &mut forces).unwrap();
+    solid.write_forces(&discretisation(), &mut forces).unwrap();
     assert!(forces.iter().sum::<Vec2>().length() > 0.1);
     // Move all by the state: pinned points stay.
     let before = solid.positions().to_vec();
@@ -77,18 +77,18 @@ fn a_deformed_solid_relaxes() {
     let mut energy = solid.elastic_energy().unwrap();
     let start = energy;
     for _ in 0..4000 {
-        solid.write_forces(&medium(), &mut forces).unwrap();
+        solid.write_forces(&discretisation(), &mut forces).unwrap();
         solid.rate(&forces, &mut rate);
         solid.write_state(&mut state);
         state.iter_mut().zip(&rate).for_each(|(x, r)| *x += 0.1 * r);
         solid.read_state(&state).unwrap();
-        solid.end_step(&medium(), 0.1).unwrap();
+        solid.end_step(&discretisation(), 0.1).unwrap();
         let now = solid.elastic_energy().unwrap();
         assert!(now <= energy);
         energy = now;
     }
     assert!(energy < 1e-6 * start, "{start} {energy}");
-    assert!(Observables::of(&solid).largest_displacement < 1e-3);
+    assert!(Deformation::of(&solid).largest_displacement < 1e-3);
 }
 
 #[test]
@@ -103,13 +103,13 @@ fn tethers_pull_back_to_their_anchors() {
     assert!((solid.tether_energy() - 9.0 * 0.5 * 3.0 * 0.01).abs() < 1e-14);
     assert!(solid.elastic_energy().unwrap() < 1e-20);
     let mut forces = vec![Vec2::ZERO; solid.marker_count()];
-    solid.write_forces(&medium(), &mut forces).unwrap();
+    solid.write_forces(&discretisation(), &mut forces).unwrap();
     assert!((forces.iter().sum::<Vec2>() - Vec2::new(-9.0 * 0.3, 0.0)).length() < 1e-12);
     // Nine tethers over 1.6 + 0.2 in a channel of height 4, shorter than half of which they do not count: 27/2 (1 -
     // 0.148 * 0.2).
     let held = 13.5 * (1.0 - 0.148 * 0.2);
     let elastic = 1.0 + 0.015 * 2.0;
-    assert!((limit(&solid, &medium()) - 20.0 / (held + elastic)).abs() < 1e-12);
+    assert!((limit(&solid, &discretisation()) - 20.0 / (held + elastic)).abs() < 1e-12);
     for bad in [0.0, -1.0, f64::NAN] {
         assert!(matches!(
             solid.clone().tethered(bad, |_| true),
@@ -120,9 +120,9 @@ fn tethers_pull_back_to_their_anchors() {
 }
 
 /// The one stable step that a solid states.
-fn limit(solid: &Solid, medium: &Medium) -> f64 {
+fn limit(solid: &Solid, discretisation: &Discretisation) -> f64 {
     let mut dt = f64::NAN;
-    solid.step_limits(medium, &mut |limit| dt = limit.dt);
+    solid.step_limits(discretisation, &mut |limit| dt = limit.dt);
     dt
 }
 
@@ -130,7 +130,7 @@ fn limit(solid: &Solid, medium: &Medium) -> f64 {
 fn step_limits_follow_the_moduli() {
     let of = |shear: f64, bulk: f64, grid: Option<f64>| {
         let solid = Solid::hyperelastic(block(), NeoHookean::new(shear, bulk).unwrap());
-        limit(&solid, &Medium { spacing: grid, ..medium() })
+        limit(&solid, &Discretisation { spacing: grid, ..discretisation() })
     };
     assert!((of(4.0, 8.0, Some(0.2)) - 20.0 / (4.0 + 0.12)).abs() < 1e-12);
     assert!((of(4.0, 8.0, None) - 5.0).abs() < 1e-12);
@@ -138,7 +138,7 @@ fn step_limits_follow_the_moduli() {
     assert!((of(4.0, 80.0, Some(0.1)) - 20.0 / (4.0 + 0.015 * 320.0)).abs() < 1e-12);
     let graded = Solid::springs_graded(block(), |s| 2.0 + s.x).unwrap();
     // The rightmost triangle's centroid stands less than 0.6 right of the origin.
-    let dt = limit(&graded, &medium());
+    let dt = limit(&graded, &discretisation());
     assert!(dt > 20.0 / 2.6 && dt < 20.0 / 2.3, "{dt}");
 }
 
@@ -155,9 +155,9 @@ fn bad_states_are_refused() {
     let mirrored = solid.deformed(|s| Vec2::new(-s.x, s.y)).unwrap();
     assert!(mirrored.elastic_energy().unwrap() < 1e-20);
     assert!((mirrored.smallest_jacobian().0 + 1.0).abs() < 1e-12);
-    assert!(mirrored.clone().end_step(&medium(), 0.1).is_err());
+    assert!(mirrored.clone().end_step(&discretisation(), 0.1).is_err());
     assert!(matches!(mirrored.stresses(), Err(SolidError::Inverted { .. })));
-    assert!(mirrored.allow_inversion().end_step(&medium(), 0.1).is_ok());
+    assert!(mirrored.allow_inversion().end_step(&discretisation(), 0.1).is_ok());
     let other = Springs::new(&equilateral_strip(Vec2::ZERO, 5, 3, 1.0).unwrap(), 1.0).unwrap();
     assert!(matches!(Solid::with_forces(block(), other), Err(SolidError::Input(InputError::WrongLength { .. }))));
 }
@@ -181,24 +181,24 @@ fn observables_of_a_uniform_deformation() {
     let centre: Vec2 =
         (0..solid.mesh().triangles().len()).map(|t| solid.mesh().centroid(t) * solid.mesh().areas()[t]).sum::<Vec2>()
             / solid.mesh().area();
-    let seen = Observables::of(&solid);
+    let seen = Deformation::of(&solid);
     assert!((seen.drift - (a * centre + shift - centre)).length() < 1e-13);
     assert!((seen.centroid - (a * centre + shift)).length() < 1e-13);
     assert!((seen.smallest_jacobian - 0.99).abs() < 1e-12 && (seen.elastic_energy - energy).abs() < 1e-12);
     let flat = solid.deformed(|s| Vec2::new(s.x, 0.0)).unwrap();
-    assert_eq!(Observables::of(&flat).elastic_energy, f64::INFINITY);
+    assert_eq!(Deformation::of(&flat).elastic_energy, f64::INFINITY);
 }
 
 #[test]
 fn displacements_along_and_across_a_surface() {
     let strip = equilateral_strip(Vec2::ZERO, 20, 5, 0.1).unwrap();
     let slid = Solid::springs(strip.clone(), 1.0).unwrap().deformed(|s| s + Vec2::new(0.4, 0.0)).unwrap();
-    let seen = Observables::of(&slid);
+    let seen = Deformation::of(&slid);
     assert!((seen.largest_displacement - 0.4).abs() < 1e-14 && seen.largest_normal_displacement < 1e-14);
     let top = 5.0 * 0.1 * 0.75_f64.sqrt();
     // The top row is an odd one, half a spacing off.
     let bulged = |s: Vec2| s + Vec2::new(0.4, if (s.x - 0.55).abs() < 1e-9 { 0.05 * s.y / top } else { 0.0 });
-    let seen = Observables::of(&Solid::springs(strip, 1.0).unwrap().deformed(bulged).unwrap());
+    let seen = Deformation::of(&Solid::springs(strip, 1.0).unwrap().deformed(bulged).unwrap());
     assert!((seen.largest_normal_displacement - 0.05).abs() < 1e-12);
     assert!((seen.largest_displacement - 0.4_f64.hypot(0.05)).abs() < 1e-12);
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::{
-    Body, BodyError, MarkerKind, Medium, Vec2,
+    Body, BodyError, Discretisation, MarkerKind, Vec2,
     body::StepLimit,
     input::{InputError, all_points_finite, not_negative},
 };
@@ -118,16 +118,16 @@ impl MarkerBody {
     }
 
     /// The fastest decay of displacements (1/time).
-    fn decay_rate(&self, medium: &Medium, stiffness: f64) -> f64 {
+    fn decay_rate(&self, discretisation: &Discretisation, stiffness: f64) -> f64 {
         let count = self.positions.len() as f64;
         let centre = self.positions.iter().sum::<Vec2>() / count;
         let gyration = (self.positions.iter().map(|p| (p - centre).length_squared()).sum::<f64>() / count).sqrt();
-        let [x, y] = medium.domain.periods;
-        let height = medium.domain.walls.map(|[below, above]| above - below);
+        let [x, y] = discretisation.domain.periods;
+        let height = discretisation.domain.walls.map(|[below, above]| above - below);
         let width = [x, y, height].into_iter().flatten().fold(f64::INFINITY, f64::min);
         let width = if width.is_finite() { width } else { gyration };
-        let mobility = |radius: f64| ((width / radius).ln().max(0.0) + 1.0) / (4.0 * PI * medium.viscosity);
-        let finest = medium.spacing.unwrap_or(gyration / count);
+        let mobility = |radius: f64| ((width / radius).ln().max(0.0) + 1.0) / (4.0 * PI * discretisation.viscosity);
+        let finest = discretisation.spacing.unwrap_or(gyration / count);
         let alone = if finest > 0.0 { mobility(finest) } else { 0.0 };
         stiffness * alone.max(count * mobility(gyration.max(finest)))
     }
@@ -150,7 +150,7 @@ impl Body for MarkerBody {
         positions.copy_from_slice(&self.positions);
     }
 
-    fn write_forces(&mut self, _medium: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, _medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
         forces.fill(Vec2::ZERO);
         (self.forces)(&self.positions, forces);
         all_points_finite("the forces", forces).map_err(|error| BodyError::Other(error.into()))
@@ -187,9 +187,9 @@ impl Body for MarkerBody {
         }
     }
 
-    fn step_limits(&self, medium: &Medium, limits: &mut dyn FnMut(StepLimit)) {
+    fn step_limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
         if let Some(stiffness) = self.stiffness.filter(|stiffness| *stiffness > 0.0 && !self.positions.is_empty()) {
-            limits(StepLimit::decay(2.0 / self.decay_rate(medium, stiffness), "the stiffness"));
+            limits(StepLimit::decay(2.0 / self.decay_rate(discretisation, stiffness), "the stiffness"));
         }
     }
 }

@@ -4,11 +4,14 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// A checkpoint could not be written or read.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
     /// The file could not be written or read.
-    #[error("could not {action} the checkpoint {}: check the path, the permissions and the space on the disk", path.display())]
+    #[error(
+        "could not {action} the checkpoint {}: check the path, the permissions and the space on the disk",
+        path.display()
+    )]
     File {
         /// What was tried.
         action: &'static str,
@@ -40,7 +43,8 @@ pub enum CheckpointError {
     Foreign,
     /// A checkpoint of another version of the format.
     #[error(
-        "the checkpoint has version {found} of the format, this program reads version {supported}: use the program that wrote it"
+        "the checkpoint has version {found} of the format, this program reads version {supported}: use the program \
+         that wrote it"
     )]
     Version {
         /// Its version.
@@ -50,7 +54,8 @@ pub enum CheckpointError {
     },
     /// The end is missing, or there is something after it.
     #[error(
-        "the checkpoint has {found} bytes where {expected} are needed: it is incomplete or has been added to, use another one"
+        "the checkpoint has {found} bytes where {expected} are needed: it is incomplete or has been added to, use \
+         another one"
     )]
     Length {
         /// Bytes needed.
@@ -70,6 +75,8 @@ pub enum CheckpointError {
     #[error("the contents of the checkpoint make no sense: use another one")]
     Contents(#[source] postcard::Error),
 }
+
+input_checks::debug_as_explanation!(CheckpointError);
 
 impl CheckpointError {
     /// A file that could not be read.

@@ -2,7 +2,7 @@
 
 use super::boundary::Frame;
 use super::{Boundary, Gaps};
-use crate::{Medium, Vec2};
+use crate::{Discretisation, Vec2};
 
 /// How deep a body may be inside another one, in grid spacings: films that drain at rest come to this by the round-off
 /// of a grid.
@@ -46,7 +46,7 @@ impl Gaps {
     ///
     /// ```
     /// use ib_core::gap::{Boundary, Conflict, Gaps};
-    /// use ib_core::{Domain, MarkerKind, Medium, Vec2};
+    /// use ib_core::{Domain, MarkerKind, Discretisation, Vec2};
     ///
     /// let square = |x: f64| {
     ///     let mut square = Boundary::default();
@@ -54,49 +54,53 @@ impl Gaps {
     ///     (square, MarkerKind::Points)
     /// };
     /// let domain = Domain { origin: [0.0; 2], periods: [Some(6.0), None], walls: None };
-    /// let medium = Medium {
-    ///     domain, viscosity: 1.0, spacing: Some(0.1), shape_modes: None, interface_stiffness: 1.0, mobility_deficit: None,
+    /// let discretisation = Discretisation {
+    ///     domain, viscosity: 1.0, spacing: Some(0.1), shape_modes: None, interface_stiffness: 1.0,
+    ///     mobility_deficit: None,
     /// };
-    /// assert_eq!(Gaps::of([square(0.0), square(2.0)]).conflict(&medium), None);
+    /// assert_eq!(Gaps::of([square(0.0), square(2.0)]).conflict(&discretisation), None);
     /// // the image of the third overlaps the first
     /// let Some(Conflict::Overlap { body, other, depth, .. }) =
-    ///     Gaps::of([square(0.0), square(2.0), square(5.5)]).conflict(&medium)
+    ///     Gaps::of([square(0.0), square(2.0), square(5.5)]).conflict(&discretisation)
     /// else {
     ///     panic!()
     /// };
     /// assert_eq!((body, other, depth), (2, 0, 0.25));
     /// ```
     #[must_use]
-    pub fn conflict(&self, medium: &Medium) -> Option<Conflict> {
-        let periods = medium.domain.periods;
-        let allowed = self.allowed(medium);
+    pub fn conflict(&self, discretisation: &Discretisation) -> Option<Conflict> {
+        let periods = discretisation.domain.periods;
+        let allowed = self.allowed(discretisation);
         let pairs = (0..self.boundaries.len()).flat_map(|body| (0..body).map(move |other| [body, other]));
         let mut overlaps = pairs.filter_map(|[body, other]| {
             let (place, depth) = self.overlap(body, other, periods, allowed).filter(|(_, depth)| *depth > allowed)?;
             Some(Conflict::Overlap { body, other, place, depth, allowed })
         });
-        self.nested(medium).or_else(|| overlaps.next())
+        self.nested(discretisation).or_else(|| overlaps.next())
     }
 
     /// How deep a body may be inside another one (length).
-    pub(crate) fn allowed(&self, medium: &Medium) -> f64 {
-        CONTACT * self.contact_scale(medium)
+    pub(crate) fn allowed(&self, discretisation: &Discretisation) -> f64 {
+        CONTACT * self.contact_scale(discretisation)
     }
 
     /// The length that contacts are measured in: the grid spacing, and without a grid the longest side of an interface
     /// (length).
-    pub(crate) fn contact_scale(&self, medium: &Medium) -> f64 {
+    pub(crate) fn contact_scale(&self, discretisation: &Discretisation) -> f64 {
         let interfaces = self.boundaries.iter().zip(&self.kinds).filter(|(_, kind)| kind.is_interface());
-        medium.spacing.unwrap_or_else(|| interfaces.map(|(boundary, _)| boundary.longest_side()).fold(0.0, f64::max))
+        discretisation
+            .spacing
+            .unwrap_or_else(|| interfaces.map(|(boundary, _)| boundary.longest_side()).fold(0.0, f64::max))
     }
 
     /// An interface inside another one whose fluid has a viscosity of its own.
-    pub(crate) fn nested(&self, medium: &Medium) -> Option<Conflict> {
-        let exterior = medium.viscosity;
+    pub(crate) fn nested(&self, discretisation: &Discretisation) -> Option<Conflict> {
+        let exterior = discretisation.viscosity;
         self.kinds.iter().enumerate().find_map(|(outer, kind)| {
             let interior = kind.viscosity_inside().filter(|interior| *interior != exterior)?;
-            let inside =
-                |inner: &usize| self.kinds[*inner].is_interface() && self.lies_in(*inner, outer, medium.domain.periods);
+            let inside = |inner: &usize| {
+                self.kinds[*inner].is_interface() && self.lies_in(*inner, outer, discretisation.domain.periods)
+            };
             (0..self.kinds.len()).find(inside).map(|inner| Conflict::Nested { inner, outer, interior, exterior })
         })
     }

@@ -30,7 +30,7 @@ pub struct SolidGap {
 }
 
 /// An interface that has entered a solid.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[error(
     "marker {marker} of {interface} at ({x:.4}, {y:.4}) is {depth:.3e} inside a solid, more than {allowed:.3e}: {}",
     if *at_start { "move them apart" } else { "use a smaller time step or a finer grid" }
@@ -51,6 +51,8 @@ pub struct SolidEntered {
     /// What is allowed (length).
     pub allowed: f64,
 }
+
+input_checks::debug_as_explanation!(SolidEntered);
 
 impl SolidGap {
     /// A watch that lets interfaces enter solids by `allowed` (length): the flow keeps surfaces apart to a quarter of
@@ -95,7 +97,7 @@ impl SolidGap {
             solid.write_boundary(markers, surfaces);
         }
         surfaces.sort();
-        let periods = system.hydrodynamics().medium().domain.periods;
+        let periods = system.hydrodynamics().discretisation().domain.periods;
         let interfaces = system.all_bodies().filter(|(_, body)| body.kind().is_interface());
         let nearest = interfaces.filter_map(|(interface, body)| {
             place(body, markers);

@@ -37,7 +37,8 @@ const ERROR_BOUND: f64 = 3e-4;
 /// (2004):
 /// ```text
 /// Y_1 = Y_0 + m dt (f_0 + g_1)
-/// Y_j = (1-mu-nu) Y_0 + mu Y_{j-1} + nu Y_{j-2} + dt (r f_{j-1} + r_0 f_0) + dt ((r_0 - (1-mu-nu) m) g_0 - nu m g_{j-2} + m g_j)
+/// Y_j = (1-mu-nu) Y_0 + mu Y_{j-1} + nu Y_{j-2} + dt (r f_{j-1} + r_0 f_0)
+///     + dt ((r_0 - (1-mu-nu) m) g_0 - nu m g_{j-2} + m g_j)
 /// ```
 /// with f the explicit and g the implicit part of the rate. These are of first order in g; so the last stage is
 /// followed by

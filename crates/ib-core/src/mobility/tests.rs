@@ -64,8 +64,9 @@ fn bodies_are_told_the_deficit_of_the_kernel_in_use() {
         let grid = stokes_grid::Grid::periodic(16, 16, 0.1).unwrap();
         stokes_grid::PeriodicStokes::new(grid, 1.0).unwrap()
     };
-    let of_peskin = ImmersedBoundary::uncorrected(solver(), Peskin4).medium().mobility_deficit.unwrap();
+    let of_peskin = ImmersedBoundary::uncorrected(solver(), Peskin4).discretisation().mobility_deficit.unwrap();
     assert_eq!(*of_peskin, MobilityDeficit::new(&Peskin4));
-    let of_default = ImmersedBoundary::new(solver(), CubicQuadratic::default()).medium().mobility_deficit.unwrap();
+    let of_default =
+        ImmersedBoundary::new(solver(), CubicQuadratic::default()).discretisation().mobility_deficit.unwrap();
     assert_ne!(*of_default, *of_peskin);
 }

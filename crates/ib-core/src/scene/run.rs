@@ -305,16 +305,10 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
             let integrator = self.scene.integrator().name();
             return Err(SceneError::NoErrorEstimate { integrator });
         }
+        self.step.check()?;
         match self.step {
             StepSize::Fixed(dt) => self.scene.check_step(dt),
-            StepSize::OfLimit(part) => {
-                within("the part of the stable step", part, LEAST, 1.0)?;
-                self.check_limit()
-            }
-            StepSize::Adaptive { tolerance } => {
-                within("the tolerance of the steps", tolerance, f64::EPSILON, 0.5)?;
-                self.check_limit()
-            }
+            StepSize::OfLimit(_) | StepSize::Adaptive { .. } => self.check_limit(),
         }
     }
 

@@ -129,7 +129,7 @@ impl<H: Hydrodynamics> System<H> {
 
     /// What the scene is made of, besides its bodies and its domain.
     pub(crate) fn properties(&self) -> Vec<(String, f64)> {
-        let mut properties = vec![("the exterior viscosity", self.hydrodynamics.medium().viscosity)];
+        let mut properties = vec![("the exterior viscosity", self.hydrodynamics.discretisation().viscosity)];
         properties.extend(self.hydrodynamics.drive().map(|drive| match drive {
             Drive::ZeroGradient => ("the imposed pressure gradient", 0.0),
             Drive::Gradient(gradient) => ("the imposed pressure gradient", gradient),
@@ -161,9 +161,9 @@ impl<H: Hydrodynamics> System<H> {
         self.forget_flow();
         self.apart = false;
         self.hydrodynamics.load(flow);
-        let medium = self.hydrodynamics.medium();
+        let discretisation = self.hydrodynamics.discretisation();
         for (body, saved) in self.bodies.iter_mut().zip(bodies) {
-            body.load(&medium, saved).map_err(|source| body_error(time, body.as_ref(), source))?;
+            body.load(&discretisation, saved).map_err(|source| body_error(time, body.as_ref(), source))?;
         }
         (self.time, self.steps) = (time, steps);
         (self.minimum_wall_gap, self.minimum_gap) = (minimum_wall_gap, minimum_gap);
@@ -237,12 +237,12 @@ impl<H: Hydrodynamics> System<H> {
 
     /// Tells `each` all bounds on the time step at the present state, with the names of the bodies that set them.
     pub fn each_limit<'a>(&'a self, each: &mut dyn FnMut(StepLimit, &'a str)) {
-        let medium = self.hydrodynamics.medium();
+        let discretisation = self.hydrodynamics.discretisation();
         for body in &self.bodies {
-            body.step_limits(&medium, &mut |limit| each(limit, body.name()));
+            body.step_limits(&discretisation, &mut |limit| each(limit, body.name()));
         }
         if let Some(repulsion) = &self.repulsion {
-            each(StepLimit::decay(repulsion.step_limit(medium.viscosity), "the repulsion"), "the interfaces");
+            each(StepLimit::decay(repulsion.step_limit(discretisation.viscosity), "the repulsion"), "the interfaces");
         }
     }
 
@@ -289,13 +289,13 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     fn compute_flow(&mut self) -> Result<(), SceneError> {
-        let (medium, time) = (self.hydrodynamics.medium(), self.time);
+        let (discretisation, time) = (self.hydrodynamics.discretisation(), self.time);
         self.place_markers();
-        if let Some((index, source)) = write_forces(0, &mut self.bodies, &mut self.markers.forces, &medium) {
+        if let Some((index, source)) = write_forces(0, &mut self.bodies, &mut self.markers.forces, &discretisation) {
             return Err(body_error(time, self.bodies[index].as_ref(), source));
         }
         if let Some(repulsion) = &self.repulsion {
-            repulsion.add(&mut self.markers, medium.domain.periods);
+            repulsion.add(&mut self.markers, discretisation.domain.periods);
         }
         self.report =
             self.hydrodynamics.velocities(&mut self.markers).map_err(|source| SceneError::Flow { time, source })?;
@@ -303,19 +303,19 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     pub(crate) fn begin_step(&mut self, step: StepInfo) -> Result<(), SceneError> {
-        let (medium, time) = (self.hydrodynamics.medium(), self.time);
+        let (discretisation, time) = (self.hydrodynamics.discretisation(), self.time);
         for body in &mut self.bodies {
-            body.begin_step(&medium, step).map_err(|source| body_error(time, body.as_ref(), source))?;
+            body.begin_step(&discretisation, step).map_err(|source| body_error(time, body.as_ref(), source))?;
         }
         Ok(())
     }
 
     pub(crate) fn end_step(&mut self, dt: f64) -> Result<(), SceneError> {
-        let (medium, time) = (self.hydrodynamics.medium(), self.time);
+        let (discretisation, time) = (self.hydrodynamics.discretisation(), self.time);
         self.forget_flow();
         self.apart = false;
         for body in &mut self.bodies {
-            body.end_step(&medium, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
+            body.end_step(&discretisation, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
         }
         Ok(())
     }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::{BodyError, CubicQuadratic, ImmersedBoundary, MarkerBody, Medium, Midpoint, Vec2, scene::BodyFlow};
+use crate::{BodyError, CubicQuadratic, Discretisation, ImmersedBoundary, MarkerBody, Midpoint, Vec2, scene::BodyFlow};
 use stokes_grid::{Grid, PeriodicStokes};
 
 type Flow = ImmersedBoundary<PeriodicStokes, CubicQuadratic>;
@@ -19,7 +19,7 @@ fn pulled(name: &str) -> MarkerBody {
 impl Observe for MarkerBody {
     type Observables = Vec2;
 
-    fn observables(&self, _: &Medium, flow: &BodyFlow<'_>) -> Result<Vec2, BodyError> {
+    fn observables(&self, _: &Discretisation, flow: &BodyFlow<'_>) -> Result<Vec2, BodyError> {
         Ok(flow.velocities.iter().sum::<Vec2>() / flow.velocities.len() as f64)
     }
 }

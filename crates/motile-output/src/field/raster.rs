@@ -43,7 +43,7 @@ impl Raster {
     /// # Errors
     /// [`Error::Unbounded`]; a spacing that is not positive, as [`Raster::new`].
     pub fn of<H: Hydrodynamics>(system: &System<H>, spacing: f64) -> Result<Self, Error> {
-        let domain = system.hydrodynamics().medium().domain;
+        let domain = system.hydrodynamics().discretisation().domain;
         let [x, y] = domain.origin;
         let walls = domain.walls.map(|[below, above]| above - below);
         let (Some(width), Some(height)) = (domain.periods[0], domain.periods[1].or(walls)) else {

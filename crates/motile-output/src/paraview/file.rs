@@ -154,7 +154,8 @@ impl VtkFile {
         let cell_data = data("CellData", &self.cell_data, *cells)?;
         Ok(format!(
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" \
-             header_type=\"UInt64\">\n<{kind}{attributes}>\n<Piece {piece}>\n{point_data}{cell_data}{geometry}</Piece>\n\
+             header_type=\"UInt64\">\n<{kind}{attributes}>\n\
+             <Piece {piece}>\n{point_data}{cell_data}{geometry}</Piece>\n\
              </{kind}>\n</VTKFile>\n"
         ))
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::drawing::raster::colours;
-use crate::{DropletShape, Raster, Rgb};
+use crate::{DropletOutline, Raster, Rgb};
 use motile::ib_core::FlowSample;
 
 /// A pressure that is 0 in the left and 1 in the right half of a square box around the origin, without flow.
@@ -11,10 +11,10 @@ fn halves() -> Snapshot {
     Snapshot { time: 0.0, raster, flow, droplets: Vec::new(), solids: Vec::new(), walls: None }
 }
 
-fn circle(x: f64) -> DropletShape {
+fn circle(x: f64) -> DropletOutline {
     let angles = (0..90).map(|k| f64::from(k) * 4f64.to_radians());
     let markers = angles.map(|t| Vec2::new(x + t.cos(), t.sin())).collect();
-    DropletShape { markers, concentration: vec![0.5; 90], centroid: Vec2::new(x, 0.0) }
+    DropletOutline { markers, concentration: vec![0.5; 90], centroid: Vec2::new(x, 0.0) }
 }
 
 fn draw(seen: &Snapshot, tracks: &[Track], format: &Format) -> Vec<Rgb> {
@@ -67,7 +67,7 @@ fn values_that_are_not_numbers_do_no_harm() {
     let raster = Raster::new([0.0, 0.0], [4.0, 2.0], [8, 4], [true, false]).unwrap();
     let bad = Vec2::new(f64::NAN, 1.0);
     let flow = vec![FlowSample { velocity: bad, pressure: f64::NAN, ..FlowSample::default() }; 32];
-    let droplets = vec![DropletShape { markers: vec![bad; 3], concentration: vec![f64::NAN; 3], centroid: bad }];
+    let droplets = vec![DropletOutline { markers: vec![bad; 3], concentration: vec![f64::NAN; 3], centroid: bad }];
     let solids = vec![SolidShape {
         area: vec![vec![bad; 3]],
         edges: vec![vec![bad; 3], Vec::new()],

@@ -50,7 +50,7 @@ impl Setup {
         let solids = || self.solids.iter().zip(self.droplets.len()..);
         let regions = solids().map(|(solid, k)| solid.enclosed(&self.region, 0.0).map_err(keyed(k)));
         let (regions, flow) = (regions.collect::<Result<Vec<_>, _>>()?, self.flow()?);
-        self.check_places(&droplets, &regions, &flow.medium())?;
+        self.check_places(&droplets, &regions, &flow.discretisation())?;
         let solids = solids().map(|(solid, k)| solid.build(self).map_err(keyed(k))).collect::<Result<Vec<_>, _>>()?;
         let mut scene = Scene::new(flow).with_step_size(self.step);
         if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {

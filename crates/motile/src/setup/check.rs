@@ -80,17 +80,12 @@ impl Setup {
             Method::Integral(integral) => self.check_integral(integral)?,
             Method::Grid(grid) => self.check_grid(grid)?,
         }
-        match self.step {
-            StepSize::Fixed(dt) => top.positive("step.fixed", dt)?,
-            StepSize::OfLimit(part) => {
-                let holds = part > 0.0 && part <= 1.0;
-                top.require(holds, "step.of-limit", part, "give a number above 0 and at most 1")?;
-            }
-            StepSize::Adaptive { tolerance } => {
-                let holds = tolerance > 0.0 && tolerance < 1.0;
-                top.require(holds, "step.adaptive.tolerance", tolerance, "give a number above 0 and below 1")?;
-            }
-        }
+        let (key, value) = match self.step {
+            StepSize::Fixed(dt) => ("step.fixed", dt),
+            StepSize::OfLimit(part) => ("step.of-limit", part),
+            StepSize::Adaptive { tolerance } => ("step.adaptive.tolerance", tolerance),
+        };
+        self.step.check().or_else(|error| top.refuse(key, &value, error.to_string()))?;
         if let Some(repulsion) = self.repulsion {
             top.positive("repulsion.strength", repulsion.strength)?;
             top.positive("repulsion.range", repulsion.range)?;

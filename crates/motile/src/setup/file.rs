@@ -11,7 +11,8 @@ impl Setup {
     /// ```
     /// use motile::Setup;
     ///
-    /// let setup = Setup::from_toml("viscosity = 50.0\n[[droplets]]\ncentre = [0.5, 0.0]\nparticles.activity = -3.0\n")?;
+    /// let text = "viscosity = 50.0\n[[droplets]]\ncentre = [0.5, 0.0]\nparticles.activity = -3.0\n";
+    /// let setup = Setup::from_toml(text)?;
     /// assert_eq!((setup.viscosity, setup.droplets[0].activity()), (50.0, -3.0));
     /// let refused = Setup::from_toml("viscosty = 50.0").unwrap_err().to_string();
     /// assert!(refused.contains("unknown field `viscosty`"), "{refused}");

@@ -3,7 +3,7 @@
 use active_interface::ActiveDroplet;
 use elastic_solids::Interior;
 use ib_core::gap::{Boundary, Conflict, Gaps};
-use ib_core::{Body, MarkerKind, Medium, Vec2};
+use ib_core::{Body, Discretisation, MarkerKind, Vec2};
 
 use super::{DropletSetup, Region, Setup, SolidSetup};
 use crate::SetupError;
@@ -14,7 +14,7 @@ impl Setup {
         &self,
         droplets: &[ActiveDroplet],
         solids: &[Interior],
-        medium: &Medium,
+        discretisation: &Discretisation,
     ) -> Result<(), SetupError> {
         let mut bodies = Vec::new();
         for (number, droplet) in droplets.iter().enumerate() {
@@ -23,7 +23,7 @@ impl Setup {
         }
         for (number, (region, solid)) in solids.iter().zip(&self.solids).enumerate() {
             let key = self.key(droplets.len() + number);
-            let grid = medium.spacing.unwrap_or(f64::INFINITY);
+            let grid = discretisation.spacing.unwrap_or(f64::INFINITY);
             let spacing = solid.mesh_spacing.map_or(grid, |spacing| spacing.min(grid));
             let boundary = region.boundary(spacing).map_err(|error| SetupError::from(error).of(&key))?;
             if region.period().is_none() {
@@ -31,7 +31,7 @@ impl Setup {
             }
             bodies.push((boundary, MarkerKind::Points));
         }
-        match Gaps::of(bodies).conflict(medium) {
+        match Gaps::of(bodies).conflict(discretisation) {
             None => Ok(()),
             Some(Conflict::Nested { inner, outer, interior, exterior }) => {
                 let [inner, outer] = [inner, outer].map(|body| self.key(body));

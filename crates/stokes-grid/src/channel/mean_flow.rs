@@ -10,7 +10,12 @@ pub(crate) struct MeanFlow {
     /// h^2 / eta.
     scale: f64,
     pivots: Vec<f64>,
-    poiseuille: Poiseuille,
+    h: f64,
+    /// The flow of a uniform force of one, `(y (H - y) / 2 + h^2 / 8) / eta`: the constant is what the no-slip
+    /// condition half a cell from the wall adds to the parabola.
+    poiseuille: Vec<f64>,
+    /// Its flux.
+    flux: f64,
 }
 
 impl MeanFlow {
@@ -24,8 +29,11 @@ impl MeanFlow {
             pivot = 1.0 / (diagonal - pivot);
             pivots.push(pivot);
         }
-        let h = grid.spacing();
-        Self { scale: h * h / viscosity, pivots, poiseuille: Poiseuille::new(grid, viscosity) }
+        let (h, width) = (grid.spacing(), grid.lengths()[1]);
+        let at = |y: f64| (0.5 * y * (width - y) + 0.125 * h * h) / viscosity;
+        let poiseuille: Vec<f64> = (0..ny).map(|j| at((j as f64 + 0.5) * h)).collect();
+        let flux = h * poiseuille.iter().sum::<f64>();
+        Self { scale: h * h / viscosity, pivots, h, poiseuille, flux }
     }
 
     /// Turns the mean force on each row into its mean velocity, for the mean velocities of the bottom and the top wall;
@@ -45,35 +53,6 @@ impl MeanFlow {
         for j in (0..last).rev() {
             u[j] -= self.pivots[j] * u[j + 1];
         }
-        self.poiseuille.impose(drive, u)
-    }
-}
-
-/// The response of the mean flow to a uniform force of one, `(y (H - y) / 2 + h^2 / 8) / eta`, and its flux. The
-/// constant is what the no-slip condition half a cell from the wall adds to the parabola.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Poiseuille {
-    profile: Vec<f64>,
-    h: f64,
-    flux: f64,
-}
-
-impl Poiseuille {
-    pub(crate) fn new(grid: &Grid, viscosity: f64) -> Self {
-        let (h, width) = (grid.spacing(), grid.lengths()[1]);
-        let profile: Vec<f64> = (0..grid.ny())
-            .map(|j| {
-                let y = (j as f64 + 0.5) * h;
-                (0.5 * y * (width - y) + 0.125 * h * h) / viscosity
-            })
-            .collect();
-        let flux = h * profile.iter().sum::<f64>();
-        Self { profile, h, flux }
-    }
-
-    /// Makes the mean flow `u` that belongs to no pressure gradient one that belongs to `drive`; gives the mean
-    /// pressure gradient (force per volume).
-    pub(crate) fn impose(&self, drive: Drive, u: &mut [f64]) -> f64 {
         let found = self.h * u.iter().sum::<f64>();
         let gradient = match drive {
             Drive::ZeroGradient => return 0.0,
@@ -81,7 +60,7 @@ impl Poiseuille {
             Drive::ZeroFlux => found / self.flux,
             Drive::Flux(flux) => (found - flux) / self.flux,
         };
-        for (u, response) in u.iter_mut().zip(&self.profile) {
+        for (u, response) in u.iter_mut().zip(&self.poiseuille) {
             *u -= gradient * response;
         }
         gradient

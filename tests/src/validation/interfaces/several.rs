@@ -55,7 +55,7 @@ fn run(base: &Setup, region: Region, places: &[([f64; 2], f64)], time: f64) -> R
     let placed = |&(centre, angle)| DropletSetup { centre, angle, ..base.droplets[0].clone() };
     let setup = Setup { region, droplets: places.iter().map(placed).collect(), ..base.clone() };
     let Built { mut scene, droplets, .. } = setup.build()?;
-    let periods = scene.system().hydrodynamics().medium().domain.periods;
+    let periods = scene.system().hydrodynamics().discretisation().domain.periods;
     let particles = |scene: &Scene<AnyFlow>, droplet: Handle<ActiveDroplet>| -> Result<f64, StudyError> {
         Ok(scene.body(droplet)?.particle_numbers().iter().sum())
     };

@@ -74,10 +74,13 @@ fn bad_concentrations_are_refused() {
 
 proptest! {
     #[test]
-    fn the_total_is_the_mean_times_the_perimeter(heading in -PI..PI, count in 8usize..300, a in 0.6..1.6f64, seed in 0u64..1000) {
+    fn the_total_is_the_mean_times_the_perimeter(
+        heading in -PI..PI, count in 8usize..300, a in 0.6..1.6f64, seed in 0u64..1000,
+    ) {
         let markers = Curve::ellipse(a, 1.0).unwrap().markers(count).unwrap();
         let total = 100.0 * polygon_perimeter(&markers).unwrap();
-        for state in [InitialConcentration::polarised(100.0, heading), InitialConcentration::perturbed(100.0, 0.9, seed)] {
+        let polarised = InitialConcentration::polarised(100.0, heading);
+        for state in [polarised, InitialConcentration::perturbed(100.0, 0.9, seed)] {
             let numbers = state.unwrap().particle_numbers(&markers).unwrap();
             prop_assert!((numbers.iter().sum::<f64>() / total - 1.0).abs() < 1e-13);
             prop_assert!(numbers.iter().all(|&n| n >= 0.0));

@@ -68,10 +68,13 @@ proptest! {
     }
 
     #[test]
-    fn agrees_with_all_pairs_on_wiggly_curves(seed in proptest::collection::vec(-1.0..1.0f64, 12), amplitude in 0.0..1.2f64, m in 8usize..150) {
+    fn agrees_with_all_pairs_on_wiggly_curves(
+        seed in proptest::collection::vec(-1.0..1.0f64, 12), amplitude in 0.0..1.2f64, m in 8usize..150,
+    ) {
         let points: Vec<Vec2> = (0..m).map(|k| {
             let t = TAU * k as f64 / m as f64;
-            let wave = |shift: usize| (0..6).map(|j| seed[(j + shift) % 12] * ((j + 2) as f64 * t + 9.0 * seed[j]).cos()).sum::<f64>();
+            let mode = |j: usize, shift: usize| seed[(j + shift) % 12] * ((j + 2) as f64 * t + 9.0 * seed[j]).cos();
+            let wave = |shift: usize| (0..6).map(|j| mode(j, shift)).sum::<f64>();
             Vec2::new(t.cos() + 0.3 * amplitude * wave(0), t.sin() + 0.3 * amplitude * wave(6))
         }).collect();
         prop_assert_eq!(first_crossing(&points).unwrap(), slow(&points));

@@ -27,7 +27,7 @@ fn bad_points_are_refused() {
 proptest! {
     #[test]
     fn moments_follow_rotation_and_translation(angle in -3.0..3.0f64, x in -9.0..9.0f64, y in -9.0..9.0f64) {
-        let points: Vec<Vec2> = [[0.0, 0.0], [2.0, 0.3], [2.5, 1.4], [0.7, 1.9], [-0.4, 1.0]].map(|[x, y]| Vec2::new(x, y)).to_vec();
+        let points = [[0.0, 0.0], [2.0, 0.3], [2.5, 1.4], [0.7, 1.9], [-0.4, 1.0]].map(Vec2::from_array).to_vec();
         let turn = Vec2::from_angle(angle);
         let moved: Vec<Vec2> = points.iter().map(|p| turn.rotate(*p) + Vec2::new(x, y)).collect();
         let (before, after) = (polygon_moments(&points).unwrap(), polygon_moments(&moved).unwrap());

@@ -26,10 +26,10 @@ impl Profile {
 }
 
 impl Hydrodynamics for Profile {
-    fn medium(&self) -> Medium {
+    fn discretisation(&self) -> Discretisation {
         let walls = self.walls.then_some([-1.0, 2.0]);
         let domain = Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls };
-        Medium {
+        Discretisation {
             domain,
             viscosity: 1.0,
             spacing: None,

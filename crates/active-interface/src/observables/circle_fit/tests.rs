@@ -55,7 +55,9 @@ fn the_fit_is_a_minimum() {
 
 proptest! {
     #[test]
-    fn circles_are_exact(radius in 0.01..100.0f64, from in -3.0..3.0f64, width in 0.1..5.0f64, n in 3usize..60, left in prop::bool::ANY) {
+    fn circles_are_exact(
+        radius in 0.01..100.0f64, from in -3.0..3.0f64, width in 0.1..5.0f64, n in 3usize..60, left in prop::bool::ANY,
+    ) {
         let mut points = arc(radius, from, from + width, n);
         if !left {
             points.reverse();

@@ -5,7 +5,9 @@ use proptest::prelude::*;
 
 proptest! {
     #[test]
-    fn ellipses_are_exact(a in 0.3..3.0f64, b in 0.3..3.0f64, angle in -3.0..3.0f64, x in -5.0..5.0f64, count in 8usize..90) {
+    fn ellipses_are_exact(
+        a in 0.3..3.0f64, b in 0.3..3.0f64, angle in -3.0..3.0f64, x in -5.0..5.0f64, count in 8usize..90,
+    ) {
         let curve = Curve::ellipse(a, b).unwrap().rotated(angle).translated(Vec2::new(x, 1.0));
         // Points on the ellipse itself, unevenly spaced.
         let markers: Vec<Vec2> = (0..count).map(|k| curve.point(k as f64 / count as f64)).collect();

@@ -160,7 +160,8 @@ proptest! {
             let frame = Frame::new(polygon_moments(&markers).unwrap().centroid, angle).unwrap();
             let forces = forces(&markers, |p| 2.0 + frame.coordinates(p).x);
             let turn = Vec2::from_angle(angle);
-            let velocities: Vec<Vec2> = markers.iter().map(|p| turn.rotate(Vec2::new(frame.coordinates(*p).y, 0.3))).collect();
+            let velocity = |p: &Vec2| turn.rotate(Vec2::new(frame.coordinates(*p).y, 0.3));
+            let velocities: Vec<Vec2> = markers.iter().map(velocity).collect();
             force_moments(&markers, &forces, &velocities, [3.0, 1.0], Convention::FarField, &frame).unwrap()
         };
         let (a, b) = (moments(0.0, 0.0), moments(angle, x));

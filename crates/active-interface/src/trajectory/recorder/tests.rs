@@ -2,7 +2,7 @@ use super::*;
 use crate::{ContractileTension, Curve, InitialConcentration, trajectory::Regime};
 use approx::assert_relative_eq;
 use ib_core::{
-    Domain, Every, FlowError, FlowSample, Markers, Medium, Scene, SceneError, StepSize, Vec2,
+    Discretisation, Domain, Every, FlowError, FlowSample, Markers, Scene, SceneError, StepSize, Vec2,
     hydrodynamics::{FlowWork, SolveReport},
 };
 
@@ -21,10 +21,10 @@ impl Wind {
 }
 
 impl Hydrodynamics for Wind {
-    fn medium(&self) -> Medium {
+    fn discretisation(&self) -> Discretisation {
         let domain =
             Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls: self.walls.then_some([-1.0, 3.0]) };
-        Medium {
+        Discretisation {
             domain,
             viscosity: 1.0,
             spacing: None,

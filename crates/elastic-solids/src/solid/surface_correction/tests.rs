@@ -5,8 +5,8 @@ use crate::mesh::BoundaryLoop;
 use crate::{Interior, Mesher, Outline};
 use ib_core::{CubicQuadratic, Domain};
 
-fn medium(spacing: f64) -> Medium {
-    Medium {
+fn discretisation(spacing: f64) -> Discretisation {
+    Discretisation {
         domain: Domain { origin: [0.02, -0.03], periods: [Some(3.0), Some(3.0)], walls: None },
         viscosity: 7.0,
         spacing: Some(spacing),
@@ -20,11 +20,11 @@ fn medium(spacing: f64) -> Medium {
 fn velocities(mesh: &TriangleMesh, forces: &[Vec2]) -> Vec<Vec2> {
     let count = mesh.points().len();
     let free: Vec<usize> = (0..count).filter(|&k| mesh.points()[k].y > -0.8).collect();
-    let medium = medium(0.1);
-    let mut correction = SurfaceCorrection::new(mesh, &free, &medium).unwrap();
+    let discretisation = discretisation(0.1);
+    let mut correction = SurfaceCorrection::new(mesh, &free, &discretisation).unwrap();
     let bent = |s: &Vec2| Vec2::new(s.x + 0.4 * s.y * s.y, s.y + 0.2 * (2.0 * s.x).sin());
     let positions: Vec<Vec2> = mesh.points().iter().map(bent).collect();
-    correction.update(mesh, &free, &medium, &positions, forces);
+    correction.update(mesh, &free, &discretisation, &positions, forces);
     let mut rate = vec![0.0; 2 * free.len()];
     correction.add(&mut rate);
     let mut velocities = vec![Vec2::ZERO; count];
@@ -62,14 +62,14 @@ fn uniform_shear_forces_on_a_flat_surface() {
     for &point in &upper.points {
         forces[point].x = 3.0 / upper.points.len() as f64;
     }
-    let medium = medium(0.1);
-    let mut correction = SurfaceCorrection::new(&mesh, &free, &medium).unwrap();
-    correction.update(&mesh, &free, &medium, mesh.points(), &forces);
+    let discretisation = discretisation(0.1);
+    let mut correction = SurfaceCorrection::new(&mesh, &free, &discretisation).unwrap();
+    correction.update(&mesh, &free, &discretisation, mesh.points(), &forces);
     let mut rate = vec![0.0; 2 * free.len()];
     correction.add(&mut rate);
-    let place = (0.5 - medium.domain.origin[1]) / 0.1;
+    let place = (0.5 - discretisation.domain.origin[1]) / 0.1;
     let harmonic = 2.0 * deficit.harmonic(0.0) * (std::f64::consts::TAU * place).cos();
-    let expected = 0.1 / medium.viscosity * (deficit.flat(Vec2::new(1.0, 0.0)) - harmonic);
+    let expected = 0.1 / discretisation.viscosity * (deficit.flat(Vec2::new(1.0, 0.0)) - harmonic);
     for (pair, &point) in rate.chunks_exact(2).zip(&free) {
         if upper.points.contains(&point) {
             // The harmonic of the lines across has all but died out.

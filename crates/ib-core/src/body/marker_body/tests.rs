@@ -24,8 +24,8 @@ fn the_fastest_decay_is_estimated_from_above() {
     for (count, radius) in [(1, 0.0), (1, 0.2), (7, 0.05), (60, 0.5)] {
         let mut scene = scene();
         let handle = scene.add(tethered(count, radius));
-        let medium = scene.system().hydrodynamics().medium();
-        let estimate = scene.body(handle).unwrap().decay_rate(&medium, 3.0);
+        let discretisation = scene.system().hydrodynamics().discretisation();
+        let estimate = scene.body(handle).unwrap().decay_rate(&discretisation, 3.0);
         let centre = |scene: &Scene<_>| scene.body(handle).unwrap().positions().iter().sum::<Vec2>().x;
         let before = centre(&scene);
         let dt = 1e-3 / estimate;

@@ -88,7 +88,9 @@ fn images_of_long_sides_count() {
 
 proptest! {
     #[test]
-    fn boxes_find_the_nearest_of_all(x in -9.0..9.0f64, y in -9.0..9.0f64, count in 3..200_usize, period in 3.0..5.0f64) {
+    fn boxes_find_the_nearest_of_all(
+        x in -9.0..9.0f64, y in -9.0..9.0f64, count in 3..200_usize, period in 3.0..5.0f64,
+    ) {
         let corner = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / count as f64;
             (1.0 + 0.3 * (5.0 * angle).sin()) * Vec2::new(angle.cos(), angle.sin())

@@ -6,10 +6,17 @@ use crate::{Domain, MarkerKind};
 const INTERFACE: MarkerKind = MarkerKind::Interface { viscosity_inside: None };
 
 /// A box of 6 x 6 with a grid spacing of 0.1 and fluid of viscosity 1.
-fn medium() -> Medium {
+fn discretisation() -> Discretisation {
     let domain = Domain { origin: [0.0; 2], periods: [Some(6.0); 2], walls: None };
     let (shape_modes, mobility_deficit) = (None, None);
-    Medium { domain, viscosity: 1.0, spacing: Some(0.1), shape_modes, interface_stiffness: 1.0, mobility_deficit }
+    Discretisation {
+        domain,
+        viscosity: 1.0,
+        spacing: Some(0.1),
+        shape_modes,
+        interface_stiffness: 1.0,
+        mobility_deficit,
+    }
 }
 
 fn circle(x: f64, radius: f64) -> Boundary {
@@ -33,7 +40,7 @@ fn wall(height: f64) -> Boundary {
 fn depth(bodies: [(Boundary, MarkerKind); 2]) -> Option<f64> {
     let [a, b] = bodies;
     let orders = [Gaps::of([a.clone(), b.clone()]), Gaps::of([b, a])];
-    let depths = orders.map(|gaps| match gaps.conflict(&medium()) {
+    let depths = orders.map(|gaps| match gaps.conflict(&discretisation()) {
         Some(Conflict::Overlap { body: 1, other: 0, depth, .. }) => Some(depth),
         None => None,
         other => panic!("{other:?}"),

@@ -87,8 +87,8 @@ impl<H: Hydrodynamics> System<H> {
     pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
         let index = self.index_of(handle.into())?;
         self.evaluate()?;
-        let medium = self.hydrodynamics.medium();
-        let seen = self.body(handle)?.observables(&medium, &self.flow_at(handle)?);
+        let discretisation = self.hydrodynamics.discretisation();
+        let seen = self.body(handle)?.observables(&discretisation, &self.flow_at(handle)?);
         seen.map_err(|source| body_error(self.time, self.bodies[index].as_ref(), source))
     }
 }

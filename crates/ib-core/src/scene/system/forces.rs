@@ -1,6 +1,6 @@
 //! Forces of the bodies.
 
-use crate::{Body, BodyError, Medium, Vec2};
+use crate::{Body, BodyError, Discretisation, Vec2};
 
 /// Markers from which a half of the bodies pays for a thread.
 #[cfg(feature = "rayon")]
@@ -11,7 +11,7 @@ pub(super) fn write_forces(
     first: usize,
     bodies: &mut [Box<dyn Body>],
     forces: &mut [Vec2],
-    medium: &Medium,
+    discretisation: &Discretisation,
 ) -> Option<(usize, BodyError)> {
     #[cfg(feature = "rayon")]
     if bodies.len() > 1 && forces.len() >= 2 * LEAST_MARKERS {
@@ -20,8 +20,8 @@ pub(super) fn write_forces(
         let markers = bodies.iter().map(|body| body.marker_count()).sum();
         let (forces, forces_above) = forces.split_at_mut(markers);
         let (failed, failed_above) = rayon::join(
-            || write_forces(first, bodies, forces, medium),
-            || write_forces(first + middle, bodies_above, forces_above, medium),
+            || write_forces(first, bodies, forces, discretisation),
+            || write_forces(first + middle, bodies_above, forces_above, discretisation),
         );
         return failed.or(failed_above);
     }
@@ -29,7 +29,7 @@ pub(super) fn write_forces(
     for (index, body) in bodies.iter_mut().enumerate() {
         let range = start..start + body.marker_count();
         start = range.end;
-        if let Err(source) = body.write_forces(medium, &mut forces[range]) {
+        if let Err(source) = body.write_forces(discretisation, &mut forces[range]) {
             return Some((first + index, source));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::System;
 use crate::gap::{Boundary, Conflict, Gap, Gaps, Outline, wall_gap};
-use crate::{Body, Handle, Hydrodynamics, Medium, Repulsion, SceneError, Vec2, Warning};
+use crate::{Body, Discretisation, Handle, Hydrodynamics, Repulsion, SceneError, Vec2, Warning};
 
 /// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
 /// neighbouring nodes of an interface where there is no grid.
@@ -14,7 +14,7 @@ impl<H: Hydrodynamics> System<H> {
     /// [`wall_gap`]); `None` without walls or interfaces. Solids ([`MarkerKind::Points`](crate::MarkerKind)) may stand
     /// on a wall and do not count. Needs no evaluation.
     pub fn wall_gap(&mut self) -> Option<f64> {
-        let walls = self.hydrodynamics.medium().domain.walls?;
+        let walls = self.hydrodynamics.discretisation().domain.walls?;
         self.place_markers();
         let interfaces =
             self.markers.groups().iter().filter(|group| group.kind.is_interface() && !group.range.is_empty());
@@ -35,7 +35,7 @@ impl<H: Hydrodynamics> System<H> {
         second: impl Into<Handle<dyn Body>>,
     ) -> Result<Option<f64>, SceneError> {
         let [first, second] = [Outline::of(self.any_body(first)?), Outline::of(self.any_body(second)?)];
-        Ok(first.gap(&second, self.hydrodynamics.medium().domain.periods))
+        Ok(first.gap(&second, self.hydrodynamics.discretisation().domain.periods))
     }
 
     /// The smallest [`System::wall_gap`] since the start (length): over the states after each addition of a body and at
@@ -52,7 +52,7 @@ impl<H: Hydrodynamics> System<H> {
     #[must_use]
     pub fn minimum_gap(&self) -> Option<f64> {
         let gaps = Gaps::of(self.bodies.iter().map(|body| (Boundary::of(body.as_ref()), body.kind())));
-        let present = gaps.narrowest(&self.hydrodynamics.medium().domain, f64::INFINITY).map(|gap| gap.width);
+        let present = gaps.narrowest(&self.hydrodynamics.discretisation().domain, f64::INFINITY).map(|gap| gap.width);
         [self.minimum_gap, present].into_iter().flatten().reduce(f64::min)
     }
 
@@ -64,15 +64,15 @@ impl<H: Hydrodynamics> System<H> {
     /// What a user should know of the present state, though a run can go on from it: what the bodies warn of, and films
     /// that the method does not resolve.
     pub fn warnings(&mut self) -> Vec<Warning> {
-        let medium = self.hydrodynamics.medium();
-        let mut warnings: Vec<Warning> = self.bodies.iter().flat_map(|body| body.warnings(&medium)).collect();
+        let discretisation = self.hydrodynamics.discretisation();
+        let mut warnings: Vec<Warning> = self.bodies.iter().flat_map(|body| body.warnings(&discretisation)).collect();
         let between = self.narrowest.map(|gap| (gap.width, self.name_of(gap.body), self.name_of(gap.other)));
         let walls = self.wall_gap().map(|gap| (gap, "interfaces".to_owned(), "the walls".to_owned()));
         let resolved = self.resolved_film();
         for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
             let message = format!(
                 "a gap of {gap:.2e} from {other}, below {resolved:.2e}, what is resolved: use a finer {}",
-                if medium.spacing.is_some() { "grid, or boundary integrals" } else { "interface (more nodes)" }
+                if discretisation.spacing.is_some() { "grid, or boundary integrals" } else { "interface (more nodes)" }
             );
             warnings.push(Warning { body, cause: "thin film", excess: resolved / gap.max(f64::MIN_POSITIVE), message });
         }
@@ -81,17 +81,19 @@ impl<H: Hydrodynamics> System<H> {
 
     /// The narrowest film in which velocities are within about a per cent (length).
     fn resolved_film(&self) -> f64 {
-        let medium = self.hydrodynamics.medium();
-        medium.spacing.map_or_else(|| RESOLVED_NODES * self.node_spacing(&medium), |spacing| RESOLVED_CELLS * spacing)
+        let discretisation = self.hydrodynamics.discretisation();
+        discretisation
+            .spacing
+            .map_or_else(|| RESOLVED_NODES * self.node_spacing(&discretisation), |spacing| RESOLVED_CELLS * spacing)
     }
 
     /// The largest distance of neighbouring nodes of an interface (length).
-    fn node_spacing(&self, medium: &Medium) -> f64 {
+    fn node_spacing(&self, discretisation: &Discretisation) -> f64 {
         let groups = self.markers.groups().iter().filter(|group| group.kind.is_interface());
         let spacings = groups.map(|group| {
             let markers = &self.markers.positions[group.range.clone()];
             let perimeter: f64 = markers.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
-            perimeter / medium.shape_modes.unwrap_or(markers.len()) as f64
+            perimeter / discretisation.shape_modes.unwrap_or(markers.len()) as f64
         });
         spacings.fold(0.0, f64::max)
     }
@@ -118,7 +120,7 @@ impl<H: Hydrodynamics> System<H> {
             return overlap(body, other, place, -width);
         }
         if let Some(Conflict::Overlap { body, other, place, depth, .. }) =
-            self.gaps.conflict(&self.hydrodynamics.medium())
+            self.gaps.conflict(&self.hydrodynamics.discretisation())
         {
             return overlap(body, other, place, depth);
         }
@@ -157,14 +159,14 @@ impl<H: Hydrodynamics> System<H> {
     /// another one (length).
     fn find_gaps(&mut self) -> Result<f64, SceneError> {
         self.place_markers();
-        let medium = self.hydrodynamics.medium();
+        let discretisation = self.hydrodynamics.discretisation();
         self.gaps.update(&self.bodies, &self.markers);
-        if let Some(Conflict::Nested { inner, outer, interior, exterior }) = self.gaps.nested(&medium) {
+        if let Some(Conflict::Nested { inner, outer, interior, exterior }) = self.gaps.nested(&discretisation) {
             let [inner, outer] = [inner, outer].map(|index| self.name_of(index));
             return Err(SceneError::NestedInterfaces { time: self.time, inner, outer, interior, exterior });
         }
-        self.narrowest = self.gaps.narrowest_near(&medium);
-        Ok(self.gaps.allowed(&medium))
+        self.narrowest = self.gaps.narrowest_near(&discretisation);
+        Ok(self.gaps.allowed(&discretisation))
     }
 
     /// Takes the gap that was found last into the smallest one.

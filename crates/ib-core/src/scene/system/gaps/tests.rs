@@ -2,8 +2,8 @@ use std::f64::consts::TAU;
 
 use crate::gap::Boundary;
 use crate::{
-    Body, BodyError, CubicQuadratic, ImmersedBoundary, MarkerBody, MarkerKind, Medium, Repulsion, Scene, SceneError,
-    StepSize, Vec2,
+    Body, BodyError, CubicQuadratic, Discretisation, ImmersedBoundary, MarkerBody, MarkerKind, Repulsion, Scene,
+    SceneError, StepSize, Vec2,
 };
 use stokes_grid::{Grid, PeriodicStokes};
 
@@ -46,7 +46,7 @@ impl Body for Disc {
     fn write_markers(&self, positions: &mut [Vec2]) {
         positions.copy_from_slice(&self.0);
     }
-    fn write_forces(&mut self, _: &Medium, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, _: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
         forces.fill(Vec2::ZERO);
         Ok(())
     }

@@ -1,13 +1,13 @@
 //! What to look at in a deformed solid.
 
-use ib_core::{BodyError, Medium, Observe, Vec2, scene::BodyFlow};
+use ib_core::{BodyError, Discretisation, Observe, Vec2, scene::BodyFlow};
 
 use crate::material::Mat2;
 use crate::{Solid, SolidError};
 
 /// What is seen of a solid at one time (`scene.observe(solid)?`). Displacements are those from the reference state.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Observables {
+pub struct Deformation {
     /// Largest displacement of a point, in any direction (length).
     pub largest_displacement: f64,
     /// Largest displacement of a point of the surface along the normal of the reference state, outwards or inwards
@@ -26,7 +26,7 @@ pub struct Observables {
     pub smallest_jacobian: f64,
 }
 
-impl Observables {
+impl Deformation {
     /// Those of a solid where it is now.
     #[must_use]
     pub fn of(solid: &Solid) -> Self {
@@ -48,10 +48,10 @@ impl Observables {
 }
 
 impl Observe for Solid {
-    type Observables = Observables;
+    type Observables = Deformation;
 
-    fn observables(&self, _medium: &Medium, _flow: &BodyFlow<'_>) -> Result<Observables, BodyError> {
-        Ok(Observables::of(self))
+    fn observables(&self, _medium: &Discretisation, _flow: &BodyFlow<'_>) -> Result<Deformation, BodyError> {
+        Ok(Deformation::of(self))
     }
 }
 
