@@ -63,8 +63,8 @@ fn forces() -> Result<()> {
     let mesh = fitted_strip(Vec2::new(-3.0, -1.0), [6.0, 2.0], 0.05)?;
     let mut solid = Solid::hyperelastic(mesh, NeoHookean::new(1.0, 3.0)?);
     let flow = ImmersedBoundary::new(PeriodicStokes::new(Grid::periodic(60, 60, 0.1)?, 1.0)?, AnyKernel::BSpline4);
-    let (medium, mut out) = (flow.medium(), vec![Vec2::ZERO; solid.marker_count()]);
-    count(|| Ok(solid.write_forces(black_box(&medium), &mut out)?))
+    let (discretisation, mut out) = (flow.discretisation(), vec![Vec2::ZERO; solid.marker_count()]);
+    count(|| Ok(solid.write_forces(black_box(&discretisation), &mut out)?))
 }
 
 fn derivatives() -> Result<()> {
