@@ -8,6 +8,7 @@
 mod channels;
 mod elastic_step;
 mod hard_cases;
+mod instructions;
 mod results;
 mod run_pool;
 mod scaling;
@@ -48,6 +49,7 @@ enum Study {
     Threads(threads::Flags),
     ElasticStep(elastic_step::Flags),
     Warnings(warnings::Flags),
+    Instructions(instructions::Flags),
     Stale(tables::StaleFlags),
     Pages(tables::PagesFlags),
 }
@@ -66,6 +68,7 @@ fn main() -> ExitCode {
         Study::Threads(flags) => threads::run(flags),
         Study::ElasticStep(flags) => elastic_step::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
+        Study::Instructions(flags) => instructions::run(flags),
         Study::Stale(flags) => tables::stale(flags),
         Study::Pages(flags) => tables::pages(flags),
     })
