@@ -99,8 +99,11 @@ fn viscous(setup: Setup) -> Setup {
     Setup { droplets, ..setup }
 }
 
-/// What is counted, by name.
-const WORKS: [(&str, fn() -> Result<()>); 12] = [
+/// A name and what is counted under it.
+type Work = (&'static str, fn() -> Result<()>);
+
+/// What is counted.
+const WORKS: [Work; 12] = [
     ("periodic Stokes solve, 120 x 120", || solve(PeriodicStokes::new(Grid::periodic(120, 120, 0.05)?, 1.0)?)),
     ("channel Stokes solve, 120 x 60", || solve(ChannelStokes::new(Grid::channel(120, 60, 0.05)?, 1.0)?)),
     ("spread 400 markers", || transfer(true)),

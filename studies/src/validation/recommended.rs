@@ -127,3 +127,6 @@ pub(crate) fn recommended(quick: bool) -> Tables {
     }
     Ok(vec![table])
 }
+
+#[cfg(test)]
+mod tests;
