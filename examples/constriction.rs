@@ -1,8 +1,8 @@
-//! An active droplet meets a constriction between elastic walls (thesis, section 4.1.3).
+//! An active droplet meets a constriction between elastic walls (Cowley, section 4.1.3).
 //!
 //! `cargo run --release --example constriction` simulates it until it is clear what becomes of the droplet, prints that
 //! and what was measured, and writes to `out/constriction/` what the example `elastic_channel` writes. The channel is
-//! that of thesis figure 4.18, the droplet starts in the middle of its wide part; `--width`, `--throat` and
+//! that of Cowley figure 4.18, the droplet starts in the middle of its wide part; `--width`, `--throat` and
 //! `--throat-length` change it. Walls are set back (`--surface set-back`) unless another `--surface` is asked for.
 //! `--help` lists the flags.
 

@@ -1,4 +1,4 @@
-//! An active droplet swims between elastic walls (thesis, chapter 4).
+//! An active droplet swims between elastic walls (Cowley, chapter 4).
 //!
 //! `cargo run --release --example elastic_channel` simulates it, prints what was measured, and writes to
 //! `out/elastic_channel/` what the example `rigid_channel` writes, with the walls in the pictures, in the table and for

@@ -1,4 +1,4 @@
-//! An active droplet swims in a channel with rigid no-slip walls (thesis, chapter 3).
+//! An active droplet swims in a channel with rigid no-slip walls (Cowley, chapter 3).
 //!
 //! `cargo run --release --example rigid_channel` simulates it, prints what was measured, and writes to
 //! `out/rigid_channel/` what the example `swimming_droplet` writes, with the channel and the path of the droplet in the

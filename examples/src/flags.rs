@@ -1,6 +1,6 @@
 //! Command line flags that scenes share, in groups to be put together with `#[command(flatten)]`.
 //!
-//! Units are those of the thesis' simulations: lengths in R0, tensions such that gamma0 = 10, times such that D = 0.1;
+//! Units are those of Cowley's simulations: lengths in R0, tensions such that gamma0 = 10, times such that D = 0.1;
 //! its Appendix A converts them.
 
 use std::path::{Path, PathBuf};
@@ -22,13 +22,13 @@ const PERTURBATION: f64 = 0.05;
 
 /// How the concentration starts; the seed is that of `--seed`.
 const STARTS: [(&str, &str, Start); 2] = [
-    ("polarised", "c = (1 - cos(theta)) c0, thesis (2.46)", Start::Polarised),
+    ("polarised", "c = (1 - cos(theta)) c0, Cowley (2.46)", Start::Polarised),
     ("perturbed", "c0 with a small random perturbation", Start::Perturbed { amplitude: PERTURBATION, seed: 1 }),
 ];
 /// What drives the flow along a channel.
 const DRIVES: [(&str, &str, Drive); 2] = [
     ("zero-flux", "No net flux", Drive::ZeroFlux),
-    ("zero-gradient", "No mean pressure gradient, as in the thesis", Drive::ZeroGradient),
+    ("zero-gradient", "No mean pressure gradient, as in Cowley", Drive::ZeroGradient),
 ];
 
 /// The droplet, the first one of a scene. What is not given stays as it is in the scene, by default as listed.

@@ -6,6 +6,9 @@
 //! | results | [`Summary`] (`summary.json` and a table) |
 //! | runs | [`Job`] of any scene, [`WatchedRun`] of one with a droplet |
 //! | constrictions | [`Passage`] |
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod checkpoint_flags;
 mod command_line;

@@ -12,7 +12,7 @@ use crate::parse::{count, kernel, one_of, positive, time_step};
 /// Settings that go together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Preset {
-    /// Those of the thesis, to reproduce its results.
+    /// Those of Cowley, to reproduce its results.
     Thesis,
     /// Accurate ones.
     Accurate,
@@ -26,7 +26,7 @@ pub(crate) const METHODS: [(&str, &str, MethodKind); 2] = [
 /// How a grid treats two viscosities.
 const CONTRASTS: [(&str, &str, Contrast); 2] = [
     ("sharp", "A jump at the interface", Contrast::Sharp),
-    ("arithmetic", "A smooth viscosity, as in the thesis", Contrast::Arithmetic),
+    ("arithmetic", "A smooth viscosity, as in Cowley", Contrast::Arithmetic),
 ];
 
 /// The numerical method.
@@ -91,7 +91,7 @@ impl MethodFlags {
         Ok(setup)
     }
 
-    /// How the flow is computed: as `--method` says, or else on a grid if the preset is the thesis' or a flag is given
+    /// How the flow is computed: as `--method` says, or else on a grid if the preset is Cowley's or a flag is given
     /// that only a grid has a use for, without a grid if one of the nodes is, and as `base` otherwise.
     fn kind(&self, base: MethodKind) -> MethodKind {
         let for_nodes = self.nodes.is_some() || self.concentration_cells.is_some();

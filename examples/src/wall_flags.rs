@@ -9,7 +9,7 @@ use motile::{ChannelShape, MeshKind, MethodKind, Setup, SolidOutline, SolidSetup
 use crate::parse::{one_of, positive};
 use crate::{AlongFlags, MethodFlags, Preset, RegionFlags, SceneFlags};
 
-/// Spring constant of the thesis' softest walls.
+/// Spring constant of Cowley's softest walls.
 const SOFT: f64 = 1e4;
 /// Fewest points along a channel.
 const LEAST_ALONG: f64 = 6.0;
@@ -19,9 +19,9 @@ const MOST_POINTS: f64 = 4e6;
 /// What the walls are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Material {
-    /// Springs, thesis section 4.1.
+    /// Springs, Cowley section 4.1.
     Springs,
-    /// Neo-Hookean material, thesis section 4.2.
+    /// Neo-Hookean material, Cowley section 4.2.
     NeoHookean,
 }
 
@@ -43,7 +43,7 @@ pub struct ElasticFlags {
     /// What the walls are made of
     #[arg(long, value_enum, default_value_t = Material::Springs)]
     pub material: Material,
-    /// Stiffness of the walls as the thesis' spring constant k [default: 1e4]
+    /// Stiffness of the walls as Cowley's spring constant k [default: 1e4]
     #[arg(long, value_parser = positive, allow_hyphen_values = true, conflicts_with = "shear_modulus")]
     pub stiffness: Option<f64>,
     /// Stiffness of the walls as their shear modulus

@@ -1,4 +1,4 @@
-//! Speed and amplitude of droplets in rigid channels of many lengths and widths, beside the fits of the thesis
+//! Speed and amplitude of droplets in rigid channels of many lengths and widths, beside the fits of Cowley
 //! (chapter 3).
 //!
 //! `cargo run --release -p studies -- channels` makes the runs, a few minutes on two cores; `--full` makes them on
@@ -20,7 +20,7 @@ use crate::channels::run::{Job, NARROW, OSCILLATING, Purpose, THESIS_FITS};
 
 /// Side of the box that is called unconfined (R0).
 const BOX: f64 = 12.0;
-/// Speed and amplitude of droplets in rigid channels, beside the fits of the thesis.
+/// Speed and amplitude of droplets in rigid channels, beside the fits of Cowley.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
     /// Fine grid, long runs and more lengths

@@ -40,7 +40,7 @@ const CONCENTRATION: f64 = 100.0;
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     make_directory(&flags.out)?;
     let extent = if flags.quick { Extent::Quick } else { Extent::Long };
-    let heading = "| case | what is hard | method | outcome | time | steps | taken back | area | particles | seconds \
+    let heading = "| case | what is hard | method | outcome | time | steps | rejected | area | particles | seconds \
         |\n\
                    |---|---|---|---|---|---|---|---|---|---|\n";
     let mut table = heading.to_owned();

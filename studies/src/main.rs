@@ -1,15 +1,20 @@
 //! What prints the tables and figures of motile's documents.
 //!
 //! `cargo run --release -p studies -- NAME` runs one of them; `--help` lists the names, `NAME --help` its flags.
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod channels;
 mod elastic_step;
 mod hard_cases;
+mod instructions;
 mod results;
 mod run_pool;
 mod scaling;
 mod step_cost;
 mod stiffness;
+mod tables;
 mod threads;
 mod time_steps;
 mod validation;
@@ -44,6 +49,9 @@ enum Study {
     Threads(threads::Flags),
     ElasticStep(elastic_step::Flags),
     Warnings(warnings::Flags),
+    Instructions(instructions::Flags),
+    Stale(tables::StaleFlags),
+    Pages(tables::PagesFlags),
 }
 
 fn main() -> ExitCode {
@@ -60,5 +68,8 @@ fn main() -> ExitCode {
         Study::Threads(flags) => threads::run(flags),
         Study::ElasticStep(flags) => elastic_step::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
+        Study::Instructions(flags) => instructions::run(flags),
+        Study::Stale(flags) => tables::stale(flags),
+        Study::Pages(flags) => tables::pages(flags),
     })
 }

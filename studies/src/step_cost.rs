@@ -7,7 +7,7 @@
 //! Phases of the bodies, the solves and the flow are timed within the steps; spreading, interpolation and transforms by
 //! themselves on the state of the step, as often as the step has them. `coupling` is what is left of the flow: the
 //! mobility correction, checks, the double layer of a contrast or the iterations of a varying viscosity beyond their
-//! solves, and without a grid all of it. The unit of the column "pairs" is one real transform there and back of the
+//! solves, and without a grid all of it. The unit of the column "pairs" is one forward and one inverse real FFT of the
 //! grid, done plainly with realfft; without a grid that of the grid of spacing 0.05.
 
 mod phases;

@@ -1,7 +1,7 @@
-//! Droplets between elastic walls of many stiffnesses, as in chapter 4 of the thesis.
+//! Droplets between elastic walls of many stiffnesses, as in chapter 4 of Cowley.
 //!
 //! `cargo run --release -p studies -- stiffness` makes the runs on a coarse grid, some ten minutes on two cores;
-//! `--full` makes all of the thesis' on a fine grid, which takes hours; `--only` makes part of them. Each finished run
+//! `--full` makes all of Cowley's on a fine grid, which takes hours; `--only` makes part of them. Each finished run
 //! leaves a file in `out/stiffness/runs/` and is not made again; delete the directory to start afresh. Prints the
 //! speeds with the fits (4.3), the maps 4.17 and 4.19 and the comparison of materials, and writes `points.csv` and
 //! figures.
@@ -32,7 +32,7 @@ pub(crate) struct Flags {
     /// Grid spacing h (R0); without it 0.1, or 0.05 with --full
     #[arg(long, value_parser = spacing, allow_hyphen_values = true)]
     spacing: Option<f64>,
-    /// The method of the thesis, for the constriction
+    /// The method of Cowley, for the constriction
     #[arg(long)]
     thesis: bool,
     /// Only runs whose names contain this

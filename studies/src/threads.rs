@@ -1,4 +1,4 @@
-//! What several threads bring, and that they change no bit.
+//! What several threads bring, and that they change no result.
 //!
 //! `cargo run --release -p studies --features rayon -- threads` times steps of a droplet in a box of 1024 x 1024 cells
 //! and between elastic walls of 50,000 points, on one thread and on more by turns, and compares the states bit by bit.
@@ -81,7 +81,7 @@ fn turns<H: Hydrodynamics>(flags: &Flags, title: &str, build: impl Fn() -> Resul
         first.len(),
         flags.threads,
         one / several,
-        if equal { "the same bits" } else { "OTHER BITS" },
+        if equal { "bitwise identical" } else { "DIFFERENT" },
     ));
     ensure!(equal, "the state depends on the number of threads");
     Ok(())

@@ -81,7 +81,7 @@ const ACTIVITY: f64 = -2.0;
 
 type Channel<I> = Scene<AnyFlow, I>;
 
-/// The thesis' stiffest walls: k = 1e6, viscosity 10, width 2, with a droplet of this activity between them.
+/// Cowley's stiffest walls: k = 1e6, viscosity 10, width 2, with a droplet of this activity between them.
 fn channel<I: Integrator>(integrator: I, activity: f64) -> Result<(Channel<I>, Handle<ActiveDroplet>)> {
     let shear = Moduli::from_thesis_spring_constant(1e6)?.shear();
     let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear });
@@ -142,7 +142,7 @@ fn line(name: &str, step: &str, cost: &Cost, exact: &Cost) -> Result<String> {
     ))
 }
 
-const HEADING: &str = "| method | step | steps | taken back | evaluations | seconds | error of position | error of \
+const HEADING: &str = "| method | step | steps | rejected | evaluations | seconds | error of position | error of \
     shape |\n\
                        |---|---|---|---|---|---|---|---|";
 

@@ -8,6 +8,7 @@ mod channels;
 mod contrast;
 mod headings;
 mod interfaces;
+mod recommended;
 mod solids;
 
 use clap::{Args, ValueEnum};
@@ -18,6 +19,8 @@ use motile_tests::validation::growth::Mode;
 use motile_tests::validation::scene::{on_grid, open_channel, reference, without_grid};
 use motile_tests::validation::swimmers::{LongRun, long_run, speeds, steady, transient};
 use motile_tests::validation::{Case, StudyError, Table, fixed_shapes, growth, order, relaxation, resolution};
+
+use crate::tables;
 
 /// A study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -34,6 +37,7 @@ enum Study {
     LongRun,
     Invariance,
     Headings,
+    Recommended,
     ChannelShapes,
     ChannelSwimmers,
     ChannelLength,
@@ -67,6 +71,12 @@ pub(crate) struct Flags {
     /// Leave out the finest grids and the longest runs.
     #[arg(long)]
     quick: bool,
+    /// Write the tables to docs/tables, with the commit and what they depend on
+    #[arg(long, conflicts_with = "quick")]
+    write: bool,
+    /// Fail if the tables are not those of docs/tables
+    #[arg(long, conflicts_with = "quick")]
+    check: bool,
 }
 
 type Tables = Result<Vec<Table>, StudyError>;
@@ -75,7 +85,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
-    let studies: [(Study, Run); 33] = [
+    let studies: [(Study, Run); 34] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -87,6 +97,7 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
         (Study::LongRun, long),
         (Study::Invariance, invariance),
         (Study::Headings, headings::headings),
+        (Study::Recommended, recommended::recommended),
         (Study::ChannelShapes, channels::channel_shapes),
         (Study::ChannelSwimmers, channels::channel_swimmers),
         (Study::ChannelLength, channels::channel_length),
@@ -112,8 +123,17 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
     ];
     for (study, run) in studies {
         if flags.study == Study::All || flags.study == study {
-            for table in run(flags.quick)? {
-                say(&table);
+            let found = run(flags.quick)?;
+            found.iter().for_each(say);
+            if flags.write || flags.check {
+                let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+                let solids = if study == Study::Solids { &["crates/elastic-solids"][..] } else { &[] };
+                let inputs = [&tables::RUNS[..], solids].concat();
+                if flags.check {
+                    tables::check(&name, &found)?;
+                } else {
+                    tables::write(&name, &format!("validation {name} --write"), &inputs, &found)?;
+                }
             }
         }
     }
@@ -206,7 +226,7 @@ fn swim(quick: bool) -> Tables {
         for (name, resolutions) in [("default", accurate), ("thesis", thesis)] {
             for &(h, ds) in resolutions {
                 let (preset, base) = if name == "thesis" {
-                    // The error of the time step is far below that of the grid at ten times the thesis' step.
+                    // The error of the time step is far below that of the grid at ten times Cowley's step.
                     (GridMethod::thesis(), Setup { step: StepSize::Fixed(0.2 * h), ..Setup::thesis() })
                 } else {
                     (GridMethod::default(), Setup::default())

@@ -1,9 +1,9 @@
-//! Droplets of another viscosity than their surroundings: section 2.3 of the thesis, figures 2.8 to 2.26, without a
+//! Droplets of another viscosity than the exterior fluid: section 2.3 of Cowley, figures 2.8 to 2.26, without a
 //! grid.
 //!
 //! `cargo run --release -p studies -- viscosity_contrast` makes the runs, some minutes on two cores; `--full` makes
 //! more of them, longer and finer, an hour or so. Each finished run leaves a file in `out/viscosity_contrast/runs/` and
-//! is not made again. From all runs come `points.csv`, the figures (SVG and PNG) and `statements.md`, the thesis'
+//! is not made again. From all runs come `points.csv`, the figures (SVG and PNG) and `statements.md`, Cowley's
 //! statements beside what the runs say.
 
 mod figures;
@@ -16,15 +16,15 @@ use anyhow::Result;
 use clap::Args;
 use motile_examples::{OutputFlags, Summary, positive, say};
 
-use crate::viscosity_contrast::run::{Job, Surroundings};
+use crate::viscosity_contrast::run::{Domain, Job};
 
-/// Droplets of another viscosity than their surroundings, beside the statements of the thesis.
+/// Droplets of another viscosity than the exterior fluid, beside the statements of Cowley.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
     /// More viscosities and activities, longer and finer runs
     #[arg(long)]
     full: bool,
-    /// Strength A of the excluded volume; the thesis does not give its own
+    /// Strength A of the excluded volume; Cowley does not give its own
     #[arg(long, default_value_t = 10.0, value_parser = positive, allow_hyphen_values = true)]
     excluded_volume: f64,
     /// Time of each run (R0 = 1); without it 40, or 120 with --full
@@ -95,9 +95,9 @@ fn jobs(flags: &Flags) -> Vec<Job> {
     let time = flags.time.unwrap_or(if flags.full { 120.0 } else { 40.0 });
     let [nodes, cells] = if flags.full { [96, 384] } else { [64, 256] };
     let mut jobs = Vec::new();
-    for surroundings in [Surroundings::Unbounded, Surroundings::Box] {
+    for domain in [Domain::Unbounded, Domain::Box] {
         jobs.extend(pairs.iter().map(|&(inside, outside, activity)| Job {
-            surroundings,
+            domain,
             inside,
             outside,
             activity,

@@ -3,9 +3,9 @@
 //!
 //! `cargo run --release -p studies -- work_precision` takes some minutes on one core, `--full` much longer; `--only
 //! SCENE` makes one scene. Each finished run leaves a file in `out/work_precision/runs/COMMIT/`, COMMIT being the
-//! last change to the library or to this study, and is not made again, so that the page may be made in several goes,
-//! by one state of the code all the same. From all runs come `points.csv`, a figure a scene (SVG and PNG), and the page
-//! `speed-against-error.md`; with `--docs DIRECTORY` the page and its figures go there as well.
+//! last change to the library or to this study, and is not made again, so that the tables may be made in several goes,
+//! by one state of the code all the same. From all runs come `points.csv` and a figure a scene (SVG and PNG); with
+//! `--write` the tables of docs/tables and the figures of docs/images/work_precision.
 //!
 //! Costs are measured by turns with a plain real transform, so that what else the machine does cancels; runs are made
 //! one at a time.
@@ -20,17 +20,14 @@ mod shapes;
 mod studies;
 mod swimmers;
 
-use std::path::PathBuf;
-use std::process::Command;
-
 use crate::results::write_results;
 use crate::run_pool::RunPool;
+use crate::tables;
 use anyhow::{Context, Result};
 use clap::Args;
 use motile_examples::{OutputFlags, Summary, say};
 
 use crate::work_precision::front::Point;
-use crate::work_precision::report::Circumstances;
 use crate::work_precision::settings::Settings;
 use crate::work_precision::studies::Study;
 
@@ -46,9 +43,9 @@ pub(crate) struct Flags {
     /// Print the speed that the swimmer of ratio 100 is compared with, and nothing else
     #[arg(long)]
     reference: bool,
-    /// Write the page and its figures to this directory of documents too
-    #[arg(long, value_name = "DIRECTORY")]
-    docs: Option<PathBuf>,
+    /// Write the tables and figures of docs/ too
+    #[arg(long)]
+    write: bool,
     #[command(flatten)]
     output: OutputFlags,
 }
@@ -65,7 +62,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         .flat_map(|study| lists::settings(study, flags.full).into_iter().map(move |settings| (study, settings)))
         .collect();
     let name = |(study, settings): &(Study, Settings)| format!("{}_{}", study.name(), settings.name());
-    let commit = commit();
+    let commit = tables::commit(&[&tables::RUNS[..], &CODE].concat())?;
     let runs = directory.join("runs").join(&commit);
     let results = RunPool::new(&runs, 1, flags.output.quiet)?.run(&jobs, name, point);
 
@@ -79,11 +76,10 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     }
     let rows: Vec<Summary> = points.iter().map(|point| point.summary.clone()).collect();
     write_results(&directory.join("points.csv"), &rows)?;
-    let circumstances = Circumstances { machine: machine(), commit, command: command(flags) };
-    let page = |pictures: &str| report::page(&points, &circumstances, pictures);
-    write(&directory.join("speed-against-error.md"), &page(""))?;
-    if let Some(docs) = &flags.docs {
-        write(&docs.join("speed-against-error.md"), &page("images/speed_against_error/"))?;
+    let found = report::tables(&points, &machine());
+    found.iter().for_each(say);
+    if flags.write {
+        tables::write("work-precision", &command(flags), &[&tables::RUNS[..], &CODE].concat(), &found)?;
     }
     for study in Study::ALL {
         let own: Vec<Point> = points.iter().filter(|point| point.study == study).cloned().collect();
@@ -92,8 +88,8 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         }
         let figure = figures::figure(study, &own);
         figure.write(&directory, study.name())?;
-        if let Some(docs) = &flags.docs {
-            let pictures = docs.join("images/speed_against_error");
+        if flags.write {
+            let pictures = tables::root().join("docs/images/work_precision");
             motile_examples::make_directory(&pictures)?;
             let path = pictures.join(format!("{}.svg", study.name()));
             std::fs::copy(directory.join(format!("{}.svg", study.name())), &path)
@@ -114,12 +110,8 @@ fn point((study, settings): &(Study, Settings)) -> Result<Summary> {
     Ok(summary)
 }
 
-fn write(path: &std::path::Path, text: &str) -> Result<()> {
-    std::fs::write(path, text).with_context(|| format!("writing {}", path.display()))
-}
-
 fn command(flags: &Flags) -> String {
-    format!("cargo run --release -p studies -- work_precision{}", if flags.full { " --full" } else { "" })
+    format!("work_precision{} --write", if flags.full { " --full" } else { "" })
 }
 
 /// The processor, as the system names it.
@@ -135,18 +127,5 @@ fn machine() -> String {
     }
 }
 
-/// What the figures depend on.
-const CODE: [&str; 4] = ["crates", "Cargo.lock", "tests/src", "studies/src/work_precision"];
-
-/// The commit that last changed the code, and a word if there are changes beyond it.
-fn commit() -> String {
-    let git = |arguments: &[&str]| {
-        let output = Command::new("git").args(arguments).arg("--").args(CODE).output();
-        let output = output.ok().filter(|output| output.status.success())?;
-        Some(String::from_utf8(output.stdout).ok()?.trim().to_owned())
-    };
-    let last = git(&["log", "-1", "--format=%h"]).filter(|last| !last.is_empty());
-    let Some(last) = last else { return "unknown".to_owned() };
-    let changed = git(&["status", "--porcelain", "--untracked-files=no"]).is_some_and(|changes| !changes.is_empty());
-    if changed { format!("{last}-changed") } else { last }
-}
+/// What the tables depend on beside runs of droplets.
+const CODE: [&str; 2] = ["crates/elastic-solids", "studies/src/work_precision"];

@@ -37,7 +37,7 @@ fn fixed_shapes_are_second_order() {
     }
 }
 
-/// Activity -1 is above the threshold in a box but not in a channel of its own width (thesis section 3.1).
+/// Activity -1 is above the threshold in a box but not in a channel of its own width (Cowley section 3.1).
 #[test]
 fn a_weak_swimmer_comes_to_rest() {
     let droplets = vec![DropletSetup::active(-1.0)];

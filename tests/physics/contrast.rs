@@ -74,7 +74,7 @@ fn an_ellipse_at_every_ratio() {
     }
 }
 
-/// What the thesis' way is kept for: it is of first order, and its errors grow with the ratio.
+/// What Cowley's way is kept for: it is of first order, and its errors grow with the ratio.
 #[test]
 fn a_smeared_viscosity_is_first_order() {
     for region in [SQUARE, open_channel(8.0, 5.0)] {

@@ -12,7 +12,7 @@ fn place(setup: &Setup) -> f64 {
     polygon_moments(scene.body(droplets[0]).expect("its droplet").markers()).expect("a droplet").centroid.x
 }
 
-/// How far it swims between walls of springs of the thesis' k = 1e6, over how far it swims between rigid ones.
+/// How far it swims between walls of springs of Cowley's k = 1e6, over how far it swims between rigid ones.
 fn error(activity: f64, width: f64, h: f64, surface: Surface) -> f64 {
     let droplets = vec![DropletSetup::active(activity)];
     let rigid = Setup { region: open_channel(6.0, width), droplets: droplets.clone(), ..Setup::default() };

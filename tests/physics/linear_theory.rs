@@ -1,4 +1,4 @@
-//! Growth rates of small perturbations against linear theory (thesis (2.18), (2.19)), the box's effect removed.
+//! Growth rates of small perturbations against linear theory (Cowley (2.18), (2.19)), the box's effect removed.
 
 use motile::{DropletSetup, Setup};
 use motile_tests::validation::growth::{Mode, rate, rate_in_region};

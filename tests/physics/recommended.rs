@@ -5,13 +5,14 @@ use motile::{DropletSetup, Method, MethodKind, Recommendation, Region, SceneKind
 use motile_tests::validation::scene::{open_channel, without_grid};
 use motile_tests::validation::swimmers::speeds;
 
-const STEADY: f64 = 40.0;
+/// Times at which a swimmer is steady and crosses two cells or so: on a grid its speed oscillates.
+const STEADY: [f64; 6] = [40.0, 40.35, 40.7, 41.1, 41.55, 42.0];
 const KINDS: [MethodKind; 2] = [MethodKind::Integral, MethodKind::Grid];
 
 /// Errors of the recommended settings for targets by boundary integrals and on a grid; `scene` is not in the data.
 fn check(kind: SceneKind, targets: [&[f64]; 2], scene: &Setup) {
     let speed = |method: Method, step: StepSize| {
-        speeds(&Setup { method, step, ..scene.clone() }, &[STEADY]).expect("a good swimmer")[0]
+        speeds(&Setup { method, step, ..scene.clone() }, &STEADY).expect("a good swimmer")
     };
     // Far finer than anything that is recommended.
     let exact = speed(without_grid(96, 512).method, StepSize::OfLimit(0.5));
@@ -19,9 +20,10 @@ fn check(kind: SceneKind, targets: [&[f64]; 2], scene: &Setup) {
         for &target in targets {
             let Recommendation { method, step } = recommend(kind, method, target).expect("a measured target");
             let found = speed(method, step);
-            let error = found / exact - 1.0;
+            let errors = found.iter().zip(&exact).map(|(found, exact)| (found / exact - 1.0).abs());
+            let error = errors.fold(0.0, f64::max);
             println!("{kind:?} {method:?} target {target}: error {error:.2e}");
-            assert!(error.abs() < target, "{kind:?} {method:?} target {target}: error {error:.2e}");
+            assert!(error < target, "{kind:?} {method:?} target {target}: error {error:.2e}");
         }
     }
 }
@@ -31,14 +33,21 @@ fn in_a_box() {
     // Another activity, box, excluded volume and heading.
     let droplets = vec![DropletSetup { angle: 0.4, ..DropletSetup::contractile(-3.0, 7.0) }];
     let scene = Setup { region: Region::Box { lengths: [6.6; 2] }, droplets, ..Setup::default() };
-    check(SceneKind::Box, [&[0.01, 0.003, 0.001], &[0.01, 0.001]], &scene);
+    check(SceneKind::Box, [&[0.01, 0.003, 0.001], &[0.03, 0.01, 0.003]], &scene);
+}
+
+#[test]
+fn along_a_line_of_the_grid() {
+    // Where the error of a grid is nearly the same at all times, and the mean no better than the worst.
+    let scene = Setup { droplets: vec![DropletSetup::contractile(-4.0, 8.0)], ..Setup::default() };
+    check(SceneKind::Box, [&[], &[0.008]], &scene);
 }
 
 #[test]
 fn with_a_contrast() {
     let droplets = vec![DropletSetup { viscosity: Some(100.0), ..DropletSetup::contractile(-1.5, 3.0) }];
     let scene = Setup { viscosity: 6.0, droplets, ..Setup::default() };
-    check(SceneKind::ViscosityContrast, [&[0.01, 0.003], &[0.01]], &scene);
+    check(SceneKind::ViscosityContrast, [&[0.01, 0.003], &[0.01, 0.003]], &scene);
 }
 
 #[test]

@@ -32,7 +32,7 @@ fn speed_through_the_transient() {
     assert!(error.abs() < 1e-3, "{error} at {time}");
 }
 
-/// The thesis' method is too fast at its own resolution, at first order: kept so that its results can be reproduced.
+/// Cowley's method is too fast at its own resolution, at first order: kept so that its results can be reproduced.
 #[test]
 fn thesis_preset_is_first_order() {
     let base = Setup { step: StepSize::Fixed(0.01), ..Setup::thesis() };

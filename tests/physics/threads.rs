@@ -5,7 +5,7 @@ use motile::ib_core::Scene;
 use motile::{AnyFlow, ChannelShape, DropletSetup, Material, Region, Setup, SolidSetup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
-/// State and velocities, bit for bit, after three steps on that many threads.
+/// State and velocities, bitwise, after three steps on that many threads.
 fn bits(threads: usize, setup: &Setup) -> Vec<u64> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
     pool.install(|| {

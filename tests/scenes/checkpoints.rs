@@ -1,4 +1,4 @@
-//! Scenes on disk: resumed runs are bit for bit those that were never stopped, and files that are not whole are
+//! Scenes on disk: resumed runs are bitwise those that were never stopped, and files that are not whole are
 //! refused.
 
 use std::path::PathBuf;
@@ -263,11 +263,11 @@ fn what_is_seen_after_resuming_by_another_method_is_what_that_finds() {
             scene.resume(&saved).expect("the same physics");
             let seen = scene.observe(droplets[0]).expect("a droplet").speed();
             // The same state, handed over by its numbers alone.
-            let mut anew = build(&with(method(spacing, change)));
+            let mut rebuilt = build(&with(method(spacing, change)));
             let mut state = Vec::new();
             scene.system().write_state(&mut state);
-            anew.scene.system_mut().read_state(&state).expect("a state");
-            let exact = anew.scene.observe(anew.droplets[0]).expect("a droplet").speed();
+            rebuilt.scene.system_mut().read_state(&state).expect("a state");
+            let exact = rebuilt.scene.observe(rebuilt.droplets[0]).expect("a droplet").speed();
             assert!((seen / exact - 1.0).abs() < 2e-3, "{viscosity:?} {number}: {seen} {exact}");
             assert_eq!(seen == speed, number == 3, "{viscosity:?} {number}: {seen} {speed}");
         }

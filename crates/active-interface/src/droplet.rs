@@ -50,7 +50,7 @@ pub enum Motion {
         /// long runs. Only on a grid.
         filter: bool,
     },
-    /// With the fluid's full velocity (thesis (2.8)), markers being inserted where they thin out (1.5 times the spacing
+    /// With the fluid's full velocity (Cowley (2.8)), markers being inserted where they thin out (1.5 times the spacing
     /// at the start) and removed where they crowd (half of it), without a loss of particles.
     WithFluid,
 }
@@ -61,11 +61,11 @@ impl Default for Motion {
     }
 }
 
-/// A droplet: a closed fluid interface that may carry active particles, which raise its tension (thesis section 2.1).
+/// A droplet: a closed fluid interface that may carry active particles, which raise its tension (Cowley section 2.1).
 ///
 /// The unknowns are the marker positions and the particle numbers n_k of the segments between them; c_k = n_k / l_k.
-/// Force of marker k on the fluid: `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (thesis (2.5), (2.31); t_k along segment
-/// k), whose sum over the curve is zero. Particles move with the fluid along the interface and diffuse (thesis (2.3)).
+/// Force of marker k on the fluid: `F_k = gamma_k t_k - gamma_{k-1} t_{k-1}` (Cowley (2.5), (2.31); t_k along segment
+/// k), whose sum over the curve is zero. Particles move with the fluid along the interface and diffuse (Cowley (2.3)).
 #[derive(Debug, Clone)]
 pub struct ActiveDroplet {
     pub(crate) name: String,
@@ -338,7 +338,7 @@ impl ActiveDroplet {
         self.tension.values(&self.concentrations, &mut self.tensions);
     }
 
-    /// The truncation and the geometry that `discretisation` asks for, made anew only where they have changed.
+    /// The truncation and the geometry that `discretisation` asks for, remade only where they have changed.
     pub(crate) fn fit(&mut self, discretisation: &Discretisation) {
         let count = self.shape.markers.len();
         let smooth = discretisation.shape_modes.is_some() && matches!(self.motion, Motion::Equidistributed { .. });

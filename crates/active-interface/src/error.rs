@@ -3,7 +3,7 @@
 use ib_core::input::{InputError, all_finite};
 
 /// An error of this crate, with the offending values and the remedy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InterfaceError {
     /// A number or list that cannot be used.
@@ -115,6 +115,8 @@ pub enum InterfaceError {
         points: usize,
     },
 }
+
+ib_core::input::debug_as_explanation!(InterfaceError);
 
 /// Whether all entries are finite and each is above the one before it.
 pub(crate) fn increasing(name: &'static str, values: &[f64]) -> Result<(), InterfaceError> {

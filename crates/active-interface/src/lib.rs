@@ -1,7 +1,7 @@
 //! Active droplets: closed fluid interfaces that carry particles, which raise the interface's tension, are carried
 //! along by the flow that the tension drives, and so make the droplet swim.
 //!
-//! The model is that of the thesis (chapter 2): on the interface of a droplet in Stokes flow lives a concentration c of
+//! The model is that of Cowley (chapter 2): on the interface of a droplet in Stokes flow lives a concentration c of
 //! particles,
 //! ```text
 //! dc/dt = -d(c V)/ds + D d^2c/ds^2                (2.3)
@@ -62,6 +62,9 @@
 //! assert!((theory.swimming_speed(100.0)? - 0.125).abs() < 1e-12);
 //! # Ok::<(), InterfaceError>(())
 //! ```
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 pub mod concentration;
 pub mod curve;

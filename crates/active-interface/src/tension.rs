@@ -13,7 +13,7 @@ pub use excluded_volume::ExcludedVolume;
 /// A tension law: the tension gamma (force; a line tension in two dimensions) as a function of the concentration c
 /// (particles per length).
 ///
-/// Implement [`Tension::value`] and [`Tension::slope`] for a law of your own. The one on slices is compiled anew for
+/// Implement [`Tension::value`] and [`Tension::slope`] for a law of your own. The one on slices is recompiled for
 /// every law, so that a `dyn Tension` costs one indirect call a slice.
 pub trait Tension: Debug + Send + Sync {
     /// gamma(c) (force).
@@ -61,7 +61,7 @@ impl Tension for ConstantTension {
     }
 }
 
-/// The active tension gamma = gamma0 - zeta_dmu c - Pi(c) (thesis, eqs. 2.38 and 2.39), with an excluded volume Pi.
+/// The active tension gamma = gamma0 - zeta_dmu c - Pi(c) (Cowley, eqs. 2.38 and 2.39), with an excluded volume Pi.
 ///
 /// The activity zeta_dmu is negative for particles that contract the interface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,7 +83,7 @@ impl ContractileTension {
         Ok(Self { bare, activity, excluded_volume })
     }
 
-    /// The thesis' law: step-like excluded volume of strength A (force times length), threshold 2 c0 and steepness 20.
+    /// Cowley's law: step-like excluded volume of strength A (force times length), threshold 2 c0 and steepness 20.
     ///
     /// # Errors
     /// As [`ContractileTension::new`].

@@ -27,7 +27,7 @@ pub struct RoundDroplet {
     pub diffusivity: f64,
 }
 
-/// Linear theory of a round droplet in unbounded fluid (thesis, section 2.1.1): growth rates, the threshold of
+/// Linear theory of a round droplet in unbounded fluid (Cowley, section 2.1.1): growth rates, the threshold of
 /// swimming, its speed, and the flow of a perturbed droplet.
 ///
 /// ```
@@ -148,7 +148,7 @@ impl LinearTheory {
 /// p       = 4 eta (k+1) alpha r^k cos(k theta) / k,                       inside     (2.11)
 ///           4 eta (k-1) alpha r^-k cos(k theta) / k,                      outside
 /// ```
-/// In the thesis the outer v_theta has the opposite sign, with which the flow has sources. For k = 1 this is the frame
+/// In Cowley the outer v_theta has the opposite sign, with which the flow has sources. For k = 1 this is the frame
 /// of the droplet: far away the fluid moves with `alpha_outside` along theta = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModeFlow {

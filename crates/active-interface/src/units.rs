@@ -78,7 +78,7 @@ impl Units {
         })
     }
 
-    /// The thesis' units (Appendix A): length R0 = 10 um; a viscosity of 100 is 1000 Pa s and a tension gamma0 of 10 is
+    /// Cowley's units (Appendix A): length R0 = 10 um; a viscosity of 100 is 1000 Pa s and a tension gamma0 of 10 is
     /// 100 Pa um, so that the unit of time is 10 s, of speed 1 um/s.
     ///
     /// All of table A.1 follows, but for the activity: its unit is tension times length, 100 Pa um^2, where the table

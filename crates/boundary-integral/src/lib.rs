@@ -37,6 +37,9 @@
 //!
 //! The cost of an evaluation grows with the square of the number of nodes of an interface and of its close neighbours,
 //! and for pairs farther apart by some microseconds each; it suits some tens of droplets.
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod flow;
 

@@ -1,4 +1,4 @@
-//! Small disturbances of a circle in free space against the thesis' linear theory, by the velocities themselves.
+//! Small disturbances of a circle in free space against Cowley's linear theory, by the velocities themselves.
 
 use std::f64::consts::TAU;
 

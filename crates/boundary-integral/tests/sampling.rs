@@ -220,7 +220,8 @@ fn samples_are_periodic() {
     assert!(velocity < 1e-12 && gradient < 1e-7 && pressure < 1e-6, "{velocity:e} {gradient:e} {pressure:e}");
 }
 
-/// Interfaces far apart see each other by series, samples by sums over the nodes: at the markers both must agree.
+/// Interfaces far apart see each other by series, samples by direct summation over the nodes: at the markers both must
+/// agree.
 fn far_interfaces_move_with_the_flow(geometry: Geometry) {
     let mut ellipses = pair(20.0).to_vec();
     ellipses[1].centre = [5.1, 1.2];

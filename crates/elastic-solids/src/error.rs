@@ -3,7 +3,7 @@
 use ib_core::input::{InputError, positive, within};
 
 /// An error of this crate, with the offending values and the remedy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolidError {
     /// A number or list that cannot be used.
@@ -260,6 +260,8 @@ pub enum SolidError {
         residual: f64,
     },
 }
+
+ib_core::input::debug_as_explanation!(SolidError);
 
 /// Most points of a mesh or an outline: sizes are bounded before anything is allocated.
 pub(crate) const MOST_POINTS: f64 = 1e6;

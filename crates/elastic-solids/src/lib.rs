@@ -1,12 +1,12 @@
 //! Elastic solids in the plane, for channels with soft walls and any other geometry.
 //!
-//! A [`Solid`] is a triangle mesh of its reference state and a law for its forces (thesis chapter 4): springs along the
+//! A [`Solid`] is a triangle mesh of its reference state and a law for its forces (Cowley chapter 4): springs along the
 //! edges, a hyperelastic material, or a law of your own. It is a body of a scene ([`ib_core::Body`]): its points put
 //! the forces on the fluid and move with it.
 //!
 //! # Example
 //!
-//! The lower wall of the thesis' constriction, stiffer to the right, held by its lowest row and squeezed by a
+//! The lower wall of Cowley's constriction, stiffer to the right, held by its lowest row and squeezed by a
 //! twentieth:
 //! ```
 //! use elastic_solids::channel::ChannelShape;
@@ -36,8 +36,8 @@
 //!   lies between them; [`Channel`] for two walls with islands between them, and ready ones in [`channel`].
 //! * **Meshes**: [`Mesher`] for any interior, lattices and Gmsh files in [`mesh`]; [`TriangleMesh::quality`] says how
 //!   even they are.
-//! * **Materials**: [`NeoHookean`] (the thesis'), others in [`material`], or an [`EnergyDensity`] of your own;
-//!   [`Moduli`] converts between constants, the thesis' spring constant among them.
+//! * **Materials**: [`NeoHookean`] (Cowley's), others in [`material`], or an [`EnergyDensity`] of your own;
+//!   [`Moduli`] converts between constants, Cowley's spring constant among them.
 //! * **Forces** of a mesh by themselves ([`forces`]), and what every law of your own must satisfy ([`check`]).
 //! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid, [`Solid::surface_corrected`] for a
 //!   surface that the flow knows to a few hundredths of a grid spacing instead of a third.
@@ -48,6 +48,9 @@
 //! Two dimensions: moduli and stresses are forces per length. Triangles are counter-clockwise. Walls repeat themselves
 //! in x, their two ends share points. Forces are those of the solid on the fluid. Quantities have the units that you
 //! choose; every item names its dimension. Bad input ends in a [`SolidError`].
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 pub mod channel;
 pub mod check;

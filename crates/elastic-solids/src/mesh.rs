@@ -159,7 +159,7 @@ impl TriangleMesh {
         self.areas.iter().sum()
     }
 
-    /// A third of the areas of the triangles around each point, dA_i of thesis (4.2) (area).
+    /// A third of the areas of the triangles around each point, dA_i of Cowley (4.2) (area).
     pub(crate) fn point_areas(&self) -> Vec<f64> {
         let mut areas = vec![0.0; self.points.len()];
         for (triangle, area) in self.triangles.iter().zip(&self.areas) {

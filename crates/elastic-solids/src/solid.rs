@@ -17,8 +17,8 @@ use surface_correction::SurfaceCorrection;
 pub use deformation::Deformation;
 
 /// An elastic solid in a fluid, a body of a scene ([`ib_core::Body`]): its points put their elastic forces on the fluid
-/// and move with it. It is made of springs along the edges of its mesh (thesis section 4.1), of a hyperelastic material
-/// (thesis section 4.2), or has forces of your own.
+/// and move with it. It is made of springs along the edges of its mesh (Cowley section 4.1), of a hyperelastic material
+/// (Cowley section 4.2), or has forces of your own.
 ///
 /// Points may be pinned, that is, stay where they are and put no force on the fluid, or tethered to where they are in
 /// the reference state.

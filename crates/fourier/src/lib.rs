@@ -9,6 +9,21 @@
 //! | [`ComplexTransform`] | complex numbers, in place |
 //! | [`RealTransform`] | real numbers to half of their spectrum and back |
 //!
+//! ```
+//! use fourier::PeriodicSeries;
+//!
+//! // The derivative of a circle along its angle, from twelve points.
+//! let angle = |k: usize| std::f64::consts::TAU * k as f64 / 12.0;
+//! let circle: Vec<[f64; 2]> = (0..12).map(|k| [angle(k).cos(), angle(k).sin()]).collect();
+//! let mut series = PeriodicSeries::new(12);
+//! series.analyse_vectors(&circle)?;
+//! series.differentiate();
+//! let mut slopes = [[0.0; 2]; 12];
+//! series.write_vectors(&mut slopes)?;
+//! assert!((slopes[1][0] + angle(1).sin()).abs() < 1e-14);
+//! # Ok::<(), fourier::InputError>(())
+//! ```
+//!
 //! On them stand Fourier series through equally spaced samples of periodic functions, such as the points of a closed
 //! curve ([`PeriodicSeries`]).
 //!

@@ -101,7 +101,7 @@ pub trait Body: Any + std::fmt::Debug + Send {
     }
 
     /// Called when the step that [`Body::end_step`] has ended stays: for what is counted over a run. Steps that are
-    /// taken back do not come here.
+    /// rejected do not come here.
     fn keep_step(&mut self) {}
 
     /// Tells `limits` the largest stable time steps of the explicit midpoint rule at the present state, one for each
@@ -135,7 +135,7 @@ pub trait Body: Any + std::fmt::Debug + Send {
         vec![("the number of markers".to_owned(), self.marker_count() as f64)]
     }
 
-    /// Everything from which [`Body::load`] makes the present state again, bit for bit: by default what
+    /// Everything from which [`Body::load`] makes the present state again, bitwise: by default what
     /// [`Body::write_state`] writes. A body whose next step depends on more must save that too.
     fn save(&self) -> SavedState {
         let mut reals = vec![0.0; self.state_len()];

@@ -14,13 +14,13 @@ use crate::{
     scene::StepReport,
 };
 
-/// The whole state of a scene, to go on from later, bit for bit as if it had never stopped.
+/// The whole state of a scene, to go on from later, bitwise as if it had never stopped.
 ///
 /// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. What the scene is must
 /// be the same: the domain, what drives the fluid along it, the viscosities, the bodies and what they are made of
 /// ([`crate::Body::properties`], with the numbers of markers and points that they started with). How it is computed may
 /// be another then: time step, integrator and observers, grid spacing (with markers and meshes as before), kernel,
-/// corrections, transport of particles. The flow of the state is then computed anew.
+/// corrections, transport of particles. The flow of the state is then recomputed.
 ///
 /// ```
 /// use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};
@@ -159,7 +159,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         }
     }
 
-    /// Goes on from a checkpoint of this scene: the steps that follow are, bit for bit, those that would have followed
+    /// Goes on from a checkpoint of this scene: the steps that follow are, bitwise, those that would have followed
     /// there. With another integrator that starts afresh. After an error the scene is as it was.
     ///
     /// # Errors

@@ -79,13 +79,13 @@ pub(crate) struct Droplet {
     pub(crate) even: bool,
 }
 
-/// The viscosity inside a group if it is an interface to another viscosity than that of the surroundings.
+/// The viscosity inside a group if it is an interface to another viscosity than that of the exterior fluid.
 ///
 /// # Errors
 /// A viscosity that is not positive and finite.
-pub(crate) fn other_viscosity(kind: &MarkerKind, surroundings: f64) -> Result<Option<f64>, InputError> {
+pub(crate) fn other_viscosity(kind: &MarkerKind, exterior: f64) -> Result<Option<f64>, InputError> {
     let Some(value) = kind.viscosity_inside() else { return Ok(None) };
-    Ok((positive("the viscosity inside an interface", value)? != surroundings).then_some(value))
+    Ok((positive("the viscosity inside an interface", value)? != exterior).then_some(value))
 }
 
 impl Contrast {

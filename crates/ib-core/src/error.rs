@@ -6,7 +6,7 @@ use stokes_grid::StokesError;
 use crate::checkpoint::CheckpointError;
 
 /// The flow could not be computed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FlowError {
     /// The grid solver refused.
@@ -75,8 +75,10 @@ pub enum FlowError {
     },
 }
 
+input_checks::debug_as_explanation!(FlowError);
+
 /// A body is in a state that it cannot be in.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum BodyError {
     /// A state that is not finite.
@@ -122,10 +124,12 @@ pub enum BodyError {
     Other(Box<dyn std::error::Error + Send + Sync>),
 }
 
+input_checks::debug_as_explanation!(BodyError);
+
 /// A scene could not be made or advanced. After an error in a step the scene holds the state before that step.
 ///
 /// Causes are in the chain of sources and not repeated in the text; [`SceneError::explanation`] tells all.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
     /// The flow could not be computed.
@@ -333,6 +337,8 @@ pub enum SceneError {
     },
 }
 
+input_checks::debug_as_explanation!(SceneError);
+
 fn shown(value: Option<f64>) -> String {
     value.map_or_else(|| "not given".to_owned(), |value| value.to_string())
 }
@@ -341,16 +347,6 @@ impl SceneError {
     /// The error and its causes in one sentence.
     #[must_use]
     pub fn explanation(&self) -> String {
-        let mut told = self.to_string();
-        let mut source = std::error::Error::source(self);
-        while let Some(cause) = source {
-            let text = cause.to_string();
-            // A transparent error says what its cause says.
-            if !told.ends_with(&text) {
-                told = format!("{told}: {text}");
-            }
-            source = cause.source();
-        }
-        told
+        input_checks::explanation(self)
     }
 }

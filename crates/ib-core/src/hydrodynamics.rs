@@ -29,7 +29,7 @@ pub struct Domain {
 pub struct Discretisation {
     /// The region.
     pub domain: Domain,
-    /// Viscosity of the surroundings (stress times time).
+    /// Viscosity of the exterior fluid (stress times time).
     pub viscosity: f64,
     /// Grid spacing (length); `None` where there is no grid.
     pub spacing: Option<f64>,

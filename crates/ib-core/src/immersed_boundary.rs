@@ -23,14 +23,14 @@ use contrast_flow::ContrastFlow;
 const WALL_TOLERANCE: f64 = 0.25;
 
 /// Velocities of markers by spreading their forces to a grid, solving the Stokes equations there and interpolating
-/// (thesis section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).
+/// (Cowley section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).
 ///
 /// Only [`MarkerKind::Interface`] is corrected; the order of the markers' velocities is then two, else one.
 /// [`Hydrodynamics::sample`] interpolates bilinearly between grid points: second order further than the kernel's reach
 /// from interfaces, first order within it.
 ///
-/// **Other viscosities inside interfaces.** The grid solves for one viscosity, that of the surroundings; where a group
-/// of markers has another one inside, the boundary integral equation
+/// **Other viscosities inside interfaces.** The grid solves for one viscosity, that of the exterior fluid; where a
+/// group of markers has another one inside, the boundary integral equation
 ///
 /// `(eta_in + eta)/2 v(x) = eta u(x) - (eta_in - eta)/(4 pi) PV INT v(y) T(x, y) n ds`
 ///
@@ -67,7 +67,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Self::build(solver, kernel, true)
     }
 
-    /// The method without the mobility correction, as in the thesis.
+    /// The method without the mobility correction, as in Cowley.
     #[must_use]
     pub fn uncorrected(solver: S, kernel: K) -> Self {
         Self::build(solver, kernel, false)
@@ -185,7 +185,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(())
     }
 
-    /// Whether the viscosity inside any group differs from that of the surroundings.
+    /// Whether the viscosity inside any group differs from that of the exterior fluid.
     fn has_contrast(&self, markers: &Markers) -> Result<bool, FlowError> {
         for group in markers.groups() {
             if other_viscosity(&group.kind, self.solver.viscosity())?.is_some() {

@@ -63,7 +63,7 @@ pub trait Integrator: std::fmt::Debug + Send {
         IntegratorWork::default()
     }
 
-    /// Writes what it keeps from step to step, so that it can go on bit for bit; most keep nothing.
+    /// Writes what it keeps from step to step, so that it can go on bitwise identically; most keep nothing.
     fn save(&self, _record: &mut SavedState) {}
 
     /// Takes back what [`Integrator::save`] wrote.

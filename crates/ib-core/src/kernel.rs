@@ -28,7 +28,7 @@ pub enum Role {
 
 /// A regularised delta function as a product of one-dimensional functions,
 /// `delta_h(x) = phi_n(x/h) phi_t(y/h) / h^2` for the x component, normal and tangential exchanged for the y component
-/// (thesis (2.35)).
+/// (Cowley (2.35)).
 pub trait Kernel: std::fmt::Debug + Clone + Send + Sync {
     /// Its name on command lines and in files.
     fn name(&self) -> &'static str;

@@ -38,12 +38,15 @@
 //! ```
 //!
 //! Interfaces may have fluid of another viscosity inside, [`MarkerKind::Interface`]: a double layer on the markers
-//! takes care of it, at any ratio of viscosities and with errors that do not grow with it. [`SmearedContrast`] has the
-//! thesis' way, a viscosity that varies on the grid.
+//! takes care of it, at any ratio of viscosities and with errors that do not grow with it. [`SmearedContrast`] has
+//! Cowley's way, a viscosity that varies on the grid.
 //!
 //! Accuracy: velocities on an interface have errors of first order in h without the mobility correction and of second
 //! order with it; far from interfaces the method is of second order throughout. Formulas and derivations:
 //! docs/method.md in the repository.
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 pub mod body;
 pub mod checkpoint;

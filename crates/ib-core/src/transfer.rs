@@ -17,7 +17,7 @@ use locations::{Location, Locations};
 use order::STRIDE;
 use polynomial::{CubicQuadratics, Interpolation, Spreading};
 
-/// Transfer between markers and a staggered grid, the adjoint pair of the immersed boundary method (thesis (2.33),
+/// Transfer between markers and a staggered grid, the adjoint pair of the immersed boundary method (Cowley (2.33),
 /// (2.34)):
 ///
 /// * spreading: `f(x) = sum_k F_k delta_h(x - X_k)`, F_k the force (not density) of marker k;
@@ -71,7 +71,7 @@ impl<K: Kernel> Transfer<K> {
         self.bands.find(GeneralTransfer { kernel: &self.kernel, grid: &self.grid }, &self.locations);
     }
 
-    /// Adds the force density of the located markers to `density` (force per volume), thesis (2.33). `forces` (force)
+    /// Adds the force density of the located markers to `density` (force per volume), Cowley (2.33). `forces` (force)
     /// has an entry for each of them.
     pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) {
         let (general, scale) = (self.general(), 1.0 / (self.grid.spacing() * self.grid.spacing()));
@@ -86,7 +86,7 @@ impl<K: Kernel> Transfer<K> {
         spread(general, scale, markers, Band { first_row: 0, fx, fy });
     }
 
-    /// The velocities at the located markers (length per time), thesis (2.34). `velocities` has an entry for each of
+    /// The velocities at the located markers (length per time), Cowley (2.34). `velocities` has an entry for each of
     /// them.
     pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) {
         let (general, Locations { all: locations, irregular, .. }) = (self.general(), &self.locations);

@@ -8,10 +8,13 @@
 //! assert_eq!(error.to_string(), "the radius is -1: give a positive finite number");
 //! ```
 
+mod explanation;
+
+pub use explanation::explanation;
 use glam::DVec2 as Vec2;
 
 /// A number or list that cannot be used, with the remedy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InputError {
     /// A quantity that must be positive and finite is not.
@@ -81,6 +84,8 @@ pub enum InputError {
         value: f64,
     },
 }
+
+debug_as_explanation!(InputError);
 
 /// `value` if it is positive and finite.
 ///

@@ -5,7 +5,7 @@ use std::{io, path::PathBuf};
 use motile::{active_interface::InterfaceError, elastic_solids::SolidError, ib_core::SceneError};
 
 /// Why something cannot be drawn or written. Each says what it was given, and what to do.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A file or directory that cannot be written.
@@ -94,6 +94,8 @@ pub enum Error {
     #[error(transparent)]
     Solid(#[from] SolidError),
 }
+
+motile::ib_core::input::debug_as_explanation!(Error);
 
 impl Error {
     /// Turns the error of writing to `path` into one that names the place.

@@ -5,7 +5,7 @@
 //! polarises and swims. motile computes this in unbounded fluid, in periodic boxes, in channels with rigid walls and
 //! between elastic solids, by boundary integrals or by the immersed boundary method on a staggered grid with a
 //! correction that makes velocities on interfaces second-order accurate. The model is that of Natasha Cowley, "Effects
-//! of mechanical properties of the environment on cell migration", PhD thesis, University of Sheffield ("the thesis").
+//! of mechanical properties of the environment on cell migration", PhD thesis, University of Sheffield .
 //!
 //! A scene is data, a [`Setup`]:
 //!

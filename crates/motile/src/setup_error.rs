@@ -7,7 +7,7 @@ use ib_core::FlowError;
 use stokes_grid::StokesError;
 
 /// A scene that could not be set up.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum SetupError {
     /// The grid or the solver.
@@ -105,6 +105,8 @@ pub enum SetupError {
         largest: f64,
     },
 }
+
+ib_core::input::debug_as_explanation!(SetupError);
 
 impl SetupError {
     /// The same with the place of what it is about, unless it says so itself.

@@ -5,7 +5,7 @@ pub(crate) mod checks;
 use input_checks::InputError;
 
 /// An error of this crate, with the offending values and the remedy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StokesError {
     /// A number or list that cannot be used.
@@ -65,3 +65,5 @@ pub enum StokesError {
         history: Vec<f64>,
     },
 }
+
+input_checks::debug_as_explanation!(StokesError);

@@ -70,11 +70,14 @@
 //! channel this concerns `nx` alone.
 //!
 //! With the feature `rayon`, off by default, [`PeriodicStokes`] uses the threads of the current pool from 800,000 cells
-//! on, to the same bits for any number of them.
+//! on, with bitwise identical results for any number of them.
 //!
 //! `cargo bench --bench solvers` prints times in units of plain real transforms of the same size in the same run: about
 //! 1.1 pairs for [`PeriodicStokes`] from 120 to 1024 cells squared, and about 2.1 times the passes along x alone for
 //! [`ChannelStokes`].
+//!
+//! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
+//! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod channel;
 mod error;

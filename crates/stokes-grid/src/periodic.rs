@@ -16,7 +16,7 @@ use crate::{
 /// `eta (d2x + d2y)^2 psi = curl f`, `u = d psi/dy`, `v = -d psi/dx`,
 ///
 /// with the differences of the staggered grid, so that the discrete divergence vanishes to round-off. It is the same
-/// discrete solution as that of the thesis' projection (2.21)-(2.30), for one forward and one inverse transform of a
+/// discrete solution as that of Cowley's projection (2.21)-(2.30), for one forward and one inverse transform of a
 /// real field in place of three and three.
 ///
 /// **Mean force and mean velocity.** The velocity has exactly the prescribed mean, zero unless

@@ -12,7 +12,7 @@ use viscous_force::ViscousForce;
 ///
 /// `div(2 eta D(v)) - grad p + f = 0`, `div v = 0`,
 ///
-/// around any solver S of one viscosity, whose grid, walls and drive it takes over (thesis section 2.2.4).
+/// around any solver S of one viscosity, whose grid, walls and drive it takes over (Cowley section 2.2.4).
 ///
 /// It is solved by conjugate gradients among the velocities without divergence, with a solve of S as preconditioner:
 /// each iteration costs one solve and one viscous force. The number of iterations grows like the square root of the
@@ -24,10 +24,10 @@ use viscous_force::ViscousForce;
 /// the viscosity and the forces move slowly.
 ///
 /// **Accuracy.** Iterations end when the residual r, in the norm `sqrt(r . S r)`, is below
-/// [`TwoPhaseStokes::tolerance`] times that of the forces. The true residual is computed anew from the solution and is
+/// [`TwoPhaseStokes::tolerance`] times that of the forces. The true residual is recomputed from the solution and is
 /// what [`SolveReport::residual`] has.
 ///
-/// [`StokesSolver::viscosity`] is that of S, the surroundings' by convention.
+/// [`StokesSolver::viscosity`] is that of S, the exterior fluid' by convention.
 ///
 /// ```
 /// use stokes_grid::{Grid, PeriodicStokes, StaggeredField, StokesSolver, TwoPhaseStokes};
@@ -278,7 +278,7 @@ impl<S: StokesSolver> StokesSolver for TwoPhaseStokes<S> {
             }
             let goal = self.tolerance * self.tolerance * scale;
             self.history.push((square.max(0.0) / scale).sqrt());
-            // Round-off lets the recurrence drift from the true residual; then the iteration starts anew from where it
+            // Round-off lets the recurrence drift from the true residual; then the iteration restarts from where it
             // is.
             for _ in 0..3 {
                 iterations += self.iterate(square, goal, scale, self.most - iterations)?;

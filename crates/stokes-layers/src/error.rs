@@ -3,7 +3,7 @@
 use input_checks::InputError;
 
 /// An error of this crate, with the offending value and the remedy.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LayerError {
     /// A number or list that cannot be used.
@@ -59,3 +59,5 @@ pub enum LayerError {
         tolerance: f64,
     },
 }
+
+input_checks::debug_as_explanation!(LayerError);

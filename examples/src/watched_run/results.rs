@@ -99,7 +99,7 @@ impl WatchedRun {
         });
         summary.put("dt_set_by", limiting, "for most steps");
         summary.put("steps_rejected", report.rejections, "for their error");
-        summary.put("steps_failed", report.failures, "and taken anew");
+        summary.put("steps_failed", report.failures, "and retried");
         summary.put("stages", scene.integrator_work().stages, "of all steps");
         let work = scene.system().hydrodynamics().work();
         summary.put("stokes_solves", work.stokes_solves, "on the grid");

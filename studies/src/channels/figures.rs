@@ -25,12 +25,12 @@ fn in_narrow_channels(points: &Points, activity: f64, viscosity: f64) -> Vec<(f6
     )
 }
 
-/// Table of the speeds in channels as wide as the droplet, with the thesis' fits and the deviation from them.
+/// Table of the speeds in channels as wide as the droplet, with Cowley's fits and the deviation from them.
 pub(crate) fn print_speeds(points: &Points) {
     say("Speed in channels as wide as the droplet");
     say(format_args!(
         "  {:>6} {:>8} {:>9}  {:>7}  {:>11} {:>12}  {:>9}",
-        "length", "activity", "viscosity", "speed", "thesis, fit", "thesis (3.7)", "deviation"
+        "length", "activity", "viscosity", "speed", "Cowley, fit", "Cowley (3.7)", "deviation"
     ));
     for (activity, viscosity, _, _) in THESIS_FITS {
         for (length, speed) in in_narrow_channels(points, activity, viscosity) {
@@ -58,7 +58,7 @@ fn key(label: &str) -> Series {
     Series::line(label, [(f64::NAN, f64::NAN)]).colour(Rgb::GREY)
 }
 
-/// Figures 3.1 and 3.2 of the thesis.
+/// Figures 3.1 and 3.2 of Cowley.
 pub(crate) fn speed_against_length(points: &Points) -> Figure {
     let longest = points.iter().map(|(job, _)| job.length).fold(8.0, f64::max);
     let panel = |title: &str, chosen: &dyn Fn(f64, f64) -> Option<String>| {
@@ -83,7 +83,7 @@ pub(crate) fn speed_against_length(points: &Points) -> Figure {
                         .colour(colour),
                 );
         }
-        plot.series(key("thesis, fit to its points")).series(key("thesis, (3.7)").dashed())
+        plot.series(key("Cowley, fit to its points")).series(key("Cowley, (3.7)").dashed())
     };
     Figure::new(2)
         .panel(panel("Speed in channels of width 2, η = 100", &|activity, viscosity| {
@@ -94,7 +94,7 @@ pub(crate) fn speed_against_length(points: &Points) -> Figure {
         }))
 }
 
-/// Figure 3.4 of the thesis.
+/// Figure 3.4 of Cowley.
 pub(crate) fn speed_against_width(points: &Points) -> Figure {
     let mut plot = Plot::new("Speed in channels of length 12, η = 100")
         .x_axis("width w (R_{0})", AxisScale::Linear)
@@ -113,7 +113,7 @@ pub(crate) fn speed_against_width(points: &Points) -> Figure {
     Figure::new(1).panel(plot.series(key("box 12 × 12").dashed())).panel_size(640.0, 400.0)
 }
 
-/// Figure 3.11 of the thesis.
+/// Figure 3.11 of Cowley.
 pub(crate) fn amplitude_against_length(points: &Points) -> Figure {
     let steady = |points: &Points, yes: bool| {
         let chosen: Vec<(Job, Summary)> = points
@@ -135,6 +135,6 @@ pub(crate) fn amplitude_against_length(points: &Points) -> Figure {
         .y_axis("amplitude (R_{0})", AxisScale::Linear)
         .series(Series::points("steady oscillation", steady(points, true)))
         .series(Series::points("growing or decaying", steady(points, false)).marker(Marker::Circle))
-        .series(Series::line("thesis, (3.9)", thesis));
+        .series(Series::line("Cowley, (3.9)", thesis));
     Figure::new(1).panel(plot).panel_size(640.0, 400.0)
 }

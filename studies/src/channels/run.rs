@@ -10,8 +10,8 @@ use motile::stokes_grid::Drive;
 use motile::{Built, DropletSetup, GridMethod, Method, Particles, Region, Setup};
 use motile_examples::{Steadiness, Summary};
 
-/// Excluded volume of the runs for speeds, and of those for amplitudes: the thesis does not give its own, and which
-/// droplets oscillate depends on it; with 13.5 those do that do in the thesis.
+/// Excluded volume of the runs for speeds, and of those for amplitudes: Cowley does not give its own, and which
+/// droplets oscillate depends on it; with 13.5 those do that do in Cowley.
 const EXCLUDED_VOLUME: f64 = 10.0;
 const EXCLUDED_VOLUME_OSCILLATING: f64 = 13.5;
 /// Where the runs for amplitudes start (R0).
@@ -19,7 +19,7 @@ const OFFSET: f64 = 0.3;
 /// Width of the channels of (3.7) and of (3.9) (R0).
 pub(crate) const NARROW: f64 = 2.0;
 pub(crate) const OSCILLATING: f64 = 3.0;
-/// Fits to the thesis' own points for w = 2, figures 3.1 and 3.2: activity, viscosity, a and b of
+/// Fits to Cowley's own points for w = 2, figures 3.1 and 3.2: activity, viscosity, a and b of
 /// |v| = a exp(-l/10) + b.
 pub(crate) const THESIS_FITS: [(f64, f64, f64, f64); 5] = [
     (-2.0, 100.0, 0.20, 0.016),
@@ -73,7 +73,7 @@ impl Job {
         [self.length, self.width].iter().all(|side| (side / self.spacing - (side / self.spacing).round()).abs() < 1e-6)
     }
 
-    /// The speed that the thesis' fit and its expression (3.7) give.
+    /// The speed that Cowley's fit and its expression (3.7) give.
     pub(crate) fn thesis_speeds(&self) -> [Option<f64>; 2] {
         if self.purpose != Purpose::Speed || self.width != NARROW {
             return [None, None];

@@ -53,7 +53,7 @@ impl<H: Hydrodynamics> Case<H> {
             let own = if self.without_grid { [0.0; 3] } else { pieces.measure(&markers.positions, &markers.forces) };
             // What the markers' forces are known from is not part of the step that follows.
             let _ = self.take();
-            // A step changes the state, so that the first evaluation of the next is made anew, as in a run nobody looks
+            // A step changes the state, so that the first evaluation of the next is remade, as in a run nobody looks
             // at.
             self.scene.step(self.dt)?;
             let _ = self.take();
@@ -158,7 +158,7 @@ impl Pieces {
         })
     }
 
-    /// Seconds of one spreading, one real transform there and back, and one interpolation.
+    /// Seconds of one spreading, one forward and one inverse real FFT, and one interpolation.
     fn measure(&mut self, positions: &[Vec2], forces: &[Vec2]) -> [f64; 3] {
         self.velocities.resize(positions.len(), Vec2::ZERO);
         let Self { transfer, density, velocities, transform, symbol, field } = self;

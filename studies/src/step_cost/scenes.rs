@@ -13,7 +13,7 @@ use crate::step_cost::watched::{Stopwatches, Watched};
 /// A kind of scene and its size, ready to be made and measured.
 pub(crate) type Job = (String, Box<dyn Fn(std::time::Duration) -> Result<Summary>>);
 
-/// Viscosity of the surroundings, and of a droplet a hundred times as viscous.
+/// Viscosity of the exterior fluid, and of a droplet a hundred times as viscous.
 const VISCOSITY: f64 = 100.0;
 const THICK: f64 = 1e4;
 /// Shear modulus of walls (force per area).
@@ -73,7 +73,7 @@ fn name(kind: &str, grid: &Grid) -> String {
     format!("{kind}, {} x {}", grid.nx(), grid.ny())
 }
 
-/// A droplet in a box; sharp contrast if it is thicker than its surroundings.
+/// A droplet in a box; sharp contrast if it is more viscous than the exterior fluid.
 fn in_box(kind: &'static str, plan: Plan) -> Result<Job> {
     let grid = plan.grid()?;
     let run = move |budget| {

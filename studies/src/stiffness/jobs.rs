@@ -51,7 +51,7 @@ fn speeds(full: bool, h: f64) -> Vec<Job> {
         jobs.push(Job::new(Purpose::Unconfined, LARGE, activity, 0.0, h, time));
     }
     if !full {
-        // Where the thesis' least active droplet swims, and where it does not.
+        // Where Cowley's least active droplet swims, and where it does not.
         jobs.extend([1e4, 4e4].map(|k| Job::new(Purpose::Speed, 2.0, -1.0, k, h, 150.0)));
     }
     jobs.dedup();
@@ -96,8 +96,8 @@ fn comparisons(h: f64) -> Vec<Job> {
 fn contrasts(h: f64) -> Vec<Job> {
     // On the finest grids only the beginning.
     let time = if h < 0.04 { 5.0 } else { 20.0 };
-    // In the narrower channel the droplet touches the walls when it starts. It keeps its viscosity of 100; its
-    // surroundings are thinner.
+    // In the narrower channel the droplet touches the walls when it starts. It keeps its viscosity of 100; the
+    // exterior fluid is less viscous.
     let job = |(width, ratio)| Job {
         viscosity: 100.0 / ratio,
         ratio,

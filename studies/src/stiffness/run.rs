@@ -30,7 +30,7 @@ const OF_LIMIT_NARROW: f64 = 0.2;
 /// What a run contributes to: a part of the study.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Purpose {
-    /// Speed, shape and walls against stiffness (thesis figures 4.4 to 4.16).
+    /// Speed, shape and walls against stiffness (Cowley figures 4.4 to 4.16).
     Speed,
     /// The same between rigid walls, without a grid.
     #[value(skip)]
@@ -38,17 +38,17 @@ pub(crate) enum Purpose {
     /// The same in a large box, without a grid.
     #[value(skip)]
     Unconfined,
-    /// Droplets off the centre line (thesis figure 4.17).
+    /// Droplets off the centre line (Cowley figure 4.17).
     Lateral,
-    /// The constriction (thesis figure 4.19).
+    /// The constriction (Cowley figure 4.19).
     Passage,
-    /// Springs and neo-Hookean walls, lattice and unstructured mesh (thesis figures 4.2, 4.3, 4.22, 4.23).
+    /// Springs and neo-Hookean walls, lattice and unstructured mesh (Cowley figures 4.2, 4.3, 4.22, 4.23).
     Comparison,
-    /// A channel half as wide as the droplet (thesis figure 4.25); the stiffness is Young's modulus.
+    /// A channel half as wide as the droplet (Cowley figure 4.25); the stiffness is Young's modulus.
     Narrow,
-    /// Droplets more viscous than their surroundings.
+    /// Droplets more viscous than the exterior fluid.
     Contrast,
-    /// How a droplet in contact with stiff walls starts by the method of the thesis.
+    /// How a droplet in contact with stiff walls starts by the method of Cowley.
     Start,
     /// Whether the least active droplet comes to rest.
     Rest,
@@ -69,16 +69,16 @@ pub(crate) struct Job {
     pub(crate) activity: f64,
     pub(crate) excluded_volume: f64,
     pub(crate) viscosity: f64,
-    /// Viscosity of the droplet over that of its surroundings.
+    /// Viscosity of the droplet over that of the exterior fluid.
     pub(crate) ratio: f64,
-    /// The thesis' spring constant k.
+    /// Cowley's spring constant k.
     pub(crate) stiffness: f64,
     pub(crate) material: WallMaterial,
     pub(crate) mesh: MeshKind,
     /// What is done about the walls' surfaces.
     pub(crate) surface: Surface,
     pub(crate) thesis: bool,
-    /// Whether markers are kept equally spaced, also by the method of the thesis.
+    /// Whether markers are kept equally spaced, also by the method of Cowley.
     pub(crate) equidistant: bool,
     /// How much further back than the shape says the walls stand (R0).
     pub(crate) back: f64,
@@ -154,7 +154,7 @@ impl Job {
             viscosity: self.viscosity,
             droplets: vec![droplet],
             solids: self.walls()?,
-            // The thesis' step of 1e-3 would only cost time.
+            // Cowley's step of 1e-3 would only cost time.
             step: StepSize::OfLimit(if self.purpose == Purpose::Narrow { OF_LIMIT_NARROW } else { OF_LIMIT }),
             ..base
         })

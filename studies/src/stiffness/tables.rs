@@ -247,7 +247,7 @@ fn narrow(points: &Points) {
 const COMPARED: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
 
 fn contrast(points: &Points) {
-    let title = "Droplets more viscous than their surroundings between soft walls, k = 1e4, activity -2";
+    let title = "Droplets more viscous than the exterior fluid between soft walls, k = 1e4, activity -2";
     let mut chosen = section(points, Purpose::Contrast, title);
     chosen.sort_by(|(a, _), (b, _)| a.width.total_cmp(&b.width).then(a.ratio.total_cmp(&b.ratio)));
     for (job, summary) in chosen {
@@ -273,7 +273,7 @@ fn starts(points: &Points) {
     let chosen = section(
         points,
         Purpose::Start,
-        "Starts in contact with walls of k = 1e6 in a straight channel, method of the thesis, activity -5",
+        "Starts in contact with walls of k = 1e6 in a straight channel, method of Cowley, activity -5",
     );
     for (job, summary) in chosen {
         let speeds = speeds_at(summary, &[1.5, 5.0, 9.0, 15.0]);

@@ -8,7 +8,7 @@ use motile_tests::validation::{Case, StudyError, Table, channel, lateral, order}
 
 use crate::validation::{Tables, per_cent, spacings};
 
-/// A droplet of an activity in a channel, by default and by the method of the thesis with steps of 0.1 h, each with its
+/// A droplet of an activity in a channel, by default and by the method of Cowley with steps of 0.1 h, each with its
 /// name.
 fn presets(region: Region, viscosity: f64, activity: f64, h: f64) -> [(&'static str, Setup); 2] {
     let default = Setup { region, viscosity, droplets: vec![DropletSetup::active(activity)], ..on_grid(h) };
@@ -102,8 +102,8 @@ pub(crate) fn channel_length(quick: bool) -> Tables {
     let h = if quick { 0.1 } else { 0.05 };
     let title = format!("Speed in a channel of width 2 R0 against its length, h = {h}, A = 10");
     let mut table =
-        Table::new(&title, &["activity", "viscosity", "length", "default", "thesis preset", "fit of the thesis"]);
-    // |v| = a exp(-l/10) + b, thesis figures 3.1 and 3.2.
+        Table::new(&title, &["activity", "viscosity", "length", "default", "thesis preset", "fit of Cowley"]);
+    // |v| = a exp(-l/10) + b, Cowley figures 3.1 and 3.2.
     let fits = [
         (-2.0, 100.0, 0.20, 0.016),
         (-4.0, 100.0, 0.34, 0.051),
@@ -187,8 +187,8 @@ pub(crate) fn sideways(quick: bool) -> Tables {
 
 pub(crate) fn regimes(_quick: bool) -> Tables {
     let mut table = Table::new(
-        "Regimes with A = 13.5, from growth rates by boundary integrals, beside what the thesis reports",
-        &["width", "length", "activity", "growth rate", "frequency", "the thesis"],
+        "Regimes with A = 13.5, from growth rates by boundary integrals, beside what Cowley reports",
+        &["width", "length", "activity", "growth rate", "frequency", "Cowley"],
     );
     for (width, length, activity, said) in [
         (5.0, 12.0, -3.0, "returns to the centre line"),

@@ -228,7 +228,7 @@ pub(crate) fn decay(quick: bool) -> Tables {
         &["box", "way", "h", "rate", "error in %"],
     );
     let grid = |h: f64| thick(on_grid(h), -1.0, 1000.0);
-    // The thesis' motion of markers and area constraint, with the default flux.
+    // Cowley's motion of markers and area constraint, with the default flux.
     let mut thesis = DropletSetup { viscosity: Some(1000.0), ..DropletSetup::thesis() };
     thesis.particles = Some(Particles { activity: -1.0, flux: Flux::default(), ..Particles::default() });
     let arithmetic = |h: f64| {

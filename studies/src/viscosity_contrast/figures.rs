@@ -3,7 +3,7 @@
 use motile_examples::Summary;
 use motile_output::{AxisScale, Figure, Marker, Plot, SERIES_COLOURS, Series};
 
-use crate::viscosity_contrast::run::{Job, Surroundings};
+use crate::viscosity_contrast::run::{Domain, Job};
 use crate::viscosity_contrast::statements::{Points, equal, pairs, source_dipole};
 
 /// All figures with their names.
@@ -39,9 +39,9 @@ fn by_family(
     y: impl Fn(&Job, &Summary) -> f64 + Copy,
 ) -> Plot {
     for (family, colour) in FAMILIES.iter().zip(SERIES_COLOURS) {
-        for (surroundings, marker) in [(Surroundings::Unbounded, Marker::Disc), (Surroundings::Box, Marker::Circle)] {
-            let label = if surroundings == Surroundings::Unbounded { family.name } else { "" };
-            let values = pairs(points, x, y, |job| job.surroundings == surroundings && (family.has)(job));
+        for (domain, marker) in [(Domain::Unbounded, Marker::Disc), (Domain::Box, Marker::Circle)] {
+            let label = if domain == Domain::Unbounded { family.name } else { "" };
+            let values = pairs(points, x, y, |job| job.domain == domain && (family.has)(job));
             plot = plot.series(Series::points(label, values).marker(marker).colour(colour));
         }
     }
@@ -55,7 +55,7 @@ fn plot(title: &str, x: &str, y: &str) -> Plot {
 /// Figures 2.8 to 2.10.
 fn speed(points: &Points) -> Figure {
     let estimate = "|ζΔμ| c_{0} / 4(η_{in} + η_{ext})";
-    let unbounded = |job: &Job| job.surroundings == Surroundings::Unbounded;
+    let unbounded = |job: &Job| job.domain == Domain::Unbounded;
     let lines = |mut plot: Plot, keys: Vec<f64>, key: fn(&Job) -> f64, wanted: fn(&Job) -> bool, shift: f64| {
         for (value, colour) in keys.into_iter().zip(SERIES_COLOURS) {
             let mut line = pairs(

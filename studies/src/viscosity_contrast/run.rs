@@ -14,7 +14,7 @@ const LEAST_RATE: f64 = -0.02;
 
 /// Where a droplet swims.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Surroundings {
+pub(crate) enum Domain {
     Unbounded,
     Box,
 }
@@ -22,7 +22,7 @@ pub(crate) enum Surroundings {
 /// A run by its parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Job {
-    pub(crate) surroundings: Surroundings,
+    pub(crate) domain: Domain,
     pub(crate) inside: f64,
     pub(crate) outside: f64,
     pub(crate) activity: f64,
@@ -34,10 +34,10 @@ pub(crate) struct Job {
 
 impl Job {
     pub(crate) fn name(&self) -> String {
-        let Self { surroundings, inside, outside, activity, excluded_volume, nodes, cells, time } = self;
-        let place = match surroundings {
-            Surroundings::Unbounded => "unbounded",
-            Surroundings::Box => "box",
+        let Self { domain, inside, outside, activity, excluded_volume, nodes, cells, time } = self;
+        let place = match domain {
+            Domain::Unbounded => "unbounded",
+            Domain::Box => "box",
         };
         format!("{place}_in{inside}_out{outside}_z{activity:.3}_A{excluded_volume}_n{nodes}_{cells}_t{time}")
     }
@@ -56,9 +56,9 @@ impl Job {
         let viscosity = (self.inside != self.outside).then_some(self.inside);
         let droplet = DropletSetup { viscosity, ..DropletSetup::contractile(self.activity, self.excluded_volume) };
         let setup = Setup {
-            region: match self.surroundings {
-                Surroundings::Unbounded => Region::Plane,
-                Surroundings::Box => Region::Box { lengths: [BOX, BOX] },
+            region: match self.domain {
+                Domain::Unbounded => Region::Plane,
+                Domain::Box => Region::Box { lengths: [BOX, BOX] },
             },
             method: Method::Integral(IntegralMethod { nodes: self.nodes, cells: self.cells }),
             viscosity: self.outside,
@@ -84,7 +84,7 @@ impl Job {
         };
         let swims = ended.is_ok() && seen.speed() > LEAST_SPEED && rate > LEAST_RATE;
         let mut summary = Summary::default();
-        summary.put("unbounded", self.surroundings == Surroundings::Unbounded, "");
+        summary.put("unbounded", self.domain == Domain::Unbounded, "");
         let parameters = [
             ("viscosity_inside", self.inside),
             ("viscosity_outside", self.outside),
@@ -116,7 +116,7 @@ fn speed<H: Hydrodynamics>(scene: &mut Scene<H>, droplet: Handle<ActiveDroplet>)
     Ok(observe(&state, Convention::FarField).map_or(f64::NAN, |seen| seen.speed()))
 }
 
-/// Observables of each run, and those which are also recorded in the convention of the thesis' print.
+/// Observables of each run, and those which are also recorded in the convention of Cowley's print.
 const ENTRIES: [&str; 17] = [
     "aspect_ratio_moments",
     "active_fraction",

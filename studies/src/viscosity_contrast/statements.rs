@@ -1,10 +1,10 @@
-//! The thesis' statements beside what the runs say.
+//! Cowley's statements beside what the runs say.
 
 use std::fmt::Write as _;
 
 use motile_examples::Summary;
 
-use crate::viscosity_contrast::run::{Job, Surroundings};
+use crate::viscosity_contrast::run::{Domain, Job};
 
 /// Runs and their results.
 pub(crate) type Points = [(Job, Summary)];
@@ -72,13 +72,13 @@ fn spread(mut values: Vec<(f64, f64)>) -> f64 {
 
 /// The table in Markdown, for unbounded fluid and for the box.
 pub(crate) fn table(points: &Points) -> String {
-    let mut text = String::from("| figure | the thesis | unbounded fluid | box 12 x 12 |\n|---|---|---|---|\n");
+    let mut text = String::from("| figure | Cowley | unbounded fluid | box 12 x 12 |\n|---|---|---|---|\n");
     for (figure, statement, measure) in STATEMENTS {
-        let of = |surroundings: Surroundings| {
-            let own: Vec<_> = points.iter().filter(|(job, _)| job.surroundings == surroundings).cloned().collect();
+        let of = |domain: Domain| {
+            let own: Vec<_> = points.iter().filter(|(job, _)| job.domain == domain).cloned().collect();
             measure(&own)
         };
-        let (unbounded, boxed) = (of(Surroundings::Unbounded), of(Surroundings::Box));
+        let (unbounded, boxed) = (of(Domain::Unbounded), of(Domain::Box));
         // Writing to a string cannot fail.
         let _ = writeln!(text, "| {figure} | {statement} | {unbounded} | {boxed} |");
     }
@@ -118,7 +118,7 @@ const STATEMENTS: [(&str, &str, Measure); 18] = [
     ("2.13", "the correction (2.60) restores one line", |points| conventions(points, source_dipole)),
     (
         "2.13",
-        "(not in the thesis) the factor a for which abs(N_xyy) + a (N_yxy - N_yyx) comes closest to one line",
+        "(not in Cowley) the factor a for which abs(N_xyy) + a (N_yxy - N_yyx) comes closest to one line",
         |points| {
             let with = |suffix: &str| {
                 let scatter = |a: f64| slope(&source_dipoles(points, a, suffix)).1;

@@ -19,7 +19,7 @@ pub(crate) const UNIT: usize = 120;
 pub(crate) struct Cost {
     /// Seconds per unit of simulated time.
     pub(crate) seconds: f64,
-    /// The same in real transforms of 120 x 120 there and back, measured by turns with the steps.
+    /// The same in forward and inverse real FFTs of 120 x 120, measured by turns with the steps.
     pub(crate) pairs: f64,
     /// Median time of such a pair (seconds).
     pub(crate) pair: f64,

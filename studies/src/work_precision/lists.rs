@@ -130,7 +130,7 @@ fn oblique(full: bool) -> Vec<Settings> {
 /// Steps that are nearly as long as are stable.
 const LONG: StepSize = StepSize::OfLimit(0.9);
 
-/// The thesis' preset, and its method on these grids with steps as long as are stable.
+/// Cowley's preset, and its method on these grids with steps as long as are stable.
 fn thesis(spacings: &[f64]) -> Vec<Settings> {
     let preset = Settings::thesis(0.05, StepSize::Fixed(1e-3));
     spacings.iter().map(|&h| Settings::thesis(h, LONG)).chain([preset]).collect()

@@ -1,7 +1,6 @@
-//! The Markdown page.
+//! The tables.
 
-use std::fmt::Write as _;
-
+use motile_tests::validation::Table;
 use motile_timing::median;
 
 use crate::work_precision::cost::UNIT;
@@ -13,39 +12,34 @@ const TARGETS: [f64; 3] = [0.01, 0.003, 0.001];
 /// Methods that are compared.
 const FAMILIES: [&str; 4] = ["boundary integrals", "grid, corrected", "grid, arithmetic", "thesis"];
 
-/// Where and by what the page was made.
-#[derive(Debug)]
-pub(crate) struct Circumstances {
-    pub(crate) machine: String,
-    pub(crate) commit: String,
-    pub(crate) command: String,
-}
-
-/// The page for all points; pictures beside it are in `pictures`.
-pub(crate) fn page(points: &[Point], circumstances: &Circumstances, pictures: &str) -> String {
+/// The points on the front of each scene and the presets; the cheapest settings for given errors, and what Cowley's
+/// scheme costs in comparison.
+pub(crate) fn tables(points: &[Point], machine: &str) -> Vec<Table> {
     let mut pairs: Vec<f64> = points.iter().map(|point| point.summary.number("pair_us")).collect();
-    let pair = median(&mut pairs);
-    let mut page = String::new();
-    // Writing to a string cannot fail.
-    let _ = writeln!(
-        page,
-        "# Speed against error\n\nMade by `{}`.\n\n{}, commit {}, one thread. The unit of cost is one real transform \
-         of {UNIT} x {UNIT} values there and back, done plainly with realfft by turns with the steps; here it takes \
-         {pair:.0} us (median). Seconds are medians over the steps of a run, or the mean processor time where that is \
-         less. A point is on the front, marked *, if no other one of its scene is both cheaper and more accurate. All \
-         points are in `points.csv`.\n",
-        circumstances.command, circumstances.machine, circumstances.commit
+    let title = format!(
+        "Error and cost: settings than which nothing is both cheaper and more accurate (front), and the presets; one \
+         pair is one forward and one inverse real FFT of {UNIT} x {UNIT} values, here {:.0} us; {machine}, one thread",
+        median(&mut pairs)
     );
-    let _ = writeln!(page, "{}", summary(points));
+    let mut table = Table::new(
+        &title,
+        &[
+            "scene",
+            "front",
+            "preset",
+            "settings",
+            "method",
+            "error in %",
+            "pairs per time",
+            "seconds per time",
+            "steps per time",
+        ],
+    );
     for study in Study::ALL {
         let own: Vec<Point> = points.iter().filter(|point| point.study == study).cloned().collect();
-        if !own.is_empty() {
-            let _ = writeln!(page, "## {}\n\n{}\n", study.title(), study.about());
-            let _ = writeln!(page, "![Cost and error]({pictures}{}.svg)\n", study.name());
-            let _ = writeln!(page, "{}", section(&own));
-        }
+        section(&mut table, study, &own);
     }
-    page
+    vec![table, summary(points)]
 }
 
 fn per_cent(value: f64) -> String {
@@ -59,41 +53,34 @@ fn rounded(value: f64) -> String {
 }
 
 /// The front of a scene and the presets.
-fn section(points: &[Point]) -> String {
+fn section(table: &mut Table, study: Study, points: &[Point]) {
     let front = front(points);
     let on_front = |point: &Point| front.iter().any(|other| std::ptr::eq(*other, point));
     let mut shown: Vec<&Point> =
         points.iter().filter(|point| on_front(point) || point.settings.is_preset().is_some()).collect();
     shown.sort_by(|a, b| a.pairs().total_cmp(&b.pairs()));
-    let mut text = String::from(
-        "| | settings | method | error, % | pairs per time | seconds per time | steps per time |\n\
-         |---|---|---|---|---|---|---|\n",
-    );
     for point in shown {
-        let preset = point.settings.is_preset().map(|name| format!(" **{name}**")).unwrap_or_default();
-        let _ = writeln!(
-            text,
-            "| {}{preset} | {} | {} | {} | {:.1} | {:.2e} | {:.1} |",
-            if on_front(point) { "*" } else { "" },
+        table.push([
+            study.title().to_owned(),
+            if on_front(point) { "yes" } else { "no" }.to_owned(),
+            point.settings.is_preset().unwrap_or_default().to_owned(),
             point.settings.label(),
-            point.settings.family(),
+            point.settings.family().to_owned(),
             per_cent(point.summary.number("error")),
-            point.pairs(),
-            point.summary.number("seconds_per_time"),
-            point.summary.number("steps_per_time"),
-        );
+            format!("{:.1}", point.pairs()),
+            format!("{:.2e}", point.summary.number("seconds_per_time")),
+            format!("{:.1}", point.summary.number("steps_per_time")),
+        ]);
     }
-    text
 }
 
-/// The cheapest settings for given errors, and what the thesis' method costs in comparison.
-fn summary(points: &[Point]) -> String {
-    let mut text = String::from(
-        "## The coarsest settings\n\nThe cheapest settings whose error, and that of all refinements tried, is at most \
-         the target; cost in pairs per time and, in brackets, the factor by which the thesis' method costs more for \
-         the same error. \"About\": nothing so accurate was run; extrapolated from the finest grid and the next one \
-         about twice as coarse, error and cost as powers of h.\n\n\
-         | scene | method | 1 % | 0.3 % | 0.1 % |\n|---|---|---|---|---|\n",
+/// The cheapest settings for given errors, and what the scheme of Cowley costs in comparison.
+fn summary(points: &[Point]) -> Table {
+    let mut table = Table::new(
+        "The cheapest settings whose error and that of all refinements is at most the target; cost in pairs per time \
+         and, in brackets, the factor by which the scheme of Cowley costs more for the same error (about: extrapolated \
+         from its finest grids)",
+        &["scene", "method", "1 %", "0.3 %", "0.1 %"],
     );
     for study in Study::ALL {
         for family in FAMILIES {
@@ -121,8 +108,8 @@ fn summary(points: &[Point]) -> String {
                     .unwrap_or_default();
                 format!("{}: {:.1}{factor}", point.settings.label(), point.pairs())
             });
-            let _ = writeln!(text, "| {} | {family} | {} |", study.title(), cells.join(" | "));
+            table.push([study.title().to_owned(), family.to_owned()].into_iter().chain(cells));
         }
     }
-    text
+    table
 }

@@ -76,7 +76,7 @@ impl Settings {
         }
     }
 
-    /// The thesis' method on a grid of another spacing with other steps.
+    /// Cowley's method on a grid of another spacing with other steps.
     pub(crate) fn thesis(h: f64, step: StepSize) -> Self {
         Self {
             preset: Preset::Thesis,

@@ -19,7 +19,7 @@ const RATIO_100: f64 = 0.149_390_892_4;
 /// Time by which a swimmer is steady.
 const STEADY: f64 = 80.0;
 
-/// The swimmer of the reference tables for a box; the surroundings may have another viscosity.
+/// The swimmer of the reference tables for a box; the exterior fluid may have another viscosity.
 fn boxed(settings: &Settings, activity: f64, outside: Option<f64>) -> Setup {
     let mut setup = settings.setup();
     setup.viscosity = outside.unwrap_or(100.0);
@@ -67,7 +67,7 @@ pub(crate) fn oblique(settings: &Settings) -> Result<(f64, Cost)> {
     against(&scene(settings), settings, reference)
 }
 
-/// The swimmer of activity -1, ten times as viscous as its surroundings.
+/// The swimmer of activity -1, ten times as viscous as the exterior fluid.
 pub(crate) fn ratio_10(settings: &Settings) -> Result<(f64, Cost)> {
     let reference = Reference::read(ReferenceFile::SteadySwimmerContrast)?.select("zeta_dmu", "-1.0");
     against(&boxed(settings, -1.0, Some(10.0)), settings, reference.value("speed")?)

@@ -48,7 +48,7 @@ pub enum Way {
     Grid,
     /// Without a grid.
     Integral,
-    /// On a grid, by the method of the thesis, with steps of half the stability limit.
+    /// On a grid, by the method of Cowley, with steps of half the stability limit.
     Thesis,
     /// On a grid, by the Runge-Kutta-Chebyshev method with adaptive steps.
     Chebyshev,

@@ -12,7 +12,7 @@ use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial,
 /// inverted, adaptive steps shorten before the run ends.
 const SQUEEZED: &[Ending] = &[Ending::Finished, Ending::Inverted, Ending::Stagnated];
 
-/// A scene on a grid of spacing h between walls of the thesis' spring constant k, 1.5 thick, along a channel of width
+/// A scene on a grid of spacing h between walls of Cowley's spring constant k, 1.5 thick, along a channel of width
 /// 2.
 fn between_walls(k: f64, shape: &ChannelShape, h: f64, length: f64) -> Result<Setup, CaseError> {
     let shear = Moduli::from_thesis_spring_constant(k)?.shear();
@@ -24,7 +24,7 @@ fn between_walls(k: f64, shape: &ChannelShape, h: f64, length: f64) -> Result<Se
     })
 }
 
-/// A swimmer of activity -2 in a channel as wide as it, between walls of the thesis' spring constant k.
+/// A swimmer of activity -2 in a channel as wide as it, between walls of Cowley's spring constant k.
 fn stiff(
     k: f64,
     viscosity: f64,

@@ -218,7 +218,7 @@ impl Exact {
         self.compare(sharp(self.region, h)?, h)
     }
 
-    /// The errors of the thesis' way, a viscosity smeared over Peskin's kernel, without a mobility correction.
+    /// The errors of Cowley's way, a viscosity smeared over Peskin's kernel, without a mobility correction.
     ///
     /// # Errors
     /// As [`Exact::errors`].
@@ -262,7 +262,7 @@ fn sharp(region: Region, h: f64) -> Result<AnyFlow, StudyError> {
     flow(region, Method::Grid(GridMethod::of_spacing(h)), 1.0, 1e-6)
 }
 
-/// The thesis' way in a region, viscosity one.
+/// Cowley's way in a region, viscosity one.
 fn smeared(region: Region, h: f64, tolerance: f64) -> Result<AnyFlow, StudyError> {
     flow(region, Method::Grid(GridMethod { spacing: h, ..GridMethod::thesis() }), 1.0, tolerance)
 }

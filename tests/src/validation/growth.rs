@@ -34,7 +34,7 @@ impl Mode {
         Self::Shape(3),
     ];
 
-    /// Its growth rate (1/time) on the first droplet of a scene in free space: thesis (2.18), (2.19).
+    /// Its growth rate (1/time) on the first droplet of a scene in free space: Cowley (2.18), (2.19).
     ///
     /// # Errors
     /// Parameters that make no droplet.

@@ -21,7 +21,7 @@ pub struct Perturbed {
 }
 
 /// Runs a droplet of viscosity 100 in a 6 x 6 box from a perturbation of 5 per cent to `time`. Linear theory puts the
-/// threshold of activity at -0.4 (thesis (2.20)).
+/// threshold of activity at -0.4 (Cowley (2.20)).
 ///
 /// # Errors
 /// What a run can fail with.

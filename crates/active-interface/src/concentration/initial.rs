@@ -35,7 +35,7 @@ enum Kind {
 const MODES: usize = 8;
 
 impl InitialConcentration {
-    /// The polarised state of the thesis, eq. (2.46): c = c0 (1 - cos(theta - heading)), with theta the polar angle
+    /// The polarised state of Cowley, eq. (2.46): c = c0 (1 - cos(theta - heading)), with theta the polar angle
     /// about the centroid. The concentration is highest at the rear, so that a contractile droplet swims in the
     /// direction `heading` (radians); `mean` is c0 (particles per length).
     ///

@@ -12,7 +12,7 @@ use crate::tridiagonal::CyclicTridiagonal;
 /// dn_k/dt = Phi_k - Phi_{k+1},   Phi_k = (face value of c) (V_t - W)_k - D_k (c_k - c_{k-1}) / ds_k,
 /// ds_k = (l_{k-1} + l_k)/2
 /// ```
-/// (thesis, eq. 2.3, in finite volumes), with V_t the tangential velocity of the fluid at marker k, W that of the
+/// (Cowley, eq. 2.3, in finite volumes), with V_t the tangential velocity of the fluid at marker k, W that of the
 /// marker itself and D_k the diffusivity there (length squared per time). The first part is for explicit, the second,
 /// linear in n, for implicit time stepping. Every change is a difference of fluxes, so the total number is kept to
 /// round-off.

@@ -9,7 +9,7 @@ use crate::curve::polygon::edges;
 use crate::error::all_positive;
 
 /// The active region: the part of the interface from the steepest rise of the concentration to its steepest fall, in
-/// counter-clockwise order (thesis, section 2.3.4).
+/// counter-clockwise order (Cowley, section 2.3.4).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ActiveRegion {
     /// Arc length from marker 0 to its start, the largest dc/ds (length).
@@ -97,7 +97,7 @@ fn extremum([a, b, c, d, e]: [f64; 5]) -> f64 {
 }
 
 /// Signed curvature (1/length) of the active region of an interface: that of the circle fitted to its part by least
-/// squares, positive where it bulges outwards, negative where it is dented (thesis, section 2.3.4).
+/// squares, positive where it bulges outwards, negative where it is dented (Cowley, section 2.3.4).
 ///
 /// Every part of the region counts by its arc length; its ends are interpolated between markers.
 ///

@@ -16,7 +16,7 @@ use crate::{
 /// The pressure drop along a channel of the length `length` (length): how much lower the pressure is at its right end
 /// (force per length in 2D), `-dp/dx * length` with the mean pressure gradient that an evaluation of the flow reports.
 ///
-/// Positive where pressure drives the fluid to the right. Zero where the pressure is periodic, as in the thesis'
+/// Positive where pressure drives the fluid to the right. Zero where the pressure is periodic, as in Cowley's
 /// channel; in a closed channel (no net flux) it is what a swimmer has to push against.
 ///
 /// # Errors

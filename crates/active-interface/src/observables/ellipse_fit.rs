@@ -21,7 +21,7 @@ pub struct EllipseFit {
 }
 
 impl EllipseFit {
-    /// Aspect ratio a/b, a along the motion (no dimension; thesis, section 2.3.4).
+    /// Aspect ratio a/b, a along the motion (no dimension; Cowley, section 2.3.4).
     #[must_use]
     pub fn aspect_ratio(&self) -> f64 {
         self.along / self.across

@@ -6,10 +6,10 @@ use ib_core::input::{all_points_finite, at_least, finite, same_length};
 use super::frame::{Frame, weighted_normals};
 use crate::InterfaceError;
 
-/// Sign of the viscous term in the force moments of a droplet of another viscosity than its surroundings.
+/// Sign of the viscous term in the force moments of a droplet of another viscosity than the exterior fluid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Convention {
-    /// The sign that matches the flow far away for the force F as in the thesis, eq. (2.5): + (eta_ext - eta_in). (For
+    /// The sign that matches the flow far away for the force F as in Cowley, eq. (2.5): + (eta_ext - eta_in). (For
     /// the flow itself the second moment needs twice its viscous term and a pressure dipole besides.)
     #[default]
     FarField,

@@ -19,7 +19,7 @@ pub struct ConcentrationProfile {
     pub perimeter: f64,
 }
 
-/// The profile of the concentration (thesis, figure 2.4). The front is where the first axis of `frame` leaves the
+/// The profile of the concentration (Cowley, figure 2.4). The front is where the first axis of `frame` leaves the
 /// droplet, or the marker furthest along that axis where it does not meet the interface.
 ///
 /// # Errors

@@ -18,7 +18,7 @@ pub enum VelocityFrame {
     Laboratory,
 }
 
-/// The coefficients of v_theta = B1 sin(theta) + (B2/2) sin(2 theta), thesis, eq. (2.63).
+/// The coefficients of v_theta = B1 sin(theta) + (B2/2) sin(2 theta), Cowley, eq. (2.63).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SquirmerFit {
     /// B1 (length per time), positive for a droplet that swims along the first axis of its frame.

@@ -4,16 +4,16 @@ use ib_core::input::{not_negative, positive, within};
 
 use crate::InterfaceError;
 
-/// The excluded-volume term Pi(c) of the tension (thesis, eq. 2.39), a function of the concentration c.
+/// The excluded-volume term Pi(c) of the tension (Cowley, eq. 2.39), a function of the concentration c.
 ///
-/// Pi has the dimension of a tension, its slope B = dPi/dc (thesis, eq. 2.40) that of tension times length (tension per
+/// Pi has the dimension of a tension, its slope B = dPi/dc (Cowley, eq. 2.40) that of tension times length (tension per
 /// concentration), as the activity. Values are checked where a [`ContractileTension`](crate::ContractileTension) is
 /// made of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ExcludedVolume {
     /// Pi = 0.
     None,
-    /// The step-like excluded volume of the thesis, eqs. (2.40) and (2.41): negligible below a concentration c_T and a
+    /// The step-like excluded volume of Cowley, eqs. (2.40) and (2.41): negligible below a concentration c_T and a
     /// repulsion of constant strength A above it.
     ///
     /// With x = a c / c_T and the steepness a,
@@ -26,12 +26,12 @@ pub enum ExcludedVolume {
     Step {
         /// A >= 0 (tension times length).
         strength: f64,
-        /// c_T > 0 (particles per length; T c0 in the thesis).
+        /// c_T > 0 (particles per length; T c0 in Cowley).
         threshold: f64,
         /// a in (0, 300] (no dimension).
         steepness: f64,
     },
-    /// Pi = B c^2 / 2, of earlier versions of the model (thesis, section 2.2.3).
+    /// Pi = B c^2 / 2, of earlier versions of the model (Cowley, section 2.2.3).
     Quadratic {
         /// B >= 0 (tension times length squared).
         strength: f64,
@@ -47,7 +47,7 @@ fn softplus(y: f64) -> f64 {
 }
 
 impl ExcludedVolume {
-    /// The thesis' values (eq. 2.41): threshold 2 c0 and steepness 20, with the strength A (tension times length) and
+    /// Cowley's values (eq. 2.41): threshold 2 c0 and steepness 20, with the strength A (tension times length) and
     /// the mean concentration c0 (particles per length) given.
     #[must_use]
     pub fn thesis(strength: f64, mean_concentration: f64) -> Self {

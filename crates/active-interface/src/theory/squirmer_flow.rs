@@ -7,7 +7,7 @@ use crate::InterfaceError;
 use crate::observables::{SquirmerFit, VelocityFrame};
 
 /// The two-dimensional squirmer: a circle on which the fluid moves with v_r = 0 and v_theta = B1 sin(theta) + (B2/2)
-/// sin(2 theta) in its own frame (thesis, eq. 2.63), without a force on it, filled with fluid that moves along.
+/// sin(2 theta) in its own frame (Cowley, eq. 2.63), without a force on it, filled with fluid that moves along.
 ///
 /// With rho = r/R it swims with the speed B1/2 along theta = 0; in its own frame
 /// ```text

@@ -20,8 +20,8 @@ pub struct Extremum {
 }
 
 /// The turning points of heights y (length) sampled at increasing times: maxima and minima in turn, each of which the
-/// motion comes back from by more than `hysteresis` (length), so that wiggles below it do not count. The first and last
-/// sample are none.
+/// motion comes back from by more than `hysteresis` (length), so that oscillations below it do not count. The first and
+/// last sample are none.
 ///
 /// Time and height are those of a quartic fitted to the samples of the upper 5 per cent of the swing around each, at
 /// least five (a parabola near the ends, where there are not as many): for a sine of 7 samples a period they are good

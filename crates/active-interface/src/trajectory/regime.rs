@@ -102,7 +102,7 @@ pub struct RegimeCriteria {
 }
 
 impl Default for RegimeCriteria {
-    /// For droplets of radius 1 and speeds of order 0.1, as in the thesis' units.
+    /// For droplets of radius 1 and speeds of order 0.1, as in Cowley's units.
     fn default() -> Self {
         Self { transient: 0.2, centre: 1e-6, rest: 1e-3, hysteresis: 0.02, steady: 0.01, travel: 10.0, linear: 3e-3 }
     }
@@ -145,7 +145,7 @@ pub struct Evidence {
     /// Largest distance from the centre line (length).
     pub largest: f64,
     /// The same at the end: over the last period, or over the last quarter of the window where there is no period
-    /// (length). The thesis' amplitude (section 3.1.2).
+    /// (length). Cowley's amplitude (section 3.1.2).
     pub amplitude: f64,
     /// Half of the last swing from one turning point to the next one (length).
     pub half_swing: Option<f64>,

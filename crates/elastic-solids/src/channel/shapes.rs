@@ -1,4 +1,4 @@
-//! Channels of the thesis and of its outlook.
+//! Channels of Cowley (chapters 4 and 5).
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +17,7 @@ pub enum ChannelShape {
         /// Distance between the sides (length).
         width: f64,
     },
-    /// With a narrow passage, joined by cosine ramps (thesis figure 4.18): half the width is w/2 outside, t/2 in the
+    /// With a narrow passage, joined by cosine ramps (Cowley figure 4.18): half the width is w/2 outside, t/2 in the
     /// passage, and between them `t/2 + (w - t)/4 (1 - cos(pi s/r))` at the distance s from the passage's end.
     Constriction {
         /// Width w of the main channel (length).
@@ -32,7 +32,7 @@ pub enum ChannelShape {
         #[serde(default)]
         centre: f64,
     },
-    /// With two triangular teeth that almost meet (thesis figure 5.1).
+    /// With two triangular teeth that almost meet (Cowley figure 5.1).
     Valve {
         /// Width of the channel (length).
         width: f64,
@@ -47,7 +47,7 @@ pub enum ChannelShape {
         #[serde(default)]
         centre: f64,
     },
-    /// Of asymmetric teeth (thesis figure 5.2).
+    /// Of asymmetric teeth (Cowley figure 5.2).
     Ratchet {
         /// Width between the teeth (length).
         width: f64,
@@ -95,7 +95,7 @@ pub enum ChannelShape {
 const MOST_WAVES: f64 = 200.0;
 
 impl ChannelShape {
-    /// That of thesis figure 4.18, in units of the droplet's radius and for a period of 12: width 2, throat 1 over a
+    /// That of Cowley figure 4.18, in units of the droplet's radius and for a period of 12: width 2, throat 1 over a
     /// length of 4, ramps of 1.
     pub const THESIS: Self = Self::Constriction { width: 2.0, throat: 1.0, throat_length: 4.0, ramp: 1.0, centre: 0.0 };
 

@@ -6,7 +6,7 @@ use ib_core::input::same_length;
 use crate::material::{DeformationGradient, Mat2};
 use crate::{ElasticForces, EnergyDensity, Moduli, SolidError, TriangleMesh};
 
-/// Elastic forces of a hyperelastic material on a triangle mesh (thesis section 4.2.1.1): the deformation gradient A is
+/// Elastic forces of a hyperelastic material on a triangle mesh (Cowley section 4.2.1.1): the deformation gradient A is
 /// constant in each triangle, the energy is the sum of W(A) A_ref over the triangles (4.11), and the force on a point
 /// is minus its derivative (4.12).
 #[derive(Debug, Clone)]

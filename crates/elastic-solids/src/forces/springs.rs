@@ -6,15 +6,15 @@ use ib_core::input::{positive, same_length};
 use crate::material::Mat2;
 use crate::{ElasticForces, Moduli, SolidError, TriangleMesh};
 
-/// A spring along every edge of a triangle mesh (thesis section 4.1), without stress in the reference state: the force
-/// on point i from the spring to j is `K_ij (|X_j - X_i| - d_ij)` towards j, d_ij being the reference length. (The
-/// thesis' (4.1) has the sign turned round, and a half because it counts every spring from both ends.)
+/// A spring along every edge of a triangle mesh (Cowley section 4.1), without stress in the reference state: the force
+/// on point i from the spring to j is `K_ij (|X_j - X_i| - d_ij)` towards j, d_ij being the reference length. (
+/// Cowley's (4.1) has the sign turned round, and a half because it counts every spring from both ends.)
 ///
 /// ```text
 /// K_ij = 8/(3 d_ij^2) sum over the one or two triangles at the edge of mu A_ref
 /// ```
 /// makes the mesh an isotropic material of shear modulus mu and bulk modulus 2 mu, free edges included; on the
-/// equilateral lattice K = 4 mu/sqrt(3). The thesis' (4.2) has the mean area of the edge's two points instead of the
+/// equilateral lattice K = 4 mu/sqrt(3). Cowley's (4.2) has the mean area of the edge's two points instead of the
 /// two triangles', which is too soft next to free edges. All this holds for meshes of almost equal edges.
 #[derive(Debug, Clone)]
 pub struct Springs {
@@ -45,7 +45,7 @@ impl Spring {
 
 impl Springs {
     /// Springs for one shear modulus everywhere (force per length); [`Moduli::from_thesis_spring_constant`] converts
-    /// the thesis' k.
+    /// Cowley's k.
     ///
     /// # Errors
     /// A shear modulus that is not positive and finite.

@@ -34,7 +34,7 @@ impl Moduli {
         Self::new(young / (2.0 * (1.0 + poisson)), young / (2.0 * (1.0 - poisson)))
     }
 
-    /// Those of a lattice of springs: kappa = 2 mu, Poisson's ratio 1/3 (thesis (4.17) and below).
+    /// Those of a lattice of springs: kappa = 2 mu, Poisson's ratio 1/3 (Cowley (4.17) and below).
     ///
     /// # Errors
     /// A shear modulus that is not positive and finite.
@@ -42,8 +42,8 @@ impl Moduli {
         Self::new(shear, 2.0 * shear)
     }
 
-    /// Those that stand for the thesis' spring constant k: `mu = 3/16 h k` (thesis (4.18)), kappa = 2 mu, where h =
-    /// 0.05 is the lattice spacing of the thesis, whatever that of the run.
+    /// Those that stand for Cowley's spring constant k: `mu = 3/16 h k` (Cowley (4.18)), kappa = 2 mu, where h =
+    /// 0.05 is the lattice spacing of Cowley, whatever that of the run.
     ///
     /// # Errors
     /// A spring constant that is not positive and finite.
@@ -93,7 +93,7 @@ impl Moduli {
     }
 }
 
-/// Lattice spacing of the thesis (length, in units of the droplet's radius).
+/// Lattice spacing of Cowley (length, in units of the droplet's radius).
 const THESIS_SPACING: f64 = 0.05;
 
 #[cfg(test)]

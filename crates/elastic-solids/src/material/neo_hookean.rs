@@ -1,14 +1,14 @@
-//! The thesis' material.
+//! Cowley's material.
 
 use crate::material::{DeformationGradient, Mat2};
 use crate::{EnergyDensity, Moduli, SolidError};
 
-/// The generalised neo-Hookean material of the thesis (4.8):
+/// The generalised neo-Hookean material of Cowley (4.8):
 /// ```text
 /// W = mu/2 (tr(A A^T)/J - 2) + kappa/2 (J - 1)^2
 /// P = mu/J (A - tr(A A^T)/2 A^-T) + kappa (J - 1) J A^-T                     (4.15)
 /// ```
-/// (the thesis prints tr(A A) in (4.8) and means tr(A A^T), as in its (4.4)). W grows without bound where the material
+/// (Cowley prints tr(A A) in (4.8) and means tr(A A^T), as in its (4.4)). W grows without bound where the material
 /// is flattened.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NeoHookean {

@@ -11,7 +11,7 @@ pub(crate) const ROW_HEIGHT: f64 = 0.866_025_403_784_438_6;
 
 /// A strip of equilateral triangles, periodic in x: `columns` points a row, `rows` layers of triangles (`rows + 1` rows
 /// of points) of side `spacing` (length). The lowest row starts at `corner` (length). The period is `columns *
-/// spacing`, the thickness `rows * sqrt(3)/2 spacing`: the wall of thesis section 4.1.
+/// spacing`, the thickness `rows * sqrt(3)/2 spacing`: the wall of Cowley section 4.1.
 ///
 /// Points are numbered row by row from below.
 ///

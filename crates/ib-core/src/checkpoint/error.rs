@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 /// A checkpoint could not be written or read.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckpointError {
     /// The file could not be written or read.
@@ -75,6 +75,8 @@ pub enum CheckpointError {
     #[error("the contents of the checkpoint make no sense: use another one")]
     Contents(#[source] postcard::Error),
 }
+
+input_checks::debug_as_explanation!(CheckpointError);
 
 impl CheckpointError {
     /// A file that could not be read.

@@ -3,7 +3,7 @@
 use input_checks::{InputError, all_finite, same_length};
 use serde::{Deserialize, Serialize};
 
-/// Numbers from which an object makes its state again, bit for bit; only the object knows what they mean.
+/// Numbers from which an object makes its state again, bitwise; only the object knows what they mean.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SavedState {
     /// Real numbers.

@@ -7,7 +7,7 @@ use crate::{MarkerKind, Markers};
 
 /// A repulsion between different interfaces that come close, an option for scenes of several droplets whose films the
 /// grid does not resolve; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of
-/// the thesis' model.
+/// Cowley's model.
 ///
 /// Each pair of pieces of interfaces of lengths ds and ds', a distance r < range apart, is pushed apart by the force
 /// ```text

@@ -30,7 +30,7 @@ pub struct SolidGap {
 }
 
 /// An interface that has entered a solid.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[error(
     "marker {marker} of {interface} at ({x:.4}, {y:.4}) is {depth:.3e} inside a solid, more than {allowed:.3e}: {}",
     if *at_start { "move them apart" } else { "use a smaller time step or a finer grid" }
@@ -51,6 +51,8 @@ pub struct SolidEntered {
     /// What is allowed (length).
     pub allowed: f64,
 }
+
+input_checks::debug_as_explanation!(SolidEntered);
 
 impl SolidGap {
     /// A watch that lets interfaces enter solids by `allowed` (length): the flow keeps surfaces apart to a quarter of

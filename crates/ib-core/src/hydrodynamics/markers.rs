@@ -10,12 +10,12 @@ pub enum MarkerKind {
     /// A closed fluid interface: markers in counter-clockwise order at equal spacing along the curve (to a few per
     /// cent), the last one next to the first.
     Interface {
-        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the surroundings.
+        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the exterior fluid.
         viscosity_inside: Option<f64>,
     },
     /// A closed curve whose markers are not equally spaced.
     UnevenInterface {
-        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the surroundings.
+        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the exterior fluid.
         viscosity_inside: Option<f64>,
     },
     /// Points in no particular order, such as those of an elastic solid.

@@ -1,4 +1,4 @@
-//! Interfaces between different viscosities by a viscosity that is smeared over the kernel, the thesis' way.
+//! Interfaces between different viscosities by a viscosity that is smeared over the kernel, Cowley's way.
 
 use stokes_grid::{
     CentreField, Drive, Grid, NodeField, RealFft2, StaggeredField, StokesSolver, Symbol, TwoPhaseStokes,
@@ -11,7 +11,7 @@ use crate::{
     hydrodynamics::{FlowWork, SolveReport},
 };
 
-/// The immersed boundary method with the viscosity as a smooth field on the grid (thesis section 2.2.4): the outward
+/// The immersed boundary method with the viscosity as a smooth field on the grid (Cowley section 2.2.4): the outward
 /// normals of the interfaces, spread like forces, are minus the gradient of an indicator that is one inside,
 ///
 /// `lap H = -div(sum n ds delta_h)` (2.42), (2.43), `eta = eta_out + (eta_in - eta_out) H` (2.44),
@@ -20,8 +20,8 @@ use crate::{
 /// them.
 ///
 /// It is of first order in h, and the errors grow with the ratio of viscosities: at h = R/20 a droplet a hundred times
-/// as viscous as its surroundings is 25 to 40 per cent too fast. [`ImmersedBoundary`] alone does better at a fraction
-/// of the cost; this is here to reproduce the thesis. There is no mobility correction.
+/// as viscous as the exterior fluid is 25 to 40 per cent too fast. [`ImmersedBoundary`] alone does better at a fraction
+/// of the cost; this is here to reproduce Cowley. There is no mobility correction.
 #[derive(Debug, Clone)]
 pub struct SmearedContrast<S, K> {
     flow: ImmersedBoundary<TwoPhaseStokes<S>, K>,
@@ -32,7 +32,7 @@ pub struct SmearedContrast<S, K> {
     positions: Vec<Vec2>,
     centres: CentreField,
     nodes: NodeField,
-    /// Whether the fields hold other viscosities than that of the surroundings.
+    /// Whether the fields hold other viscosities than that of the exterior fluid.
     varies: bool,
 }
 
@@ -84,7 +84,7 @@ impl Indicator {
 }
 
 impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
-    /// The method around a solver of one viscosity, that of the surroundings, with a relative tolerance of 1e-6.
+    /// The method around a solver of one viscosity, that of the exterior fluid, with a relative tolerance of 1e-6.
     ///
     /// # Errors
     /// Those of the solver.

@@ -2,7 +2,7 @@
 
 use super::{Kernel, MAX_SUPPORT, Role, tabulate};
 
-/// Peskin's 4-point function, thesis (2.36); the same in both roles.
+/// Peskin's 4-point function, Cowley (2.36); the same in both roles.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Peskin4;
 

@@ -43,7 +43,7 @@ fn peskin_and_roma_conditions() {
         Roma3.weights(Role::Normal, r, &mut w);
         assert!((w.iter().map(|w| w * w).sum::<f64>() - 0.5).abs() < 1e-14);
     }
-    // thesis (2.36) at a few points
+    // Cowley (2.36) at a few points
     for (r, value) in [(0.0, 0.5), (1.0, 0.25), (2.0, 0.0), (0.5, (2.0 + 2.0_f64.sqrt()) / 8.0)] {
         assert!((Peskin4.value(Role::Normal, r) - value).abs() < 1e-15);
     }

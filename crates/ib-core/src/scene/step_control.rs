@@ -16,7 +16,7 @@ pub enum StepSize {
     /// of such steps ([`crate::Integrator::error_bound`]), as the Runge-Kutta-Chebyshev method does.
     OfLimit(f64),
     /// As long as accuracy and stability allow: the error of each step is estimated, steps whose error is above the
-    /// tolerance or that fail otherwise are taken anew with a shorter one.
+    /// tolerance or that fail otherwise are retried with a shorter one.
     Adaptive {
         /// Largest error of a step: root mean square over the entries of a body's state, in units of their scales
         /// ([`crate::Body::write_scales`]: the radius of a droplet for positions). No dimension; errors of 1e-5 to 1e-4
@@ -63,9 +63,9 @@ pub struct Limiting {
 pub struct StepReport {
     /// Steps taken.
     pub steps: usize,
-    /// Steps taken back because their error was above the tolerance.
+    /// Steps rejected because their error was above the tolerance.
     pub rejections: usize,
-    /// Steps taken back because something went wrong in them, and taken anew with a shorter one.
+    /// Steps rejected because something went wrong in them, and retried with a shorter one.
     pub failures: usize,
     /// The shortest step but for those that end a run or end at an exact report, which may be of any length (time;
     /// infinite before any).
@@ -115,7 +115,7 @@ pub(crate) struct StepControl {
     pub(crate) next: f64,
     /// Length and error of the last accepted step; 0 where there is none.
     last: [f64; 2],
-    /// Whether the last attempt was taken back.
+    /// Whether the last attempt was rejected.
     retreated: bool,
 }
 
@@ -131,7 +131,7 @@ impl StepControl {
             if last_dt > 0.0 {
                 factor = factor.min(factor * dt / last_dt * (last_error / error).powf(1.0 / 3.0));
             }
-            // Straight after a step that was taken back there is no reason to try a longer one.
+            // Straight after a step that was rejected there is no reason to try a longer one.
             factor = factor.min(if self.retreated { 1.0 } else { GROWTH });
             self.last = [dt, error];
         } else {

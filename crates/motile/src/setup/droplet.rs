@@ -80,8 +80,8 @@ impl DropletSetup {
         Self { tension, particles: None, ..Self::default() }
     }
 
-    /// The default droplet by the thesis' method: markers that move with the fluid and are inserted and removed, an
-    /// area constraint. What the thesis does not state is a reading of it: a first-order upwind flux; diffusion is
+    /// The default droplet by Cowley's method: markers that move with the fluid and are inserted and removed, an
+    /// area constraint. What Cowley does not state is a reading of it: a first-order upwind flux; diffusion is
     /// implicit as in the default.
     #[must_use]
     pub fn thesis() -> Self {
@@ -100,7 +100,7 @@ impl DropletSetup {
     }
 }
 
-/// Active particles on an interface. They raise its tension: `gamma = gamma0 - zeta_dmu c - Pi(c)`, thesis (2.39).
+/// Active particles on an interface. They raise its tension: `gamma = gamma0 - zeta_dmu c - Pi(c)`, Cowley (2.39).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Particles {
@@ -137,7 +137,7 @@ impl Default for Particles {
 pub enum Exclusion {
     /// None: particles of negative activity collapse.
     None,
-    /// The step-like law of strength A (force times length), thesis (2.41), with the threshold 2 c0.
+    /// The step-like law of strength A (force times length), Cowley (2.41), with the threshold 2 c0.
     Step(f64),
     /// `Pi = B c^2 / 2` of strength B (force times length squared).
     Quadratic(f64),
@@ -147,7 +147,7 @@ pub enum Exclusion {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Start {
-    /// `(1 - cos(theta - angle)) c0`: crowded at the rear of a droplet that swims at `angle`, thesis (2.46).
+    /// `(1 - cos(theta - angle)) c0`: crowded at the rear of a droplet that swims at `angle`, Cowley (2.46).
     Polarised,
     /// c0 everywhere.
     Uniform,
@@ -170,7 +170,7 @@ pub enum MarkerMotion {
         /// R the perimeter; without particles, of tension over mean viscosity and R.
         relaxation: f64,
     },
-    /// With the fluid, as in the thesis; markers are inserted where they thin out and removed where they crowd.
+    /// With the fluid, as in Cowley; markers are inserted where they thin out and removed where they crowd.
     WithFluid,
 }
 

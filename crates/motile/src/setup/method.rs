@@ -94,7 +94,7 @@ impl Default for GridMethod {
 }
 
 impl GridMethod {
-    /// The thesis' grid: Peskin's 4-point function, no mobility correction, a smooth viscosity field, h = 0.05, markers
+    /// Cowley's grid: Peskin's 4-point function, no mobility correction, a smooth viscosity field, h = 0.05, markers
     /// h/2 apart.
     #[must_use]
     pub fn thesis() -> Self {
@@ -121,7 +121,7 @@ pub enum Contrast {
     /// A jump, by a double layer on the interface ([`ib_core::ImmersedBoundary`]): second order in the grid spacing.
     #[default]
     Sharp,
-    /// A smooth viscosity field, thesis section 2.2.4 ([`ib_core::SmearedContrast`]): first order, without mobility
+    /// A smooth viscosity field, Cowley section 2.2.4 ([`ib_core::SmearedContrast`]): first order, without mobility
     /// correction.
     Arithmetic,
 }

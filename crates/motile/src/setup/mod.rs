@@ -97,7 +97,7 @@ impl Default for Setup {
 }
 
 impl Setup {
-    /// The default scene by the method of the thesis (Natasha Cowley, "Effects of mechanical properties of the
+    /// The default scene by the method of Cowley (Natasha Cowley, "Effects of mechanical properties of the
     /// environment on cell migration", PhD thesis, University of Sheffield): [`GridMethod::thesis`],
     /// [`DropletSetup::thesis`], steps of 1e-3. Walls by its method are [`SolidSetup::thesis`].
     #[must_use]

@@ -110,12 +110,12 @@ pub enum SolidOutline {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub enum Material {
-    /// Springs along the edges of the mesh (thesis section 4.1); their bulk modulus is twice the shear modulus.
+    /// Springs along the edges of the mesh (Cowley section 4.1); their bulk modulus is twice the shear modulus.
     Springs {
         /// Shear modulus (force per length).
         shear: f64,
     },
-    /// The generalised neo-Hookean material of thesis section 4.2.
+    /// The generalised neo-Hookean material of Cowley section 4.2.
     NeoHookean {
         /// Shear modulus (force per length).
         shear: f64,
@@ -191,7 +191,7 @@ pub enum Surface {
     /// bent wall for long, such as the mouth of a constriction, where in time they enter corrected surfaces or invert a
     /// triangle of springs.
     SetBack,
-    /// Nothing, as in the thesis.
+    /// Nothing, as in Cowley.
     Plain,
 }
 
@@ -254,7 +254,7 @@ impl SolidSetup {
         solids
     }
 
-    /// The same by the method of the thesis (section 4.1): springs on an unstructured mesh (where the material is
+    /// The same by the method of Cowley (section 4.1): springs on an unstructured mesh (where the material is
     /// springs), nothing done about the surface, and triangles may be inverted.
     #[must_use]
     pub fn thesis(self) -> Self {

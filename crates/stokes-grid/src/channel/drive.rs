@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Drive {
-    /// No mean pressure gradient: the pressure is periodic in x, fluid may stream through (the thesis' channel).
+    /// No mean pressure gradient: the pressure is periodic in x, fluid may stream through (Cowley's channel).
     #[default]
     ZeroGradient,
     /// A mean pressure gradient dp/dx (force per volume); a negative one drives fluid to positive x.

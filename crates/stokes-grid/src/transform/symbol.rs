@@ -23,7 +23,7 @@ impl Symbol {
     }
 
     /// The factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by symmetry. The `1 / (nx ny)`
-    /// of a transform there and back is put in here, so that a factor of one everywhere gives the identity.
+    /// of a forward and an inverse transform is put in here, so that a factor of one everywhere gives the identity.
     pub fn new(nx: usize, ny: usize, factor: impl Fn(usize, usize) -> f64) -> Self {
         let scale = 1.0 / (nx as f64 * ny as f64);
         let mut values = Vec::with_capacity((nx / 2 + 1) * (ny / 2 + 1));
@@ -61,7 +61,7 @@ pub(crate) fn second_difference(m: usize, n: usize) -> f64 {
     s * s
 }
 
-/// Minus h^2 times the symbol of the five-point Laplacian, thesis (2.28).
+/// Minus h^2 times the symbol of the five-point Laplacian, Cowley (2.28).
 fn laplacian(m: usize, n: usize, nx: usize, ny: usize) -> f64 {
     second_difference(m, nx) + second_difference(n, ny)
 }

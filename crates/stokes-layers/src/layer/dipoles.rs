@@ -1,4 +1,4 @@
-//! The stress between all nodes of two curves, stored or computed anew for each product.
+//! The stress between all nodes of two curves, stored or recomputed for each product.
 
 use num_complex::Complex64;
 
@@ -79,7 +79,7 @@ impl StoredStress {
     }
 }
 
-/// Adds the flow of the dipoles of one shift, the stress of every pair computed anew: for systems whose stored
+/// Adds the flow of the dipoles of one shift, the stress of every pair recomputed: for systems whose stored
 /// components would not fit into the cache.
 #[inline(always)]
 pub(crate) fn double_layer<K: PairKernel>(

@@ -244,10 +244,10 @@ fn few_samples() {
     assert!(trajectory(&even(10.0, 20), |t| t).regime(&criteria).is_err());
 }
 
-/// What the grid does to a droplet: wiggles of a few thousandths of the amplitude at a much higher frequency, and
+/// What the grid does to a droplet: oscillations of a few thousandths of the amplitude at a much higher frequency, and
 /// round-off.
 #[test]
-fn wiggles_of_the_grid() {
+fn oscillations_of_the_grid() {
     let mut random = noise(7);
     let times = even(500.0, 1000);
     let growing = report(&trajectory(&times, |t| {

@@ -27,7 +27,7 @@ fn accuracy_on_a_sine() {
 }
 
 #[test]
-fn wiggles_do_not_count() {
+fn small_oscillations_do_not_count() {
     let (times, mut heights) = sine(100.0, 3.0);
     for (i, y) in heights.iter_mut().enumerate() {
         *y += 0.02 * (1.7 * i as f64).sin();

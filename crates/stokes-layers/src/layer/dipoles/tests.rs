@@ -21,7 +21,7 @@ fn arrays(a: f64, b: f64) -> NodeArrays {
     arrays
 }
 
-/// Products with the stored stress and with the one computed anew.
+/// Products with the stored stress and with the one recomputed.
 fn compare<K: PairKernel>(kernel: &K) {
     let (target, source) = (arrays(1.2, 0.8), arrays(0.7, 0.9));
     let both = [&target, &source];

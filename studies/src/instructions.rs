@@ -1,0 +1,179 @@
+//! Instructions of kernels and steps, counted by valgrind: the same on a busy machine as on an idle one.
+//!
+//! `cargo run --release -p studies -- instructions` compares each with `studies/instructions.csv` and fails where one
+//! has become more than 5 % more, or fewer: then `--write` renews the table. Counts depend on the compiler and on the
+//! processor's instruction set; the table names the compiler that it was made with.
+
+use std::{env, fs, hint::black_box, process::Command};
+
+use anyhow::{Context, Result, ensure};
+use clap::Args;
+use motile::boundary_integral::{PeriodicCalculus, TensionPlacement};
+use motile::elastic_solids::{NeoHookean, Solid, mesh::fitted_strip};
+use motile::ib_core::{AnyKernel, Body, Hydrodynamics, ImmersedBoundary, Transfer, Vec2};
+use motile::prelude::*;
+use motile::stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StaggeredField, StokesSolver};
+
+const TABLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/instructions.csv");
+/// Largest relative difference from the table.
+const TOLERANCE: f64 = 0.05;
+/// Time step of scenes: steps alike.
+const DT: f64 = 1e-4;
+
+/// What is counted: valgrind looks for this name.
+#[inline(never)]
+fn counted(work: &mut dyn FnMut() -> Result<()>) -> Result<()> {
+    black_box(work())
+}
+
+/// Once to warm up, once counted.
+fn count(mut work: impl FnMut() -> Result<()>) -> Result<()> {
+    work()?;
+    counted(&mut work)
+}
+
+fn solve(mut solver: impl StokesSolver) -> Result<()> {
+    let grid = *solver.grid();
+    let wave = |count: usize| (0..count).map(|i| ((i * i) as f64).sin()).collect();
+    let (x, y) = (wave(grid.nx() * grid.ny()), wave(grid.nx() * grid.node_rows()));
+    let (force, mut velocity) = (StaggeredField::from_components(grid, x, y)?, StaggeredField::zeros(grid));
+    count(|| {
+        solver.solve(black_box(&force), &mut velocity)?;
+        Ok(())
+    })
+}
+
+fn transfer(spreads: bool) -> Result<()> {
+    let grid = Grid::periodic(120, 120, 0.05)?;
+    let positions = Curve::circle(1.0)?.markers(400)?;
+    let mut transfer = Transfer::new(grid, AnyKernel::BSpline4);
+    transfer.locate(&positions);
+    let (mut field, mut values) = (StaggeredField::zeros(grid), vec![Vec2::new(1.0, 2.0); positions.len()]);
+    count(|| {
+        if spreads {
+            transfer.spread(black_box(&values), &mut field);
+        } else {
+            transfer.interpolate(black_box(&field), &mut values);
+        }
+        Ok(())
+    })
+}
+
+fn forces() -> Result<()> {
+    let mesh = fitted_strip(Vec2::new(-3.0, -1.0), [6.0, 2.0], 0.05)?;
+    let mut solid = Solid::hyperelastic(mesh, NeoHookean::new(1.0, 3.0)?);
+    let flow = ImmersedBoundary::new(PeriodicStokes::new(Grid::periodic(60, 60, 0.1)?, 1.0)?, AnyKernel::BSpline4);
+    let (discretisation, mut out) = (flow.discretisation(), vec![Vec2::ZERO; solid.marker_count()]);
+    count(|| Ok(solid.write_forces(black_box(&discretisation), &mut out)?))
+}
+
+fn derivatives() -> Result<()> {
+    let points = Curve::circle(1.0)?.markers(288)?;
+    let (tension, mut out) = (vec![1.0; points.len()], vec![Vec2::ZERO; points.len()]);
+    let mut calculus = PeriodicCalculus::new(points.len())?;
+    let placement = TensionPlacement::Points;
+    count(|| Ok(calculus.tension_forces(black_box(&points), &tension, placement, &mut out)?))
+}
+
+/// Three steps of a scene.
+fn steps(setup: &Setup) -> Result<()> {
+    let mut scene = setup.build()?.scene;
+    count(|| {
+        for _ in 0..3 {
+            scene.step(DT)?;
+        }
+        Ok(())
+    })
+}
+
+fn channel() -> Region {
+    Region::Channel { length: 6.0, width: 3.0, drive: Drive::ZeroGradient }
+}
+
+fn on_grid(region: Region) -> Setup {
+    Setup { region, method: Method::Grid(GridMethod::of_spacing(0.1)), ..Setup::default() }
+}
+
+fn viscous(setup: Setup) -> Setup {
+    let droplets = vec![DropletSetup { viscosity: Some(1e3), ..DropletSetup::default() }];
+    Setup { droplets, ..setup }
+}
+
+/// What is counted, by name.
+const WORKS: [(&str, fn() -> Result<()>); 12] = [
+    ("periodic Stokes solve, 120 x 120", || solve(PeriodicStokes::new(Grid::periodic(120, 120, 0.05)?, 1.0)?)),
+    ("channel Stokes solve, 120 x 60", || solve(ChannelStokes::new(Grid::channel(120, 60, 0.05)?, 1.0)?)),
+    ("spread 400 markers", || transfer(true)),
+    ("interpolate at 400 markers", || transfer(false)),
+    ("forces of a neo-Hookean solid", forces),
+    ("tension forces of a curve, 288 points", derivatives),
+    ("three steps, box on a grid", || steps(&on_grid(Region::Box { lengths: [6.0, 6.0] }))),
+    ("three steps, ratio 10 in a channel on a grid", || steps(&viscous(on_grid(channel())))),
+    ("three steps, elastic channel", || {
+        let shape = ChannelShape::Straight { width: 2.4 };
+        let solids = SolidSetup::walls(&shape, &Material::Springs { shear: 100.0 });
+        let region = Region::Channel { length: 6.0, width: 5.4, drive: Drive::ZeroGradient };
+        steps(&Setup { solids, ..on_grid(region) })
+    }),
+    ("three steps, box without a grid", || steps(&Setup::default())),
+    ("three steps, channel without a grid", || steps(&Setup { region: channel(), ..Setup::default() })),
+    ("three steps, ratio 10 without a grid", || steps(&viscous(Setup::default()))),
+];
+
+/// Counts the instructions of kernels and steps.
+#[derive(Debug, Args)]
+pub(crate) struct Flags {
+    /// Write the table instead of comparing with it
+    #[arg(long)]
+    write: bool,
+    /// Do the work with this number, under valgrind
+    #[arg(long, hide = true)]
+    work: Option<usize>,
+}
+
+/// Instructions of the work with this number, by valgrind.
+fn instructions(number: usize) -> Result<u64> {
+    let run = Command::new("valgrind")
+        .args([
+            "--tool=callgrind",
+            "--callgrind-out-file=/dev/null",
+            "--toggle-collect=studies::instructions::counted*",
+        ])
+        .arg(env::current_exe()?)
+        .args(["instructions", "--work", &number.to_string()])
+        .output()
+        .context("valgrind counts the instructions: install it")?;
+    let said = String::from_utf8_lossy(&run.stderr);
+    let collected = said.lines().find_map(|line| line.split_once("Collected :")?.1.trim().parse().ok());
+    collected.filter(|_| run.status.success()).with_context(|| format!("valgrind counted nothing: {said}"))
+}
+
+pub(crate) fn run(flags: &Flags) -> Result<()> {
+    if let Some(number) = flags.work {
+        return WORKS.get(number).context("there is no such work")?.1();
+    }
+    let compiler = Command::new("rustc").arg("--version").output()?.stdout;
+    let mut table = format!("# {}work;instructions\n", String::from_utf8_lossy(&compiler));
+    let known = fs::read_to_string(TABLE).unwrap_or_default();
+    let mut changed = Vec::new();
+    for (number, (name, _)) in WORKS.iter().enumerate() {
+        let now = instructions(number)?;
+        let mut rows = known.lines().filter_map(|line| line.split_once(';'));
+        let before = rows.find(|row| row.0 == *name).and_then(|row| row.1.parse::<f64>().ok());
+        let change = before.map_or(f64::INFINITY, |before| now as f64 / before - 1.0);
+        motile_examples::say(&format!("{name:<46} {now:>12} {:>+8.2} %", 100.0 * change));
+        if change.abs() > TOLERANCE {
+            changed.push(*name);
+        }
+        table += &format!("{name};{now}\n");
+    }
+    if flags.write {
+        return Ok(fs::write(TABLE, table)?);
+    }
+    ensure!(
+        changed.is_empty(),
+        "more than 5 % from {TABLE}: {}: cure it, or renew the table by --write",
+        changed.join("; ")
+    );
+    Ok(())
+}

@@ -1,0 +1,250 @@
+//! Tables of measurements as files, and the pages that show parts of them.
+//!
+//! A study writes `docs/tables/NAME.csv` (`--write`) with the command that made it, the commit it was made at and the
+//! paths it depends on. A page shows rows and columns of it between two comments,
+//!
+//! ```text
+//! <!-- table NAME | columns: h, error in % as error | where: kind = Box or Channel; h = 0.1 -->
+//! <!-- end of table -->
+//! ```
+//!
+//! which `studies -- pages` fills and `studies -- pages --check` and a test compare. `studies -- stale` lists the files
+//! whose code has changed since they were made, and the tables that still stand in their page, marked by
+//!
+//! ```text
+//! <!-- measured at COMMIT | COMMAND | depends on: PATH PATH -->
+//! ```
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
+use motile_examples::say;
+use motile_tests::validation::Table;
+
+/// What every run of a droplet depends on.
+pub(crate) const RUNS: [&str; 8] = [
+    "crates/fourier",
+    "crates/stokes-grid",
+    "crates/stokes-layers",
+    "crates/ib-core",
+    "crates/boundary-integral",
+    "crates/active-interface",
+    "crates/motile/src/setup",
+    "tests/src/validation",
+];
+/// What files state before their table.
+const COMMIT: &str = "# commit: ";
+const INPUTS: &str = "# depends on: ";
+const COMMAND: &str = "# ";
+/// What stands in pages.
+const BEGIN: &str = "<!-- table ";
+const END: &str = "<!-- end of table -->";
+const MEASURED: &str = "<!-- measured at ";
+
+/// Lists the tables that are older than the last change of what they measure.
+#[derive(Debug, Args)]
+pub(crate) struct StaleFlags {}
+
+/// Fills the tables of the pages from docs/tables.
+#[derive(Debug, Args)]
+pub(crate) struct PagesFlags {
+    /// Change nothing; fail if a page shows something else than the files have
+    #[arg(long)]
+    check: bool,
+}
+
+pub(crate) fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
+}
+
+fn git(arguments: &[&str]) -> Result<String> {
+    let done = Command::new("git").current_dir(root()).args(arguments).output().context("running git")?;
+    ensure!(done.status.success(), "git {}: {}", arguments.join(" "), String::from_utf8_lossy(&done.stderr).trim());
+    Ok(String::from_utf8_lossy(&done.stdout).trim().to_owned())
+}
+
+/// The commit that last changed `inputs`.
+///
+/// # Errors
+/// Changes of them that are not committed.
+pub(crate) fn commit(inputs: &[&str]) -> Result<String> {
+    let changed = git(&[&["status", "--porcelain", "--"], inputs].concat())?;
+    ensure!(changed.is_empty(), "commit first, so that tables can tell what made them:\n{changed}");
+    git(&[&["log", "-1", "--format=%h", "--"], inputs].concat())
+}
+
+/// Writes the tables that `studies -- COMMAND` has made from `inputs` to docs/tables, as NAME.csv, NAME-2.csv ...
+///
+/// # Errors
+/// Those of [`commit`]; files that cannot be written.
+pub(crate) fn write(name: &str, command: &str, inputs: &[&str], found: &[Table]) -> Result<()> {
+    let (commit, inputs) = (commit(inputs)?, inputs.join(" "));
+    for (k, table) in found.iter().enumerate() {
+        let made = format!("# cargo run --release -p studies -- {command}\n{COMMIT}{commit}\n{INPUTS}{inputs}\n");
+        fs::write(file(name, k), made + &table.csv())?;
+    }
+    Ok(())
+}
+
+/// Whether the files have the tables that were made now.
+///
+/// # Errors
+/// A file whose title, columns or rows are others.
+pub(crate) fn check(name: &str, found: &[Table]) -> Result<()> {
+    for (k, table) in found.iter().enumerate() {
+        let path = file(name, k);
+        let kept = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+        let same = kept.ends_with(&table.csv());
+        ensure!(same, "{} has other values than are found now: run the study with --write", path.display());
+    }
+    Ok(())
+}
+
+/// Where the table number `k` (from 0) of a study is.
+fn file(name: &str, k: usize) -> PathBuf {
+    let number = if k == 0 { String::new() } else { format!("-{}", k + 1) };
+    root().join(format!("docs/tables/{name}{number}.csv"))
+}
+
+/// Commits since `commit` that changed more than comments and tests of what a table depends on.
+fn changes(commit: &str, inputs: &str) -> Result<usize> {
+    let (range, code) = (format!("{commit}..HEAD"), "-G^[[:space:]]*[^/[:space:]]");
+    let mut arguments = vec!["log", "--format=%h", code, &range, "--"];
+    arguments.extend(inputs.split_whitespace());
+    arguments.push(":(exclude)*tests.rs");
+    Ok(git(&arguments)?.lines().count())
+}
+
+pub(crate) fn stale(_: &StaleFlags) -> Result<()> {
+    let mut tables: Vec<[String; 4]> = Vec::new();
+    for path in files("docs/tables", "csv")? {
+        let text = fs::read_to_string(&path)?;
+        let stated = |what: &str| {
+            let line = text.lines().find_map(|line| line.strip_prefix(what));
+            line.map(str::to_owned).with_context(|| format!("{} has no line '{what}...'", path.display()))
+        };
+        tables.push([name(&path), stated(COMMIT)?, stated(INPUTS)?, stated(COMMAND)?]);
+    }
+    for path in pages_of()? {
+        let text = fs::read_to_string(&path)?;
+        let mut heading = "";
+        for line in text.lines() {
+            heading = line.strip_prefix('#').map_or(heading, |title| title.trim_start_matches('#').trim());
+            let Some(rest) = line.strip_prefix(MEASURED) else { continue };
+            let parts: Vec<&str> = rest.trim_end_matches("-->").split('|').map(str::trim).collect();
+            let [commit, command, inputs] = parts[..] else { bail!("{}: not understood: {line}", path.display()) };
+            let inputs = inputs.trim_start_matches("depends on:");
+            tables.push([
+                format!("{}, {heading}", name(&path)),
+                commit.to_owned(),
+                inputs.to_owned(),
+                command.to_owned(),
+            ]);
+        }
+    }
+    for [name, commit, inputs, command] in tables {
+        let count = changes(&commit, &inputs)?;
+        if count > 0 {
+            say(format_args!("{name}: {count} changes since {commit}; {command}"));
+        }
+    }
+    Ok(())
+}
+
+pub(crate) fn pages(flags: &PagesFlags) -> Result<()> {
+    for path in pages_of()? {
+        let text = fs::read_to_string(&path)?;
+        let filled = filled(&text, &|name| Ok(fs::read_to_string(file(name, 0))?))
+            .with_context(|| path.display().to_string())?;
+        if filled == text {
+            continue;
+        }
+        ensure!(!flags.check, "{}: its tables are not those of docs/tables: run `studies -- pages`", path.display());
+        fs::write(&path, filled)?;
+        say(format_args!("{} is updated", name(&path)));
+    }
+    Ok(())
+}
+
+fn name(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+fn files(directory: &str, extension: &str) -> Result<Vec<PathBuf>> {
+    let entries = fs::read_dir(root().join(directory))?.map(|entry| Ok(entry?.path()));
+    let mut paths: Vec<PathBuf> = entries.collect::<Result<_>>()?;
+    paths.retain(|path| path.extension().is_some_and(|found| found == extension));
+    paths.sort();
+    Ok(paths)
+}
+
+fn pages_of() -> Result<Vec<PathBuf>> {
+    let mut paths = files("docs", "md")?;
+    paths.push(root().join("README.md"));
+    Ok(paths)
+}
+
+/// A page with its tables filled from the files that `read` gives by name.
+fn filled(page: &str, read: &dyn Fn(&str) -> Result<String>) -> Result<String> {
+    let mut out = String::new();
+    let mut lines = page.lines();
+    while let Some(line) = lines.next() {
+        out.push_str(line);
+        out.push('\n');
+        let Some(rest) = line.strip_prefix(BEGIN) else { continue };
+        ensure!(lines.any(|line| line == END), "no '{END}' after: {line}");
+        out.push_str(&shown(rest.trim_end_matches("-->").trim(), read).with_context(|| line.to_owned())?);
+        out.push_str(END);
+        out.push('\n');
+    }
+    Ok(out)
+}
+
+/// A part of a file as Markdown: `NAME | columns: A, B as C | where: D = x or y; E = z`.
+fn shown(request: &str, read: &dyn Fn(&str) -> Result<String>) -> Result<String> {
+    let mut parts = request.split('|').map(str::trim);
+    let text = read(parts.next().unwrap_or_default())?;
+    let mut table = csv::ReaderBuilder::new().comment(Some(b'#')).flexible(true).from_reader(text.as_bytes());
+    let header = table.headers()?.clone();
+    let column =
+        |name: &str| header.iter().position(|found| found == name).with_context(|| format!("no column {name}"));
+    let (mut columns, mut wanted) = (Vec::new(), Vec::new());
+    for part in parts {
+        if let Some(list) = part.strip_prefix("columns:") {
+            for entry in list.split(',').map(str::trim) {
+                let (of, title) = entry.split_once(" as ").unwrap_or((entry, entry));
+                columns.push((column(of)?, title.to_owned()));
+            }
+        } else if let Some(list) = part.strip_prefix("where:") {
+            for condition in list.split(';') {
+                let (of, values) = condition.split_once('=').context("a condition without '='")?;
+                wanted.push((column(of.trim())?, values.split(" or ").map(str::trim).collect::<Vec<_>>()));
+            }
+        } else {
+            bail!("neither 'columns:' nor 'where:': {part}");
+        }
+    }
+    if columns.is_empty() {
+        columns = header.iter().map(str::to_owned).enumerate().collect();
+    }
+    let titles: Vec<&str> = columns.iter().map(|(_, title)| title.as_str()).collect();
+    let mut out = format!("| {} |\n|{}\n", titles.join(" | "), "---|".repeat(titles.len()));
+    let mut count = 0;
+    for row in table.records() {
+        let row = row?;
+        let value = |k: usize| row.get(k).unwrap_or_default();
+        if wanted.iter().all(|(k, values)| values.contains(&value(*k))) {
+            let values: Vec<&str> = columns.iter().map(|(k, _)| value(*k)).collect();
+            out.push_str(&format!("| {} |\n", values.join(" | ")));
+            count += 1;
+        }
+    }
+    ensure!(count > 0, "no row is so");
+    Ok(out)
+}
+
+#[cfg(test)]
+mod tests;
