@@ -65,7 +65,7 @@ impl DropletFlags {
     ///
     /// # Errors
     /// A seed of a start that is not random.
-    pub(crate) fn apply(&self, setup: &mut Setup) -> Result<()> {
+    pub fn apply(&self, setup: &mut Setup) -> Result<()> {
         let common = self.viscosity.unwrap_or(setup.viscosity);
         setup.viscosity = self.viscosity_out.unwrap_or(common);
         let count = setup.droplets.len();

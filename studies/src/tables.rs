@@ -8,8 +8,9 @@
 //! <!-- end of table -->
 //! ```
 //!
-//! which `studies -- pages` fills and `studies -- pages --check` and a test compare. `studies -- stale` lists the files
-//! whose code has changed since they were made, and the tables that still stand in their page, marked by
+//! (the first of which may go over several lines), which `studies -- pages` fills and `studies -- pages --check` and a
+//! test compare. `studies -- stale` lists the files whose code has changed since they were made, and the tables that
+//! still stand in their page, marked by
 //!
 //! ```text
 //! <!-- measured at COMMIT | COMMAND | depends on: PATH PATH -->
@@ -194,9 +195,16 @@ fn filled(page: &str, read: &dyn Fn(&str) -> Result<String>) -> Result<String> {
     while let Some(line) = lines.next() {
         out.push_str(line);
         out.push('\n');
-        let Some(rest) = line.strip_prefix(BEGIN) else { continue };
+        let Some(first) = line.strip_prefix(BEGIN) else { continue };
+        let mut request = first.to_owned();
+        while !request.ends_with("-->") {
+            let more = lines.next().with_context(|| format!("no '-->' after: {line}"))?;
+            out.push_str(more);
+            out.push('\n');
+            request = format!("{request} {}", more.trim());
+        }
         ensure!(lines.any(|line| line == END), "no '{END}' after: {line}");
-        out.push_str(&shown(rest.trim_end_matches("-->").trim(), read).with_context(|| line.to_owned())?);
+        out.push_str(&shown(request.trim_end_matches("-->").trim(), read).with_context(|| line.to_owned())?);
         out.push_str(END);
         out.push('\n');
     }

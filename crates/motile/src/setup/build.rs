@@ -2,15 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveDroplet, ContractileTension, Curve, ExcludedVolume, InitialConcentration, Motion};
-use boundary_integral::{BoundaryIntegral, Settings, forcing};
+use active_interface::{ActiveDroplet, Curve, InitialConcentration, Motion};
+use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::Solid;
 use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
-    Contrast, DropletSetup, DropletShape, Exclusion, GridMethod, IntegralMethod, MarkerMotion, Method, Region, Setup,
-    Squeezed, Start, Surface,
+    Contrast, DropletSetup, DropletShape, GridMethod, IntegralMethod, MarkerMotion, Method, Region, Setup, Squeezed,
+    Start, Surface,
 };
 use crate::SetupError;
 
@@ -103,12 +103,7 @@ impl Setup {
                     }
                     None => initial.particle_numbers(&markers)?,
                 };
-                let excluded_volume = match particles.excluded_volume {
-                    Exclusion::None => ExcludedVolume::None,
-                    Exclusion::Step(strength) => ExcludedVolume::thesis(strength, c0),
-                    Exclusion::Quadratic(strength) => ExcludedVolume::Quadratic { strength },
-                };
-                let law = ContractileTension::new(droplet.tension, particles.activity, excluded_volume)?;
+                let law = particles.law(droplet.tension)?;
                 ActiveDroplet::new(&markers, numbers, law, particles.diffusion)?.with_flux(particles.flux)
             }
         };
@@ -154,14 +149,7 @@ impl Setup {
     }
 
     fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod, region: Region) -> Result<AnyFlow, SetupError> {
-        let region = match region {
-            Region::Plane => boundary_integral::Geometry::Plane,
-            Region::Box { lengths } => boundary_integral::Geometry::Box { lengths },
-            Region::Channel { length, width, drive } => {
-                boundary_integral::Geometry::Channel { length, width, forcing: forcing(drive) }
-            }
-        };
-        let flow = BoundaryIntegral::new(region, self.viscosity, Settings { nodes, ..Settings::default() })?;
+        let flow = BoundaryIntegral::new(region.geometry(), self.viscosity, Settings { nodes, ..Settings::default() })?;
         let perimeters = self.droplets.iter().map(|droplet| match &droplet.shape {
             &DropletShape::Round { radius } | &DropletShape::Squeezed { radius, .. } => Ok(TAU * radius),
             shape => Ok(shape.curve()?.0.perimeter()),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use active_interface::{Curve, Flux, InterfaceError};
+use active_interface::{ContractileTension, Curve, ExcludedVolume, Flux, InterfaceError};
 use ib_core::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -128,6 +128,21 @@ impl Default for Particles {
             start: Start::Polarised,
             flux: Flux::Weno5,
         }
+    }
+}
+
+impl Particles {
+    /// The law of the tension with these particles on an interface of the tension gamma0 (force).
+    ///
+    /// # Errors
+    /// A negative tension, values that are out of their range.
+    pub fn law(&self, tension: f64) -> Result<ContractileTension, InterfaceError> {
+        let excluded_volume = match self.excluded_volume {
+            Exclusion::None => ExcludedVolume::None,
+            Exclusion::Step(strength) => ExcludedVolume::thesis(strength, self.concentration),
+            Exclusion::Quadratic(strength) => ExcludedVolume::Quadratic { strength },
+        };
+        ContractileTension::new(tension, self.activity, excluded_volume)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Regions that the fluid fills.
 
+use boundary_integral::{Geometry, forcing};
 use serde::{Deserialize, Serialize};
 use stokes_grid::Drive;
 
@@ -41,6 +42,16 @@ impl Region {
             Self::Plane => [f64::INFINITY; 2],
             Self::Box { lengths } => lengths,
             Self::Channel { length, width, .. } => [length, width],
+        }
+    }
+
+    /// The region as boundary integrals have it.
+    #[must_use]
+    pub fn geometry(&self) -> Geometry {
+        match *self {
+            Self::Plane => Geometry::Plane,
+            Self::Box { lengths } => Geometry::Box { lengths },
+            Self::Channel { length, width, drive } => Geometry::Channel { length, width, forcing: forcing(drive) },
         }
     }
 }

@@ -1,0 +1,396 @@
+//! Branches of steady states.
+
+use nalgebra::DVector;
+
+use crate::modes::Part;
+use crate::newton::Outcome;
+use crate::profile::{Fields, Profile};
+use crate::spectrum::{Spectrum, Symmetry, eigenvector};
+use crate::state::CROWDING;
+use crate::system::{Along, Point, System};
+use crate::{Critical, Eigenmode, Parameter, SteadyError, SteadyState};
+
+/// Steps below this part of the largest are given up.
+const LEAST_STEP: f64 = 1e-4;
+/// Amplitude of the critical mode with which a branch is entered, first of a few that are tried.
+const AMPLITUDES: [f64; 3] = [0.05, 0.1, 0.02];
+/// A frequency below this part of D/R^2 is none.
+const LEAST_FREQUENCY: f64 = 1e-5;
+/// Iterations after which the next step is longer.
+const QUICK: usize = 6;
+/// Secants for a fold.
+const MOST_SECANTS: usize = 12;
+
+/// What is special about a point of a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SpecialKind {
+    /// The branch turns back.
+    Fold,
+    /// Another branch of steady states crosses.
+    BranchPoint,
+    /// A branch of oscillations begins.
+    Hopf,
+}
+
+impl SpecialKind {
+    /// Its name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fold => "fold",
+            Self::BranchPoint => "branch point",
+            Self::Hopf => "Hopf point",
+        }
+    }
+}
+
+/// A special point of a branch.
+#[derive(Debug, Clone)]
+pub struct SpecialPoint {
+    /// What it is.
+    pub kind: SpecialKind,
+    /// The state and the mode.
+    pub critical: Critical,
+}
+
+/// A point of a branch.
+#[derive(Debug, Clone)]
+pub struct BranchPoint {
+    /// Value of the parameter.
+    pub value: f64,
+    /// The state.
+    pub state: SteadyState,
+    /// Its spectrum.
+    pub spectrum: Spectrum,
+}
+
+/// A branch of steady states in one parameter.
+#[derive(Debug, Clone)]
+pub struct Branch {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// Its points in order.
+    pub points: Vec<BranchPoint>,
+    /// Special points in the order of the branch.
+    pub special: Vec<SpecialPoint>,
+}
+
+/// How a branch is followed: pseudo-arclength continuation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Continuation {
+    /// The parameter.
+    pub parameter: Parameter,
+    /// Its range; the branch ends where it leaves this.
+    pub range: [f64; 2],
+    /// Direction of the parameter to start with: upwards or not.
+    pub upwards: bool,
+    /// Largest step, as a part of the range or a change of the largest Fourier coefficients over their unit.
+    pub largest_step: f64,
+    /// Most points.
+    pub most_points: usize,
+}
+
+impl Continuation {
+    /// From one value of a parameter to another.
+    #[must_use]
+    pub fn new(parameter: Parameter, from: f64, to: f64) -> Self {
+        let range = [from.min(to), from.max(to)];
+        Self { parameter, range, upwards: to > from, largest_step: 0.05, most_points: 400 }
+    }
+
+    fn scale(&self) -> f64 {
+        self.range[1] - self.range[0]
+    }
+
+    /// Follows the branch of a state.
+    ///
+    /// `seen` is told each point and the special points before it; the branch ends where it says false.
+    ///
+    /// # Errors
+    /// A description without the parameter; no convergence at the first step. Later failures end the branch.
+    pub fn follow(
+        &self,
+        start: &SteadyState,
+        seen: impl FnMut(&BranchPoint, &[SpecialPoint]) -> bool,
+    ) -> Result<Branch, SteadyError> {
+        let mut follower = Follower::new(*self, start)?;
+        let n = follower.size();
+        let mut direction = DVector::zeros(n + 1);
+        direction[n] = if self.upwards { 1.0 } else { -1.0 };
+        follower.turn(&direction)?;
+        follower.go(seen)
+    }
+
+    /// Follows the branch that crosses at a branch point, away from the one that the point was found on, in the
+    /// direction of the mode or against it.
+    ///
+    /// # Errors
+    /// As [`Continuation::follow`]; a point that is no branch point.
+    pub fn switch(
+        &self,
+        point: &SpecialPoint,
+        with_mode: bool,
+        seen: impl FnMut(&BranchPoint, &[SpecialPoint]) -> bool,
+    ) -> Result<Branch, SteadyError> {
+        if point.kind != SpecialKind::BranchPoint {
+            return Err(SteadyError::Unsupported {
+                what: format!("a {} has no other branch of steady states", point.kind.name()),
+                remedy: "give a branch point",
+            });
+        }
+        let Critical { state, mode } = &point.critical;
+        let enter = |amplitude: f64| self.enter(state, mode, if with_mode { amplitude } else { -amplitude });
+        let [first, rest @ ..] = AMPLITUDES;
+        rest.into_iter().fold(enter(first), |found, amplitude| found.or_else(|_| enter(amplitude)))?.go(seen)
+    }
+
+    /// The first point of the branch that a mode leads to.
+    fn enter(&self, state: &SteadyState, mode: &Eigenmode, amplitude: f64) -> Result<Follower, SteadyError> {
+        let mirror = state.is_mirror_symmetric() && mode.symmetry == Symmetry::Symmetric;
+        let mut follower = Follower::new(*self, state)?;
+        follower.part = if mirror { Part::Even } else { Part::Full };
+        let own = mode.symmetry.part();
+        let reduced = follower.system.reduced(state.point(), own)?;
+        let (_, vector) = eigenvector(&reduced.matrix, mode.value)?;
+        let vector = reduced.basis * vector.map(|z| z.re);
+        let vector = &vector / vector.amax();
+        let range = follower.system.modes.part(own);
+        let mut whole = DVector::zeros(follower.system.modes.len());
+        whole.rows_mut(range.start, range.len()).copy_from(&vector);
+        let part = follower.system.modes.part(follower.part);
+        let mut direction = DVector::zeros(part.len() + 1);
+        direction.rows_mut(0, part.len()).copy_from(&whole.rows(part.start, part.len()));
+        direction *= amplitude.signum() / direction.norm();
+        follower.tangent = direction;
+        follower.advance(amplitude.abs() * whole.norm())?;
+        Ok(follower)
+    }
+}
+
+/// A branch on its way.
+struct Follower {
+    settings: Continuation,
+    system: System,
+    point: Point,
+    part: Part,
+    /// Unit direction: coefficients of the part, then the parameter over its scale.
+    tangent: DVector<f64>,
+    outcome: Outcome,
+}
+
+impl Follower {
+    fn new(settings: Continuation, start: &SteadyState) -> Result<Self, SteadyError> {
+        settings.parameter.with(start.setup(), settings.range[0])?;
+        let part = if start.is_mirror_symmetric() { Part::Even } else { Part::Full };
+        let system = System::new(start.setup())?;
+        let outcome = Outcome::default();
+        Ok(Self { settings, system, point: start.point().clone(), part, tangent: DVector::zeros(0), outcome })
+    }
+
+    fn size(&self) -> usize {
+        self.system.modes.part(self.part).len()
+    }
+
+    fn value(&self) -> f64 {
+        self.settings.parameter.get(&self.system.model.setup).unwrap_or(f64::NAN)
+    }
+
+    fn along(&self, direction: &DVector<f64>) -> Along {
+        let mut direction = direction.clone();
+        let last = direction.len() - 1;
+        direction[last] /= self.settings.scale();
+        Along { parameter: self.settings.parameter, direction }
+    }
+
+    /// Finds the tangent that agrees with a direction.
+    fn turn(&mut self, direction: &DVector<f64>) -> Result<(), SteadyError> {
+        let equations = self.system.equations(&self.point, self.part, 0.0, Some(&self.along(direction)))?;
+        let mut right = DVector::zeros(equations.len());
+        right[equations.len() - 1] = 1.0;
+        let solution = equations.solve(&right)?;
+        let n = self.size();
+        let mut tangent = DVector::zeros(n + 1);
+        tangent.rows_mut(0, n).copy_from(&solution.rows(0, n));
+        tangent[n] = solution[solution.len() - 1] / self.settings.scale();
+        self.tangent = &tangent / tangent.norm();
+        Ok(())
+    }
+
+    /// A step along the tangent, and back to the branch at right angles to it; on failure nothing has changed.
+    fn advance(&mut self, step: f64) -> Result<(), SteadyError> {
+        let (point, setup) = (self.point.clone(), self.system.model.setup.clone());
+        let outcome = self.try_advance(step);
+        if outcome.is_err() {
+            (self.point, self.system) = (point, System::new(&setup)?);
+        }
+        outcome
+    }
+
+    fn try_advance(&mut self, step: f64) -> Result<(), SteadyError> {
+        let n = self.size();
+        let range = self.system.modes.part(self.part);
+        let mut rows = self.point.state.rows_mut(range.start, n);
+        rows += step * self.tangent.rows(0, n);
+        self.system.change(self.settings.parameter, step * self.tangent[n] * self.settings.scale())?;
+        let along = self.along(&self.tangent.clone());
+        self.outcome = self.system.newton(&mut self.point, self.part, Some(&along))?;
+        Ok(())
+    }
+
+    fn state(&self) -> Result<SteadyState, SteadyError> {
+        SteadyState::of(&self.system, self.point.clone(), self.outcome, self.part == Part::Even)
+    }
+
+    /// Takes the present droplet as its own base, its nodes where they serve it best.
+    fn rebase(&mut self) -> Result<(), SteadyError> {
+        let n = self.size();
+        let range = self.system.modes.part(self.part);
+        let profile = |system: &System, point: &Point, amount: f64, tangent: &DVector<f64>| {
+            let mut point = point.clone();
+            let mut rows = point.state.rows_mut(range.start, n);
+            rows += amount * tangent.rows(0, n);
+            system.profile(&point)
+        };
+        let ahead = profile(&self.system, &self.point, 1e-4, &self.tangent);
+        let behind = profile(&self.system, &self.point, -1e-4, &self.tangent);
+        let mut point = self.system.rebased(&self.point, CROWDING)?;
+        self.outcome = self.system.newton(&mut point, self.part, None)?;
+        // Both without the shift of the centre to x = 0, of which the tangent knows nothing.
+        let shift = self.system.profile(&self.point).moments()?.centroid.x;
+        let over = |profile: Profile| -> Result<Option<Fields>, SteadyError> {
+            let mut profile = profile;
+            profile.positions.iter_mut().for_each(|x| x.x -= shift);
+            profile.over(&point.base.positions, &point.base.normals)
+        };
+        let mut tangent = self.tangent.clone();
+        if let (Some(ahead), Some(behind)) = (over(ahead)?, over(behind)?) {
+            let difference = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) / 2e-4).collect::<Vec<_>>();
+            let (h, m) = (difference(&ahead.0, &behind.0), difference(&ahead.1, &behind.1));
+            let whole = self.system.modes.analyse(&h, &m)?;
+            tangent.rows_mut(0, n).copy_from(&whole.rows(range.start, n));
+        } else {
+            tangent.rows_mut(0, n).fill(0.0);
+        }
+        self.point = point;
+        self.turn(&tangent)
+    }
+
+    fn go(&mut self, mut seen: impl FnMut(&BranchPoint, &[SpecialPoint]) -> bool) -> Result<Branch, SteadyError> {
+        let Continuation { parameter, range: [low, high], largest_step, most_points, .. } = self.settings;
+        let mut branch = Branch { parameter, points: Vec::new(), special: Vec::new() };
+        let mut step = 0.2 * largest_step;
+        loop {
+            let (point, tangent) = (self.point.clone(), self.tangent.clone());
+            if self.rebase().is_err() {
+                (self.point, self.tangent) = (point, tangent);
+            }
+            let state = self.state();
+            // What is not resolved any more ends a branch.
+            let Ok(state) = state else { return Ok(branch) };
+            let spectrum = self.system.spectrum(&self.point, self.part == Part::Even)?;
+            let next = BranchPoint { value: self.value(), state, spectrum };
+            let special = match branch.points.last() {
+                Some(last) => crossings(parameter, last, &next),
+                None => Vec::new(),
+            };
+            let goes_on = seen(&next, &special);
+            branch.special.extend(special);
+            branch.points.push(next);
+            let inside = (low..=high).contains(&self.value());
+            if !goes_on || branch.points.len() >= most_points || (!inside && branch.points.len() > 1) {
+                return Ok(branch);
+            }
+            let falling = self.tangent[self.size()];
+            let before = (self.point.clone(), self.system.model.setup.clone(), self.tangent.clone());
+            loop {
+                match self.advance(step) {
+                    Ok(()) => break,
+                    Err(_) if step > LEAST_STEP * largest_step => step *= 0.4,
+                    Err(error) if branch.points.len() < 2 => return Err(error),
+                    Err(_) => return Ok(branch),
+                }
+            }
+            let tangent = self.tangent.clone();
+            let (taken, taken_iterations) = (step, self.outcome.iterations);
+            if taken_iterations <= QUICK {
+                step = (1.5 * step).min(largest_step);
+            }
+            // The sign of the parameter's part of the tangent there says whether there was a fold.
+            self.turn(&tangent)?;
+            if falling * self.tangent[self.size()] < 0.0 && branch.points.len() > 1 {
+                let after = (self.point.clone(), self.system.model.setup.clone(), self.tangent.clone(), self.outcome);
+                if let Ok(fold) = self.fold(before, taken, [falling, after.2[self.size()]]) {
+                    branch.special.push(fold);
+                }
+                (self.point, self.system, self.tangent, self.outcome) =
+                    (after.0, System::new(&after.1)?, after.2, after.3);
+            }
+        }
+    }
+
+    /// The fold within a step, by secants on the tangent's part of the parameter.
+    fn fold(
+        &mut self,
+        (point, setup, tangent): (Point, motile::Setup, DVector<f64>),
+        step: f64,
+        ends: [f64; 2],
+    ) -> Result<SpecialPoint, SteadyError> {
+        let (mut low, mut high) = ((0.0, ends[0]), (step, ends[1]));
+        for _ in 0..MOST_SECANTS {
+            let middle = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
+            (self.point, self.system, self.tangent) = (point.clone(), System::new(&setup)?, tangent.clone());
+            self.try_advance(middle)?;
+            self.turn(&tangent)?;
+            let slope = self.tangent[self.size()];
+            if slope.abs() < 1e-7 {
+                break;
+            }
+            // Illinois' rule: the end that stays counts half.
+            if slope * low.1 > 0.0 {
+                low = (middle, slope);
+                high.1 *= 0.5;
+            } else {
+                high = (middle, slope);
+                low.1 *= 0.5;
+            }
+        }
+        let state = self.state()?;
+        let spectrum = self.system.spectrum(&self.point, self.part == Part::Even)?;
+        let size = |mode: &&Eigenmode| mode.value.norm();
+        let mode = spectrum.modes.iter().min_by(|a, b| size(a).total_cmp(&size(b))).cloned();
+        let mode = mode.ok_or(SteadyError::Singular { what: "a fold", remedy: "give more nodes" })?;
+        Ok(SpecialPoint { kind: SpecialKind::Fold, critical: Critical { state, mode } })
+    }
+}
+
+/// Modes that cross zero growth between two points.
+fn crossings(parameter: Parameter, before: &BranchPoint, after: &BranchPoint) -> Vec<SpecialPoint> {
+    let mut found = Vec::new();
+    for symmetry in [Symmetry::Symmetric, Symmetry::Antisymmetric, Symmetry::None] {
+        let of = |point: &BranchPoint| -> Vec<Eigenmode> {
+            point.spectrum.modes.iter().filter(|mode| mode.symmetry == symmetry).cloned().collect()
+        };
+        let (a, b) = (of(before), of(after));
+        let growing = |modes: &[Eigenmode]| modes.iter().filter(|mode| mode.value.re > 0.0).count();
+        let [first, last] = [growing(&a), growing(&b)];
+        for k in first.min(last)..first.max(last) {
+            // From the end that is nearer to the crossing.
+            let (Some(one), Some(other)) = (a.get(k), b.get(k)) else { continue };
+            let (state, mode) =
+                if one.value.re.abs() < other.value.re.abs() { (&before.state, one) } else { (&after.state, other) };
+            let Ok(critical) = state.critical(mode, parameter) else { continue };
+            let at = parameter.get(critical.state.setup()).unwrap_or(f64::NAN);
+            let width = (after.value - before.value).abs();
+            if (at - before.value).abs() > 1.5 * width || (at - after.value).abs() > 1.5 * width {
+                continue;
+            }
+            let kind = if critical.mode.value.im < LEAST_FREQUENCY * critical.state.diffusion_rate() {
+                SpecialKind::BranchPoint
+            } else {
+                SpecialKind::Hopf
+            };
+            found.push(SpecialPoint { kind, critical });
+        }
+    }
+    found
+}

@@ -1,0 +1,194 @@
+//! Newton's method for steady states.
+
+use nalgebra::DMatrix;
+
+use crate::modes::Part;
+use crate::system::{Along, Equations, Point, System};
+use crate::{Parameter, Profile, SteadyError};
+
+/// Iterations before giving up.
+const MOST_ITERATIONS: usize = 30;
+/// A correction of this size is the last one.
+const SMALLEST: f64 = 3e-10;
+/// Rates of this part of D/R^2, and lacks of area and particles of this part of them, are none.
+const ROUND_OFF: f64 = 1e-11;
+/// Corrections that shrink by this factor do with the matrix that there is.
+const CONTRACTION: f64 = 0.1;
+/// Largest correction of a coefficient that is taken whole.
+const LARGEST: f64 = 0.3;
+/// Largest offset from the base, over the radius, before another base is taken.
+const FARTHEST: f64 = 0.15;
+/// First step in time, in units of R^2/D.
+const FIRST_STEP: f64 = 5e-3;
+/// Steps in time before giving up.
+const MOST_STEPS: usize = 150;
+/// Largest change of a coefficient in a step, and growth of the rates.
+const LARGEST_STEP: f64 = 0.35;
+const GROWTH: f64 = 3.0;
+/// A step changes the state by this much, or by less than the second where it is steady enough for Newton's method.
+const USUAL_STEP: f64 = 0.15;
+const STEADY: f64 = 0.02;
+
+/// What an iteration needed and found.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Outcome {
+    pub(crate) iterations: usize,
+    /// Largest rate of a coefficient (1/time).
+    pub(crate) residual: f64,
+    pub(crate) condition: f64,
+}
+
+const REMEDY: &str = "start from a run, from a neighbouring state or with more nodes";
+
+impl System {
+    /// Newton's method from a point, within a part; with an equation for the parameter also in that. The model is then
+    /// that of the parameter found.
+    pub(crate) fn newton(
+        &mut self,
+        point: &mut Point,
+        part: Part,
+        along: Option<&Along>,
+    ) -> Result<Outcome, SteadyError> {
+        let mut equations: Option<Equations> = None;
+        let mut before = f64::INFINITY;
+        let (mut residual, mut condition) = (f64::INFINITY, f64::NAN);
+        for iteration in 1..=MOST_ITERATIONS {
+            let rates = self.residual(point)?;
+            residual = rates.amax();
+            if !residual.is_finite() {
+                break;
+            }
+            if iteration > 1 || along.is_none() {
+                // At a branch point the equations are singular, and a state that is there already is one.
+                let floor = ROUND_OFF * self.model.diffusion() / (self.model.radius * self.model.radius);
+                if residual < floor && self.lack() < ROUND_OFF {
+                    return Ok(Outcome { iterations: iteration - 1, residual, condition });
+                }
+            }
+            let fresh = equations.is_none();
+            let used = match equations.take() {
+                Some(equations) => equations,
+                None => self.equations(point, part, 0.0, along)?,
+            };
+            if fresh {
+                self.load(point)?;
+            }
+            condition = used.condition();
+            let correction = self.correction(&used, &rates)?;
+            let size = correction.state.amax().max(along.map_or(0.0, |along| {
+                correction.parameter.abs() / along.parameter.get(&self.model.setup).unwrap_or(1.0).abs().max(0.01)
+            }));
+            if !fresh && size > CONTRACTION * before {
+                before = f64::INFINITY;
+                continue;
+            }
+            let part_of = (LARGEST / size).min(1.0);
+            point.state += part_of * &correction.state;
+            for (frame, change) in point.frame.iter_mut().zip(correction.frame) {
+                *frame += part_of * change;
+            }
+            if let Some(along) = along {
+                self.change(along.parameter, part_of * correction.parameter)?;
+            }
+            if size < SMALLEST {
+                let residual = self.residual(point)?.amax();
+                return Ok(Outcome { iterations: iteration, residual, condition });
+            }
+            if size < 1e-2 {
+                equations = Some(used);
+            }
+            before = size;
+        }
+        Err(SteadyError::NoConvergence { residual, iterations: MOST_ITERATIONS, remedy: REMEDY })
+    }
+
+    /// Largest relative lack of area or particles of the loaded state.
+    fn lack(&self) -> f64 {
+        let (present, wanted) = (self.model.present(), self.model.conserved());
+        present.iter().zip(wanted).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+    }
+
+    /// Goes over to another value of a parameter.
+    pub(crate) fn change(&mut self, parameter: Parameter, by: f64) -> Result<(), SteadyError> {
+        let setup = &self.model.setup;
+        let value = parameter.get(setup).unwrap_or(0.0) + by;
+        let evaluations = self.model.evaluations;
+        *self = Self::new(&parameter.with(setup, value)?)?;
+        self.model.evaluations += evaluations;
+        Ok(())
+    }
+
+    /// Whether the droplet is far from its base.
+    pub(crate) fn is_far(&self, point: &Point) -> bool {
+        let (offsets, _) = self.modes.synthesise(&point.state);
+        offsets.iter().any(|h| h.abs() > FARTHEST * self.model.radius)
+    }
+
+    /// The same droplet over itself, with nodes placed anew.
+    pub(crate) fn rebased(&mut self, point: &Point, crowding: f64) -> Result<Point, SteadyError> {
+        let nodes = self.model.nodes();
+        let profile = centred(self.profile(point).resampled(nodes, crowding)?)?;
+        self.point(&profile, point.frame)
+    }
+
+    /// Goes towards a steady state by implicit steps in time, which grow as the rates fall, until Newton's method takes
+    /// over.
+    pub(crate) fn settle(&mut self, point: &mut Point, part: Part, crowding: f64) -> Result<usize, SteadyError> {
+        let unit = self.model.radius * self.model.radius / self.model.diffusion();
+        let mut step = FIRST_STEP * unit;
+        let mut rates = self.residual(point)?;
+        let mut last = rates.amax();
+        for count in 0..MOST_STEPS {
+            let jacobian = self.jacobian(point, part)?;
+            loop {
+                let damped = &jacobian - DMatrix::identity(jacobian.nrows(), jacobian.ncols()) / step;
+                let equations = self.border(point, part, &damped, None)?;
+                let correction = self.correction(&equations, &rates)?;
+                let mut trial = point.clone();
+                trial.state += &correction.state;
+                for (frame, change) in trial.frame.iter_mut().zip(correction.frame) {
+                    *frame += change;
+                }
+                let size = correction.state.amax();
+                let found = if size < LARGEST_STEP {
+                    self.residual(&trial).map(|rates| (rates, trial))
+                } else {
+                    Err(SteadyError::NoConvergence { residual: last, iterations: count, remedy: REMEDY })
+                };
+                match found {
+                    Ok((next_rates, next)) if next_rates.amax().is_finite() && next_rates.amax() < GROWTH * last => {
+                        let residual = next_rates.amax();
+                        if size < STEADY && step > unit {
+                            *point = self.rebased(&next, crowding)?;
+                            return Ok(count + 1);
+                        }
+                        step *= (USUAL_STEP / size).clamp(0.5, 2.0);
+                        (*point, rates, last) = (next, next_rates, residual);
+                        if self.is_far(point) {
+                            *point = self.rebased(point, crowding)?;
+                            rates = self.residual(point)?;
+                            last = rates.amax();
+                        }
+                        break;
+                    }
+                    _ if step > 1e-6 * unit => {
+                        step *= 0.4;
+                        self.load(point)?;
+                    }
+                    Err(error) => return Err(error),
+                    Ok(_) => {
+                        return Err(SteadyError::NoConvergence { residual: last, iterations: count, remedy: REMEDY });
+                    }
+                }
+            }
+        }
+        Err(SteadyError::NoConvergence { residual: last, iterations: MOST_STEPS, remedy: REMEDY })
+    }
+}
+
+/// The same droplet with its centroid at x = 0.
+pub(crate) fn centred(mut profile: Profile) -> Result<Profile, SteadyError> {
+    let x = profile.moments()?.centroid.x;
+    profile.positions.iter_mut().for_each(|position| position.x -= x);
+    Ok(profile)
+}

@@ -1,0 +1,310 @@
+//! Steady states and what is measured of them.
+
+use std::f64::consts::TAU;
+
+use motile::Setup;
+use motile::active_interface::observables::InterfaceState;
+use motile::active_interface::{Convention, Observables, observe};
+use motile::ib_core::Vec2;
+
+use crate::model::FrameMotion;
+use crate::modes::Part;
+use crate::newton::{Outcome, centred};
+use crate::profile::Sampler;
+use crate::spectrum::{Eigenmode, ModeShape, Spectrum};
+use crate::system::{Point, System};
+use crate::{Profile, SteadyError};
+
+/// Points for observables between the nodes, for each node.
+const REFINEMENT: usize = 16;
+/// Size of the last modes over that of all from which on a state is not resolved.
+const LONGEST_TAIL: f64 = 0.02;
+/// Nodes with which a state is looked for first.
+const COARSE: usize = 64;
+
+/// A droplet that moves without changing, by Newton's method.
+///
+/// Its shape and concentration are constant in a frame that moves with it, as trigonometric polynomials on the nodes of
+/// [`motile::IntegralMethod`] (the cells of that method have no part in this), so that errors fall faster than any
+/// power of their number.
+#[derive(Debug, Clone)]
+pub struct SteadyState {
+    setup: Setup,
+    point: Point,
+    profile: Profile,
+    outcome: Outcome,
+    mirror: bool,
+}
+
+/// What is measured of a steady state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Measured {
+    /// Speed (length per time).
+    pub speed: f64,
+    /// Stresslet along the motion (force times length), the convention of the far field; zero at rest.
+    pub stresslet: f64,
+    /// Aspect ratio from area moments, along x over across it.
+    pub aspect_ratio: f64,
+    /// Largest and smallest concentration, over their mean on a circle.
+    pub concentration: [f64; 2],
+    /// Length of the interface (length).
+    pub perimeter: f64,
+    /// Centroid (length).
+    pub centroid: Vec2,
+}
+
+impl SteadyState {
+    /// The steady swimmer that a description leads to, its mirror image at the x axis if the start is: implicit steps
+    /// in time from the start that the description has, on few nodes, then Newton's method on its own.
+    ///
+    /// # Errors
+    /// A description of something else than one round active droplet without a grid; no convergence.
+    pub fn find(setup: &Setup) -> Result<Self, SteadyError> {
+        let start = start(setup)?;
+        let mirror = is_mirror(&start);
+        let part = if mirror { Part::Even } else { Part::Full };
+        let wanted = nodes_of(setup)?;
+        let mut coarse = System::new(&with_nodes(setup, COARSE.min(wanted)))?;
+        let profile = centred(start.resampled(coarse.model.nodes(), 0.0)?)?;
+        let mut point = coarse.point(&profile, [0.0; 3])?;
+        coarse.settle(&mut point, part, CROWDING)?;
+        Self::from_profile(setup, &coarse.profile(&point), point.frame, mirror)
+    }
+
+    /// The droplet of a description at rest: a circle with the same concentration everywhere, a steady state wherever
+    /// it has room.
+    ///
+    /// # Errors
+    /// As [`SteadyState::find`].
+    pub fn uniform(setup: &Setup) -> Result<Self, SteadyError> {
+        let nodes = nodes_of(setup)?;
+        let model = System::new(setup)?.model;
+        let (radius, mean) = (model.radius, model.concentration);
+        let positions = (0..nodes).map(|k| radius * Vec2::from_angle(TAU * k as f64 / nodes as f64)).collect();
+        let profile = Profile { positions, density: vec![radius * mean; nodes] };
+        Self::newton(setup, &profile, [0.0; 3], true, 0.0)
+    }
+
+    /// Newton's method from a droplet that is near a steady state, such as one from a run
+    /// ([`Profile::from_markers`]) or a neighbour ([`SteadyState::profile`]) with its velocity; `mirror` says that only
+    /// states which are their own mirror image at the x axis are looked for.
+    ///
+    /// # Errors
+    /// As [`SteadyState::find`].
+    pub fn near(setup: &Setup, profile: &Profile, velocity: Vec2, mirror: bool) -> Result<Self, SteadyError> {
+        Self::from_profile(setup, profile, [velocity.x, velocity.y, 0.0], mirror)
+    }
+
+    fn from_profile(setup: &Setup, profile: &Profile, frame: FrameMotion, mirror: bool) -> Result<Self, SteadyError> {
+        let first = Self::newton(setup, profile, frame, mirror, CROWDING)?;
+        Self::newton(setup, &first.profile, first.point.frame, mirror, CROWDING)
+    }
+
+    fn newton(
+        setup: &Setup,
+        profile: &Profile,
+        frame: FrameMotion,
+        mirror: bool,
+        crowding: f64,
+    ) -> Result<Self, SteadyError> {
+        let mut system = System::new(setup)?;
+        let profile = centred(profile.resampled(system.model.nodes(), crowding)?)?;
+        let mut point = system.point(&profile, frame)?;
+        let part = if mirror { Part::Even } else { Part::Full };
+        let outcome = system.newton(&mut point, part, None)?;
+        Self::of(&system, point, outcome, mirror)
+    }
+
+    pub(crate) fn of(system: &System, point: Point, outcome: Outcome, mirror: bool) -> Result<Self, SteadyError> {
+        let profile = system.profile(&point);
+        for (what, tail) in profile.tails()? {
+            if tail > LONGEST_TAIL {
+                return Err(SteadyError::Unresolved { what, nodes: profile.nodes(), tail });
+            }
+        }
+        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror })
+    }
+
+    /// This state with another description, nearby, over the same nodes.
+    pub(crate) fn moved_to(&self, setup: &Setup) -> Result<Self, SteadyError> {
+        let mut system = System::new(setup)?;
+        let mut point = self.point.clone();
+        let part = if self.mirror { Part::Even } else { Part::Full };
+        let outcome = system.newton(&mut point, part, None)?;
+        if !system.is_far(&point) {
+            return Self::of(&system, point, outcome, self.mirror);
+        }
+        Self::from_profile(setup, &system.profile(&point), point.frame, self.mirror)
+    }
+
+    pub(crate) fn point(&self) -> &Point {
+        &self.point
+    }
+
+    /// The rate D/R^2 (1/time).
+    pub(crate) fn diffusion_rate(&self) -> f64 {
+        let droplet = &self.setup.droplets[0];
+        let radius = match droplet.shape {
+            motile::DropletShape::Round { radius } | motile::DropletShape::Squeezed { radius, .. } => radius,
+            _ => 1.0,
+        };
+        droplet.particles.map_or(1.0, |particles| particles.diffusion / (radius * radius))
+    }
+
+    /// The description.
+    #[must_use]
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// The droplet.
+    #[must_use]
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// Velocity of the droplet (length per time).
+    #[must_use]
+    pub fn velocity(&self) -> Vec2 {
+        Vec2::new(self.point.frame[0], self.point.frame[1])
+    }
+
+    /// Whether it is its own mirror image at the x axis.
+    #[must_use]
+    pub fn is_mirror_symmetric(&self) -> bool {
+        self.mirror
+    }
+
+    /// Largest rate of change that is left of any Fourier coefficient of shape and density over their size (1/time).
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.outcome.residual
+    }
+
+    /// Newton iterations.
+    #[must_use]
+    pub fn iterations(&self) -> usize {
+        self.outcome.iterations
+    }
+
+    /// Condition number of the linear equations in the 1-norm, rows being scaled.
+    #[must_use]
+    pub fn condition(&self) -> f64 {
+        self.outcome.condition
+    }
+
+    /// Eigenvalues of the linearised equations.
+    ///
+    /// # Errors
+    /// Eigenvalues that do not converge.
+    pub fn spectrum(&self) -> Result<Spectrum, SteadyError> {
+        System::new(&self.setup)?.spectrum(&self.point, self.mirror)
+    }
+
+    /// The shape of a mode of [`SteadyState::spectrum`].
+    ///
+    /// # Errors
+    /// A value that is no eigenvalue.
+    pub fn mode_shape(&self, mode: &Eigenmode) -> Result<ModeShape, SteadyError> {
+        System::new(&self.setup)?.mode_shape(&self.point, mode)
+    }
+
+    /// What is measured, to spectral accuracy.
+    ///
+    /// # Errors
+    /// A flow that cannot be solved for.
+    pub fn measured(&self) -> Result<Measured, SteadyError> {
+        let mut system = System::new(&self.setup)?;
+        system.load(&self.point)?;
+        let moments = self.profile.moments()?;
+        let step = TAU / self.profile.nodes() as f64;
+        let model = &system.model;
+        let contrast = model.viscosities[1] - model.viscosities[0];
+        let tangents = self.profile.tangents()?;
+        let mut dipole = [[0.0; 2]; 2];
+        for (k, x) in self.profile.positions.iter().enumerate() {
+            let (r, f, v, n) =
+                (*x - moments.centroid, model.forces[k], model.velocities[k], -tangents[k].perp() * step);
+            let (r, f, v, n) = (r.to_array(), f.to_array(), v.to_array(), n.to_array());
+            for i in 0..2 {
+                for j in 0..2 {
+                    dipole[i][j] += f[i] * r[j] + contrast * (v[j] * n[i] + v[i] * n[j]);
+                }
+            }
+        }
+        // Turned into axes along the motion.
+        let heading = self.velocity().try_normalize().unwrap_or(Vec2::X);
+        let (cos, sin) = (heading.x * heading.x - heading.y * heading.y, 2.0 * heading.x * heading.y);
+        let (xx, xy) = (0.5 * (dipole[0][0] - dipole[1][1]), 0.5 * (dipole[0][1] + dipole[1][0]));
+        Ok(Measured {
+            speed: self.velocity().length(),
+            stresslet: cos * xx + sin * xy,
+            aspect_ratio: moments.aspect_ratio,
+            concentration: self.profile.extrema()?.map(|c| c / model.concentration),
+            perimeter: tangents.iter().map(|t| t.length() * step).sum(),
+            centroid: moments.centroid,
+        })
+    }
+
+    /// All observables of a run ([`Observables::get`] has them by name), from markers between the nodes, of second
+    /// order in their spacing: 16 for each node.
+    ///
+    /// # Errors
+    /// A flow that cannot be solved for.
+    pub fn observables(&self) -> Result<Observables, SteadyError> {
+        let mut system = System::new(&self.setup)?;
+        system.load(&self.point)?;
+        let nodes = self.profile.nodes();
+        let fine = REFINEMENT * nodes;
+        let model = &system.model;
+        let velocities = Profile { positions: model.velocities.clone(), density: vec![0.0; nodes] };
+        let scaled = nodes as f64 / fine as f64;
+        let forces = Profile { positions: model.forces.clone(), density: vec![0.0; nodes] };
+        let [curve, velocity, force] = [&self.profile, &velocities, &forces].map(Sampler::new);
+        let (curve, velocity, force) = (curve?, velocity?, force?);
+        let parameter = |k: f64| TAU * k / fine as f64;
+        let at = |sampler: &Sampler, k: usize| sampler.at(parameter(k as f64)).position;
+        let numbers: Vec<f64> =
+            (0..fine).map(|k| curve.at(parameter(k as f64 + 0.5)).density * TAU / fine as f64).collect();
+        Ok(observe(
+            &InterfaceState {
+                markers: &(0..fine).map(|k| at(&curve, k)).collect::<Vec<_>>(),
+                forces: &(0..fine).map(|k| at(&force, k) * scaled).collect::<Vec<_>>(),
+                velocities: &(0..fine).map(|k| at(&velocity, k)).collect::<Vec<_>>(),
+                numbers: &numbers,
+                viscosities: model.viscosities,
+            },
+            Convention::FarField,
+        )?)
+    }
+}
+
+/// How strongly nodes crowd where the concentration is steep.
+pub(crate) const CROWDING: f64 = 0.8;
+
+/// The nodes of a description.
+pub(crate) fn nodes_of(setup: &Setup) -> Result<usize, SteadyError> {
+    Ok(System::new(setup)?.model.nodes())
+}
+
+/// The same description with other nodes.
+pub(crate) fn with_nodes(setup: &Setup, nodes: usize) -> Setup {
+    let method = motile::Method::Integral(motile::IntegralMethod { nodes, cells: 4 * nodes });
+    Setup { method, ..setup.clone() }
+}
+
+/// The droplet that a run of this description starts from.
+fn start(setup: &Setup) -> Result<Profile, SteadyError> {
+    let fine = with_nodes(setup, nodes_of(setup)?.max(2 * COARSE));
+    let droplet = fine.droplet(&fine.droplets[0])?;
+    Profile::from_markers(droplet.markers(), droplet.particle_numbers())
+}
+
+/// Whether a droplet is its own mirror image at the x axis.
+fn is_mirror(profile: &Profile) -> bool {
+    let other = profile.mirrored();
+    let size = profile.density.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6 * size;
+    profile.positions.iter().zip(&other.positions).all(|(a, b)| a.distance(*b) < 1e-6)
+        && profile.density.iter().zip(&other.density).all(same)
+}

@@ -1,0 +1,62 @@
+//! Branches and their special points against exact values.
+
+use motile::prelude::*;
+use steady_states::{Branch, Continuation, Parameter, SpecialKind, SteadyState, Symmetry};
+
+fn setup(region: Region, activity: f64, nodes: usize) -> Setup {
+    let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+    Setup { method, region, droplets: vec![DropletSetup::contractile(activity, 10.0)], ..Setup::default() }
+}
+
+fn follow(start: &SteadyState, from: f64, to: f64) -> Branch {
+    Continuation::new(Parameter::Activity, from, to).follow(start, |_, _| true).expect("a branch")
+}
+
+#[test]
+fn a_droplet_in_the_plane_polarises_at_the_threshold_of_linear_theory() {
+    let state = SteadyState::uniform(&setup(Region::Plane, -0.3, 32)).unwrap();
+    let branch = follow(&state, -0.3, -0.6);
+    // The slope of the tension at c0 has to be 2 D (eta_in + eta_out)/(R0 c0) = 0.4, thesis (2.20).
+    let slope = |activity: f64| {
+        let law = DropletSetup::contractile(activity, 10.0).particles.unwrap().law(10.0).unwrap();
+        motile::active_interface::Tension::slope(&law, 100.0)
+    };
+    let symmetries: Vec<_> = branch.special.iter().map(|point| point.critical.mode.symmetry).collect();
+    assert_eq!(symmetries, [Symmetry::Symmetric, Symmetry::Antisymmetric]);
+    for point in &branch.special {
+        let activity = Parameter::Activity.get(point.critical.state.setup()).unwrap();
+        assert_eq!(point.kind, SpecialKind::BranchPoint);
+        assert!((slope(activity) - 0.4).abs() < 1e-8, "{activity}");
+    }
+}
+
+#[test]
+fn the_branch_of_swimmers_leads_from_the_threshold_to_the_swimmer_that_a_run_finds() {
+    let region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient };
+    let rest = follow(&SteadyState::uniform(&setup(region, -0.3, 64)).unwrap(), -0.3, -0.6);
+    let threshold = rest.special.iter().find(|point| point.critical.mode.symmetry == Symmetry::Symmetric).unwrap();
+    let swimmers = Continuation::new(Parameter::Activity, -0.3, -1.0);
+    let branch = swimmers.switch(threshold, true, |_, _| true).unwrap();
+    let last = branch.points.last().unwrap();
+    let direct = SteadyState::find(&setup(region, last.value, 64)).unwrap();
+    let speeds = [&last.state, &direct].map(|state| state.measured().unwrap().speed);
+    assert!(last.value < -1.0 && (speeds[0] / speeds[1] - 1.0).abs() < 1e-4, "{}: {speeds:?}", last.value);
+}
+
+#[test]
+fn swings_across_a_channel_begin_at_a_hopf_point() {
+    let region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient };
+    let state = SteadyState::find(&setup(region, -2.45, 96)).unwrap();
+    let branch = follow(&state, -2.45, -2.7);
+    let [hopf] = branch.special.as_slice() else { panic!("{:?}", branch.special.len()) };
+    assert_eq!(hopf.kind, SpecialKind::Hopf);
+    // The straight line between the growth rates on both sides.
+    let growth = |activity: f64| {
+        let state = SteadyState::find(&setup(region, activity, 96)).unwrap();
+        state.spectrum().unwrap().of(Symmetry::Antisymmetric).find(|z| z.im > 0.0).unwrap().re
+    };
+    let (a, b) = (growth(-2.55), growth(-2.58));
+    let line = -2.55 - 0.03 * a / (a - b);
+    let found = Parameter::Activity.get(hopf.critical.state.setup()).unwrap();
+    assert!((found - line).abs() < 2e-3, "{found} {line}");
+}

@@ -1,0 +1,93 @@
+//! Steady swimmers and their lateral stability against values computed independently (`tests/reference`).
+
+use std::collections::HashMap;
+
+use motile::prelude::*;
+use steady_states::{SteadyState, Symmetry};
+
+type Row = HashMap<String, String>;
+
+fn rows(file: &str) -> Vec<Row> {
+    let path = format!("{}/../../tests/reference/{file}", env!("CARGO_MANIFEST_DIR"));
+    let mut table = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path).expect("as described");
+    table.deserialize().map(|row| row.expect("a row")).collect()
+}
+
+fn number(row: &Row, name: &str) -> f64 {
+    row[name].parse().expect("as described")
+}
+
+fn nodes(nodes: usize) -> Method {
+    Method::Integral(IntegralMethod { nodes, cells: 4 * nodes })
+}
+
+fn box_swimmer(row: &Row, count: usize) -> Setup {
+    let activity = number(row, "zeta_dmu");
+    let droplet = DropletSetup {
+        viscosity: Some(number(row, "eta_in")),
+        ..DropletSetup::contractile(activity, number(row, "A_over_zeta") * activity.abs())
+    };
+    let viscosity = number(row, "eta_ext");
+    Setup { method: nodes(count), viscosity, droplets: vec![droplet], ..Setup::default() }
+}
+
+fn channel_swimmer(row: &Row, strength: f64, count: usize) -> Setup {
+    let drive = if row["conv"] == "q0" { Drive::ZeroFlux } else { Drive::ZeroGradient };
+    let region = Region::Channel { length: number(row, "l"), width: number(row, "w"), drive };
+    let droplets = vec![DropletSetup::contractile(number(row, "zeta_dmu"), strength)];
+    Setup { method: nodes(count), region, droplets, ..Setup::default() }
+}
+
+/// Relative errors of speed, stresslet, aspect ratio and largest concentration.
+fn errors(state: &SteadyState, row: &Row) -> [f64; 4] {
+    let seen = state.measured().expect("as described");
+    let stresslet = if row.contains_key("Sxx_f") { "Sxx_f" } else { "Sxx" };
+    let values = [seen.speed, seen.stresslet, seen.aspect_ratio, seen.concentration[0]];
+    let names = ["speed", stresslet, "AR_mom", "cmax"];
+    std::array::from_fn(|k| (values[k] / number(row, names[k]) - 1.0).abs())
+}
+
+#[test]
+fn steady_swimmers_are_those_of_the_reference() {
+    let boxes = ["steady_swimmer_box6.csv", "steady_swimmer_contrast_box6.csv"];
+    let in_boxes = boxes.into_iter().flat_map(rows).map(|row| (box_swimmer(&row, 96), row));
+    let in_channels = rows("channel_steady_swimmer.csv").into_iter().map(|row| (channel_swimmer(&row, 10.0, 96), row));
+    for (setup, row) in in_boxes.chain(in_channels) {
+        let state = SteadyState::find(&setup).unwrap();
+        let errors = errors(&state, &row);
+        let limits = [2e-6, 1e-4, 1e-5, 5e-5];
+        assert!(errors.iter().zip(limits).all(|(error, limit)| *error < limit), "{row:?}: {errors:?}");
+        assert!(state.residual() < 1e-7, "{row:?}: {}", state.residual());
+    }
+}
+
+#[test]
+fn errors_fall_spectrally() {
+    let row = rows("channel_steady_swimmer.csv").into_iter().find(|row| row["w"] == "3").unwrap();
+    let speed_error = |count| errors(&SteadyState::find(&channel_swimmer(&row, 10.0, count)).unwrap(), &row)[0];
+    let [coarse, middle, fine] = [48, 72, 108].map(speed_error);
+    // Faster than the tenth power of the nodes.
+    assert!(middle < 0.017 * coarse && fine < 0.017 * middle, "{coarse:.1e} {middle:.1e} {fine:.1e}");
+}
+
+#[test]
+fn droplets_in_channels_swing_as_the_reference_has_it() {
+    for row in rows("channel_lateral_stability.csv") {
+        let state = SteadyState::find(&channel_swimmer(&row, number(&row, "A"), 112)).unwrap();
+        let spectrum = state.spectrum().unwrap();
+        let slowest = spectrum.of(Symmetry::Antisymmetric).find(|z| z.im > 0.0).unwrap();
+        let (growth, frequency) = (number(&row, "growth"), number(&row, "freq"));
+        assert!((slowest.re / growth - 1.0).abs() < 1e-3, "{row:?}: {slowest}");
+        assert!((slowest.im / frequency - 1.0).abs() < 1e-4, "{row:?}: {slowest}");
+    }
+}
+
+#[test]
+fn what_is_no_steady_state_of_one_droplet_is_refused() {
+    let two = Setup { droplets: vec![DropletSetup::active(-1.0), DropletSetup::active(-1.0)], ..Setup::default() };
+    let grid = Setup { method: Method::Grid(GridMethod::default()), ..Setup::default() };
+    let passive = Setup { droplets: vec![DropletSetup::passive(1.0)], ..Setup::default() };
+    for setup in [two, grid, passive] {
+        assert!(matches!(SteadyState::find(&setup), Err(steady_states::SteadyError::Unsupported { .. })));
+    }
+}
