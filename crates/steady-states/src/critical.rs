@@ -15,8 +15,8 @@ const FIRST_STEP: f64 = 5e-3;
 /// Largest relative change of a parameter at once.
 const LARGEST_STEP: f64 = 0.1;
 
-/// A state with a disturbance that neither grows nor decays: a branch point or a fold where the frequency is zero, a Hopf
-/// point where it is not.
+/// A state with a disturbance that neither grows nor decays: a branch point or a fold where the frequency is zero, a
+/// Hopf point where it is not.
 #[derive(Debug, Clone)]
 pub struct Critical {
     /// The state, its description having the critical value of the parameter.
