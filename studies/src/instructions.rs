@@ -99,8 +99,11 @@ fn viscous(setup: Setup) -> Setup {
     Setup { droplets, ..setup }
 }
 
+/// Something to count.
+type Work = fn() -> Result<()>;
+
 /// What is counted, by name.
-const WORKS: [(&str, fn() -> Result<()>); 12] = [
+const WORKS: [(&str, Work); 12] = [
     ("periodic Stokes solve, 120 x 120", || solve(PeriodicStokes::new(Grid::periodic(120, 120, 0.05)?, 1.0)?)),
     ("channel Stokes solve, 120 x 60", || solve(ChannelStokes::new(Grid::channel(120, 60, 0.05)?, 1.0)?)),
     ("spread 400 markers", || transfer(true)),
@@ -161,7 +164,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         let mut rows = known.lines().filter_map(|line| line.split_once(';'));
         let before = rows.find(|row| row.0 == *name).and_then(|row| row.1.parse::<f64>().ok());
         let change = before.map_or(f64::INFINITY, |before| now as f64 / before - 1.0);
-        motile_examples::say(&format!("{name:<46} {now:>12} {:>+8.2} %", 100.0 * change));
+        motile_examples::say(format_args!("{name:<46} {now:>12} {:>+8.2} %", 100.0 * change));
         if change.abs() > TOLERANCE {
             changed.push(*name);
         }

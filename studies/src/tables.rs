@@ -8,8 +8,9 @@
 //! <!-- end of table -->
 //! ```
 //!
-//! which `studies -- pages` fills and `studies -- pages --check` and a test compare. `studies -- stale` lists the files
-//! whose code has changed since they were made, and the tables that still stand in their page, marked by
+//! (the first of which may go over several lines), which `studies -- pages` fills and `studies -- pages --check` and a
+//! test compare. `studies -- stale` lists the files whose code has changed since they were made, and the tables that
+//! still stand in their page, marked by
 //!
 //! ```text
 //! <!-- measured at COMMIT | COMMAND | depends on: PATH PATH -->
@@ -131,10 +132,12 @@ pub(crate) fn stale(_: &StaleFlags) -> Result<()> {
     for path in pages_of()? {
         let text = fs::read_to_string(&path)?;
         let mut heading = "";
-        for line in text.lines() {
+        let mut lines = text.lines();
+        while let Some(line) = lines.next() {
             heading = line.strip_prefix('#').map_or(heading, |title| title.trim_start_matches('#').trim());
             let Some(rest) = line.strip_prefix(MEASURED) else { continue };
-            let parts: Vec<&str> = rest.trim_end_matches("-->").split('|').map(str::trim).collect();
+            let whole = comment(rest, &mut lines)?;
+            let parts: Vec<&str> = whole.split('|').map(str::trim).collect();
             let [commit, command, inputs] = parts[..] else { bail!("{}: not understood: {line}", path.display()) };
             let inputs = inputs.trim_start_matches("depends on:");
             tables.push([
@@ -187,6 +190,16 @@ fn pages_of() -> Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
+/// The text of a comment that begins with `first` and may go on in the lines after it.
+fn comment<'a>(first: &str, mut lines: impl Iterator<Item = &'a str>) -> Result<String> {
+    let mut text = first.to_owned();
+    while !text.ends_with("-->") {
+        let more = lines.next().with_context(|| format!("no '-->' after: {first}"))?;
+        text = format!("{text} {}", more.trim());
+    }
+    Ok(text.trim_end_matches("-->").trim().to_owned())
+}
+
 /// A page with its tables filled from the files that `read` gives by name.
 fn filled(page: &str, read: &dyn Fn(&str) -> Result<String>) -> Result<String> {
     let mut out = String::new();
@@ -194,9 +207,16 @@ fn filled(page: &str, read: &dyn Fn(&str) -> Result<String>) -> Result<String> {
     while let Some(line) = lines.next() {
         out.push_str(line);
         out.push('\n');
-        let Some(rest) = line.strip_prefix(BEGIN) else { continue };
+        let Some(first) = line.strip_prefix(BEGIN) else { continue };
+        let request = comment(
+            first,
+            lines.by_ref().inspect(|more| {
+                out.push_str(more);
+                out.push('\n');
+            }),
+        )?;
         ensure!(lines.any(|line| line == END), "no '{END}' after: {line}");
-        out.push_str(&shown(rest.trim_end_matches("-->").trim(), read).with_context(|| line.to_owned())?);
+        out.push_str(&shown(&request, read).with_context(|| line.to_owned())?);
         out.push_str(END);
         out.push('\n');
     }

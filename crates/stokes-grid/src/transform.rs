@@ -4,7 +4,6 @@ mod columns;
 mod rows;
 mod symbol;
 
-use input_checks::same_length;
 use num_complex::Complex64;
 
 use crate::StokesError;
@@ -13,7 +12,8 @@ pub(crate) use rows::RowTransform;
 pub use symbol::Symbol;
 pub(crate) use symbol::second_difference;
 
-/// A plan for the discrete Fourier transform of real `nx` x `ny` arrays (row after row, x contiguous).
+/// A plan for operators that multiply the discrete Fourier transform of real `nx` x `ny` arrays (row after row, x
+/// contiguous).
 ///
 /// The spectrum has `ny` rows of `nx / 2 + 1` complex numbers; entry (m, n) is
 ///
@@ -50,15 +50,9 @@ impl RealFft2 {
         Ok(Self { nx, ny, rows, columns, spectrum })
     }
 
-    /// Complex numbers in a row of the spectrum: `nx / 2 + 1`.
-    #[must_use]
-    pub fn spectrum_width(&self) -> usize {
-        self.rows.width()
-    }
-
     /// Transforms the rows that `input(j, row)` writes, for j = 0, 1, ..., into the plan's own spectrum.
     pub(crate) fn forward_rows(&mut self, mut input: impl FnMut(usize, &mut [f64])) {
-        let width = self.spectrum_width();
+        let width = self.rows.width();
         for (j, out) in self.spectrum.chunks_exact_mut(width).enumerate() {
             self.rows.forward(|row| input(j, row), out);
         }
@@ -72,7 +66,7 @@ impl RealFft2 {
 
     /// Transforms the rows of the plan's own spectrum back and hands each to `output(j, row)`, for j = 0, 1, ...
     pub(crate) fn inverse_rows(&mut self, mut output: impl FnMut(usize, &[f64])) {
-        let width = self.spectrum_width();
+        let width = self.rows.width();
         for (j, row) in self.spectrum.chunks_exact_mut(width).enumerate() {
             output(j, self.rows.inverse(row));
         }
@@ -88,37 +82,6 @@ impl RealFft2 {
         self.forward_rows(input);
         self.filter_columns(symbol);
         self.inverse_rows(output);
-    }
-
-    /// The spectrum of a field.
-    ///
-    /// # Errors
-    /// `input` without `nx ny` values, or `spectrum` without `ny (nx / 2 + 1)`.
-    pub fn forward(&mut self, input: &[f64], spectrum: &mut [Complex64]) -> Result<(), StokesError> {
-        self.check(input.len(), spectrum.len())?;
-        let nx = self.nx;
-        self.forward_rows(|j, row| row.copy_from_slice(&input[j * nx..(j + 1) * nx]));
-        spectrum.copy_from_slice(&self.spectrum);
-        self.columns.forward(spectrum, self.rows.width());
-        Ok(())
-    }
-
-    /// The field of a spectrum, not normalised.
-    ///
-    /// # Errors
-    /// `spectrum` without `ny (nx / 2 + 1)` values, or `output` without `nx ny`.
-    pub fn inverse(&mut self, spectrum: &[Complex64], output: &mut [f64]) -> Result<(), StokesError> {
-        self.check(output.len(), spectrum.len())?;
-        self.spectrum.copy_from_slice(spectrum);
-        self.columns.inverse(&mut self.spectrum, self.rows.width());
-        let nx = self.nx;
-        self.inverse_rows(|j, row| output[j * nx..(j + 1) * nx].copy_from_slice(row));
-        Ok(())
-    }
-
-    fn check(&self, space: usize, spectrum: usize) -> Result<(), StokesError> {
-        same_length("a field to transform", self.nx * self.ny, space)?;
-        Ok(same_length("a spectrum", self.spectrum_width() * self.ny, spectrum)?)
     }
 }
 

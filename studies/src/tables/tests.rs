@@ -11,7 +11,7 @@ fn of(page: &str) -> Result<String> {
 
 #[test]
 fn a_page_shows_rows_and_columns_of_a_file() {
-    let page = "Text\n<!-- table errors | columns: h as spacing, kind | where: h = 0.1 or 0.3; kind = b -->\nold\n\
+    let page = "Text\n<!-- table errors | columns: h as spacing, kind |\n where: h = 0.1 or\n 0.3; kind = b -->\nold\n\
                 <!-- end of table -->\nMore\n";
     let expected = page.replace("old\n", "| spacing | kind |\n|---|---|\n| 0.1 | b |\n");
     assert_eq!(of(page).unwrap(), expected);
@@ -27,6 +27,7 @@ fn requests_that_show_nothing_are_refused() {
         assert!(of(&format!("<!-- table {request} -->\n<!-- end of table -->\n")).is_err(), "{request}");
     }
     assert!(of("<!-- table errors -->\n| 1 |\n").is_err());
+    assert!(of("<!-- table errors\n<!-- end of table -->").is_err() && of("<!-- table errors\n| 1 |\n").is_err());
 }
 
 #[test]

@@ -85,8 +85,8 @@ fn settings(kind: SceneKind, quick: bool) -> Vec<(String, Method, StepSize)> {
 pub(crate) fn recommended(quick: bool) -> Tables {
     let mut table = Table::new(
         &format!(
-            "Errors of the speed in % between t = {} and {}, against boundary integrals with 96 nodes and 512 cells: of its \
-             mean, and the largest at any time",
+            "Errors of the speed in % between t = {} and {}, against boundary integrals with 96 nodes and 512 cells: \
+             of its mean, and the largest at any time",
             WINDOW[0], WINDOW[1]
         ),
         &["kind", "settings", "scene", "of the mean", "largest"],
@@ -127,3 +127,6 @@ pub(crate) fn recommended(quick: bool) -> Tables {
     }
     Ok(vec![table])
 }
+
+#[cfg(test)]
+mod tests;

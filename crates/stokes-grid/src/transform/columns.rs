@@ -9,7 +9,7 @@ const BATCH: usize = 8;
 /// Room between gathered columns, so that those of a power of two do not compete for the same places in the cache.
 const GAP: usize = 4;
 
-/// A plan for the transform of the columns of an array of `ny` rows of complex numbers and back, not normalised.
+/// A plan for changes of the transformed columns of an array of `ny` rows of complex numbers, not normalised.
 ///
 /// Columns are gathered a few at a time into a buffer that stays in the cache, so that no pass walks through memory
 /// with a large stride and nothing is transposed as a whole.
@@ -24,23 +24,27 @@ impl ColumnTransform {
         Self { plan: ComplexTransform::new(ny), batch: vec![Complex64::ZERO; BATCH * (ny + GAP)] }
     }
 
-    /// Transforms the columns of `rows`, each `width` long.
-    pub(crate) fn forward(&mut self, rows: &mut [Complex64], width: usize) {
-        self.for_each(rows, width, |plan, _, column| forward(plan, column));
-    }
-
-    /// Transforms the columns of `rows` back.
-    pub(crate) fn inverse(&mut self, rows: &mut [Complex64], width: usize) {
-        self.for_each(rows, width, |plan, _, column| inverse(plan, column));
-    }
-
     /// Transforms each column, lets `change(m, column)` change it and transforms it back.
     pub(crate) fn filter(&mut self, rows: &mut [Complex64], width: usize, change: impl Fn(usize, &mut [Complex64])) {
-        self.for_each(rows, width, |plan, m, column| {
-            forward(plan, column);
-            change(m, column);
-            inverse(plan, column);
-        });
+        let (ny, mut m) = (self.plan.len(), 0);
+        while m < width {
+            let count = if m + BATCH <= width { BATCH } else { 1 };
+            let mut columns = self.batch.chunks_exact_mut(ny + GAP).map(|column| &mut column[..ny]);
+            if count == BATCH {
+                let mut batch: [&mut [Complex64]; BATCH] = std::array::from_fn(|_| columns.next().unwrap_or_default());
+                gather(&rows[m..], width, &mut batch);
+                for (k, column) in batch.iter_mut().enumerate() {
+                    filter(&mut self.plan, column, |column| change(m + k, column));
+                }
+                scatter(&batch, &mut rows[m..], width);
+            } else {
+                let mut batch = [columns.next().unwrap_or_default()];
+                gather(&rows[m..], width, &mut batch);
+                filter(&mut self.plan, batch[0], |column| change(m, column));
+                scatter(&batch, &mut rows[m..], width);
+            }
+            m += count;
+        }
     }
 
     /// Does the same for the columns from `first` on and puts them, one after another, into `columns`.
@@ -66,48 +70,16 @@ impl ColumnTransform {
                 }
             }
             for (k, column) in batch.chunks_exact_mut(ny).enumerate() {
-                forward(&mut self.plan, column);
-                change(m + k, column);
-                inverse(&mut self.plan, column);
+                filter(&mut self.plan, column, |column| change(m + k, column));
             }
-        }
-    }
-
-    fn for_each(
-        &mut self,
-        rows: &mut [Complex64],
-        width: usize,
-        mut work: impl FnMut(&mut ComplexTransform, usize, &mut [Complex64]),
-    ) {
-        let (ny, mut m) = (self.plan.len(), 0);
-        while m < width {
-            let count = if m + BATCH <= width { BATCH } else { 1 };
-            let mut columns = self.batch.chunks_exact_mut(ny + GAP).map(|column| &mut column[..ny]);
-            if count == BATCH {
-                let mut batch: [&mut [Complex64]; BATCH] = std::array::from_fn(|_| columns.next().unwrap_or_default());
-                gather(&rows[m..], width, &mut batch);
-                for (k, column) in batch.iter_mut().enumerate() {
-                    work(&mut self.plan, m + k, column);
-                }
-                scatter(&batch, &mut rows[m..], width);
-            } else {
-                let mut batch = [columns.next().unwrap_or_default()];
-                gather(&rows[m..], width, &mut batch);
-                work(&mut self.plan, m, batch[0]);
-                scatter(&batch, &mut rows[m..], width);
-            }
-            m += count;
         }
     }
 }
 
-/// Transforms a column, which has the length of the plan, so that the call cannot fail.
-fn forward(plan: &mut ComplexTransform, column: &mut [Complex64]) {
+/// Transforms a column, changes it and transforms it back. It has the length of the plan, so that no call can fail.
+fn filter(plan: &mut ComplexTransform, column: &mut [Complex64], change: impl FnOnce(&mut [Complex64])) {
     let _ = plan.forward(column);
-}
-
-/// Transforms a column back; see [`forward`].
-fn inverse(plan: &mut ComplexTransform, column: &mut [Complex64]) {
+    change(column);
     let _ = plan.inverse(column);
 }
 
