@@ -39,6 +39,8 @@ enum Table {
     Contrast,
     /// Seconds of each part over the nodes
     Cost,
+    /// Limit cycles of width 5 from their Hopf point on
+    Cycle,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
@@ -46,6 +48,7 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         Table::Swimmers => swimmers::swimmers(),
         Table::Lateral => swimmers::lateral(),
         Table::Cost => swimmers::cost(),
+        Table::Cycle => bifurcations::cycle(flags.nodes),
         Table::Threshold => bifurcations::threshold(flags.nodes),
         Table::Regimes => bifurcations::regimes(flags.nodes),
         Table::Length => parameters::length(flags.nodes),

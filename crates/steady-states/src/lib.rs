@@ -44,6 +44,7 @@
 //! eigenvalues come sorted by symmetry.
 mod branch;
 mod critical;
+mod cycle;
 mod error;
 mod model;
 mod modes;
@@ -56,6 +57,7 @@ mod system;
 
 pub use branch::{Branch, BranchPoint, Continuation, SpecialKind, SpecialPoint};
 pub use critical::Critical;
+pub use cycle::LimitCycle;
 pub use error::SteadyError;
 /// A growth rate and an angular frequency.
 pub use num_complex::Complex64;

@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use motile::{DropletSetup, Region, Setup};
 use motile_examples::say;
-use steady_states::{Continuation, Critical, Parameter, SpecialKind, SpecialPoint, SteadyState, Symmetry};
+use steady_states::{Continuation, Critical, LimitCycle, Parameter, SpecialKind, SpecialPoint, SteadyState, Symmetry};
 
 use super::{channel, head, nodes, row};
 
@@ -12,7 +12,10 @@ fn polarisation(setup: &Setup) -> Result<SpecialPoint> {
     let state = SteadyState::uniform(setup)?;
     let diffusion = setup.droplets[0].particles.map_or(0.1, |particles| particles.diffusion);
     // Where it crosses zero in the order of the activity: other modes have no say.
-    let range = Continuation::new(Parameter::Activity, -2.0 * diffusion, -80.0 * diffusion);
+    let range = Continuation {
+        largest_step: 0.01,
+        ..Continuation::new(Parameter::Activity, -2.0 * diffusion, -40.0 * diffusion)
+    };
     let along = |point: &&SpecialPoint| {
         point.kind == SpecialKind::BranchPoint && point.critical.mode.symmetry == Symmetry::Symmetric
     };
@@ -124,4 +127,47 @@ fn intervals(points: &[(f64, bool)]) -> String {
     }
     let found: Vec<String> = found.iter().map(|[from, to]| format!("{from:.2} to {to:.2}")).collect();
     if found.is_empty() { "nowhere".into() } else { found.join("; ") }
+}
+
+/// Instants over half a period.
+const INSTANTS: usize = 7;
+/// First amplitude of a cycle (R0).
+const AMPLITUDE: f64 = 0.2;
+
+/// Limit cycles of width 5 and A = 10, from the Hopf point to an activity of -5.
+pub(super) fn cycle(count: usize) -> Result<()> {
+    let parameter = Parameter::Activity;
+    let state = SteadyState::find(&channel(12.0, 5.0, -2.5, 10.0, count))?;
+    let spectrum = state.spectrum()?;
+    let swing = |mode: &&steady_states::Eigenmode| mode.value.im > 0.0 && mode.symmetry == Symmetry::Antisymmetric;
+    let mode = spectrum.modes.iter().find(swing).context("no swings")?;
+    let hopf = state.critical(mode, parameter)?;
+    head(&["activity", "amplitude", "period", "mean speed"]);
+    row(&[
+        format!("{:.6}", activity(&hopf)),
+        "0".into(),
+        format!("{:.4}", std::f64::consts::TAU / hopf.mode.value.im),
+        format!("{:.6}", hopf.state.velocity().x),
+    ]);
+    let show = |cycle: &LimitCycle| -> Result<()> {
+        let amplitude = format!("{:.4}", cycle.amplitude()?);
+        let value = format!("{:.6}", cycle.value(parameter));
+        row(&[value, amplitude, format!("{:.4}", cycle.period()), format!("{:.6}", cycle.mean_speed())]);
+        Ok(())
+    };
+    let mut before = LimitCycle::from_hopf(&hopf, parameter, AMPLITUDE, INSTANTS)?;
+    show(&before)?;
+    let mut last = LimitCycle::from_hopf(&hopf, parameter, 1.5 * AMPLITUDE, INSTANTS)?;
+    show(&last)?;
+    let mut factor = 1.0;
+    while last.value(parameter) > -5.1 && factor > 0.02 {
+        match last.beyond(&before, parameter, factor) {
+            Ok(next) => {
+                show(&next)?;
+                (before, last, factor) = (last, next, 1.15);
+            }
+            Err(_) => factor *= 0.5,
+        }
+    }
+    show(&last.at(parameter, -5.0)?)
 }

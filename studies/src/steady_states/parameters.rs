@@ -21,9 +21,15 @@ pub(super) fn length(count: usize) -> Result<()> {
     let mut points = Vec::new();
     head(&["length", "speed, zero gradient", "speed, zero flux"]);
     for length in LENGTHS {
-        let (open, closed) = (speed(length, Drive::ZeroGradient)?, speed(length, Drive::ZeroFlux)?);
-        row(&[length.to_string(), format!("{open:.8}"), format!("{closed:.8}")]);
-        points.push((length, open, closed));
+        let found = [Drive::ZeroGradient, Drive::ZeroFlux].map(|drive| speed(length, drive));
+        let told = found.iter().map(|speed| match speed {
+            Ok(speed) => format!("{speed:.8}"),
+            Err(error) => error.to_string(),
+        });
+        row(&std::iter::once(length.to_string()).chain(told).collect::<Vec<_>>());
+        if let [Ok(open), closed] = found {
+            points.push((length, open, closed.unwrap_or(f64::NAN)));
+        }
     }
     let limit = points.last().map_or(f64::NAN, |point| point.2);
     say("");
