@@ -46,7 +46,7 @@ fn derivatives(instants: usize) -> [DMatrix<f64>; 2] {
             return 0.0;
         }
         let difference = PI * (j as f64 - k as f64) / instants as f64;
-        let sign = if (j + k) % 2 == 0 { 0.5 } else { -0.5 };
+        let sign = if (j + k).is_multiple_of(2) { 0.5 } else { -0.5 };
         sign / (0.5 * difference).tan()
     };
     [1.0, -1.0].map(|sign| DMatrix::from_fn(instants, instants, |j, k| full(j, k) + sign * full(j, k + instants)))
@@ -247,13 +247,13 @@ impl LimitCycle {
         let odd = self.system.modes.part(Part::Odd);
         let rates = self.pose_rates();
         let (mut residual, mut own) = (DVector::zeros(count * n), Vec::new());
-        for j in 0..count {
+        for (j, pose_rate) in rates.into_iter().enumerate() {
             let base = self.base(j)?;
             let (h, m) = self.system.modes.synthesise(&self.states[j]);
             self.system.model.load(&base, &h, &m)?;
             let (h, m) = self.system.model.rates(&base, [self.speed, 0.0, 0.0])?;
             let rate = self.system.modes.analyse(h, m)?;
-            let (h, m) = self.system.model.rigid_rates(&base, motion(rates[j], self.poses[j]))?;
+            let (h, m) = self.system.model.rigid_rates(&base, motion(pose_rate, self.poses[j]))?;
             let rigid = self.system.modes.analyse(h, m)?;
             let mut moved = rigid;
             for k in 0..count {
@@ -277,9 +277,9 @@ impl LimitCycle {
         let mut matrix = DMatrix::zeros(size + 5, size + 5);
         let (rates, (_, own)) = (self.pose_rates(), self.residual()?);
         let mut lacks = [0.0; 2];
-        for j in 0..count {
+        for (j, (pose_rate, own)) in rates.into_iter().zip(&own).enumerate() {
             let (base, tau) = (self.base(j)?, self.tau);
-            let [ux, uy, turn] = motion(rates[j], self.poses[j]);
+            let [ux, uy, turn] = motion(pose_rate, self.poses[j]);
             let frame: FrameMotion = [self.speed + ux / tau, uy / tau, turn / tau];
             let point = crate::system::Point { base, state: self.states[j].clone(), frame };
             let jacobian = self.system.jacobian(&point, Part::Full)?;
@@ -301,9 +301,9 @@ impl LimitCycle {
             // Columns: speed, period over 2 pi, two sources that do nothing. Rows: shifts along the channel and in time,
             // area, number of particles.
             matrix.view_mut((j * n, size), (n, 1)).copy_from(&(tau * &along));
-            matrix.view_mut((j * n, size + 1), (n, 1)).copy_from(&-&own[j]);
+            matrix.view_mut((j * n, size + 1), (n, 1)).copy_from(&-own);
             matrix.view_mut((size, j * n), (1, n)).copy_from(&along.transpose());
-            matrix.view_mut((size + 1, j * n), (1, n)).copy_from(&own[j].transpose());
+            matrix.view_mut((size + 1, j * n), (1, n)).copy_from(&own.transpose());
             for (k, gradient) in conserved.iter().enumerate() {
                 matrix[(j * n + self.system.modes.index(k == 1, false, 0), size + 2 + k)] = 1.0;
                 matrix.view_mut((size + 2 + k, j * n), (1, n)).copy_from(&gradient.transpose());

@@ -42,6 +42,11 @@
 //! makes it regular, and V comes out with the state. The derivative is by central differences (errors of 1e-9), one
 //! evaluation of the flow a difference; a state that is its own mirror image is solved for among such states, and its
 //! eigenvalues come sorted by symmetry.
+//!
+//! [`Continuation`] follows a branch in any [`Parameter`] by pseudo-arclength and finds folds, branch points and Hopf
+//! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second
+//! parameter; [`LimitCycle`] has the oscillations that come from a Hopf point of a swimmer in a channel. The tables of
+//! `docs/steady-states.md` are computed by it.
 mod branch;
 mod critical;
 mod cycle;
