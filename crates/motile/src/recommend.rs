@@ -59,7 +59,7 @@ pub struct Recommendation {
 /// in a kind of scene by a method; the grid spacing is that for a radius of one.
 ///
 /// On a grid the speed oscillates while a droplet crosses the cells, by an amount that depends on its direction and on
-/// where its path lies between grid lines; the error is that of the worst that was tried, the mean being several times
+/// where its path lies between grid lines; the error is that of the worst that was tried, the mean is often several times
 /// better. Covered is one droplet in units of the defaults at activities down to -4 in a box (A = 2 |activity|), to -1
 /// with a contrast, in a channel to -2, by boundary integrals in one of width two to -4. Outside of that the settings
 /// are a start; a sharper edge of the concentration needs more cells ([`ib_core::Warnings`] tell). The study
