@@ -30,8 +30,8 @@ fn body(c: &mut Criterion, name: &str, n: usize, mut body: impl Body) {
     let mut pair = || pair.run();
     let mut force = || body.write_forces(black_box(&discretisation), &mut forces).expect("a good state");
     let mut locate = || transfer.locate(black_box(&positions));
-    let mut spread = || spreading.spread(black_box(&given), &mut density);
-    let mut interpolate = || interpolating.interpolate(black_box(&velocity), &mut velocities);
+    let mut spread = || spreading.spread(black_box(&given), &mut density).expect("lists that fit");
+    let mut interpolate = || interpolating.interpolate(black_box(&velocity), &mut velocities).expect("lists that fit");
     let mut group = c.benchmark_group(format!("{name}, {count} markers, {n} x {n}"));
     group.bench_function("forces", |b| b.iter(&mut force));
     group.bench_function("locate", |b| b.iter(&mut locate));

@@ -7,7 +7,7 @@ use motile::{Contrast, GridMethod, IntegralMethod, Method, MethodKind, Setup};
 
 use crate::DropletFlags;
 use crate::flags::RADIUS;
-use crate::parse::{count, kernel, one_of, positive, time_step};
+use crate::parse::{cells, kernel, nodes, one_of, positive, time_step};
 
 /// Settings that go together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -52,10 +52,10 @@ pub struct MethodFlags {
     #[arg(long, value_parser = one_of(&CONTRASTS))]
     pub contrast_method: Option<Contrast>,
     /// Nodes of the interface without a grid [default: 72]
-    #[arg(long, value_parser = count, allow_hyphen_values = true)]
+    #[arg(long, value_parser = nodes, allow_hyphen_values = true)]
     pub nodes: Option<usize>,
     /// Cells of the concentration without a grid [default: 288]
-    #[arg(long, value_parser = count, allow_hyphen_values = true)]
+    #[arg(long, value_parser = cells, allow_hyphen_values = true)]
     pub concentration_cells: Option<usize>,
     /// Settings that go together
     #[arg(long, value_enum, default_value_t = Preset::Accurate)]

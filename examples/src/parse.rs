@@ -3,6 +3,7 @@
 use std::{fmt::Display, ops::RangeInclusive, str::FromStr};
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use motile::IntegralMethod;
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
 
 /// Largest error of an adaptive step unless something else is said.
@@ -70,12 +71,21 @@ pub fn positive(text: &str) -> Result<f64, String> {
     number(text, "must be a number above 0 and at most 1e6", |v| v > 0.0)
 }
 
-/// A count of nodes or cells.
+/// A number of nodes of boundary integrals.
 ///
 /// # Errors
 /// The rule that `text` breaks.
-pub(crate) fn count(text: &str) -> Result<usize, String> {
-    whole(text, 16..=16384)
+pub(crate) fn nodes(text: &str) -> Result<usize, String> {
+    let [least, most] = IntegralMethod::NODES;
+    whole(text, least..=most)
+}
+
+/// A number of cells of the concentration.
+///
+/// # Errors
+/// The rule that `text` breaks.
+pub(crate) fn cells(text: &str) -> Result<usize, String> {
+    whole(text, IntegralMethod::NODES[0]..=IntegralMethod::MOST_CELLS)
 }
 
 /// A number of steps.
@@ -107,8 +117,9 @@ pub fn activity(text: &str) -> Result<f64, String> {
 /// # Errors
 /// The rule that `text` breaks.
 pub fn pair(text: &str) -> Result<[f64; 2], String> {
-    let numbers = text.split_once(',').and_then(|(x, y)| Some([finite(x).ok()?, finite(y).ok()?]));
-    numbers.ok_or_else(|| "must be two numbers with a comma between them".to_string())
+    let (x, y) = text.split_once(',').ok_or("must be two numbers with a comma between them")?;
+    let part = |name: &str, text: &str| finite(text).map_err(|rule| format!("the {name} number {rule}"));
+    Ok([part("first", x)?, part("second", y)?])
 }
 
 /// A regularised delta function by its name.

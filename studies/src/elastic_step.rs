@@ -79,12 +79,12 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     })?;
     let spread = median("spread", &mut || {
         density.fill(0.0);
-        transfer.spread(&markers.forces, &mut density);
+        transfer.spread(&markers.forces, &mut density)?;
         Ok(())
     })?;
     let solve = median("Stokes solve", &mut || Ok(solver.solve(&density, &mut velocity).map(|_| ())?))?;
     let interpolate = median("interpolate", &mut || {
-        transfer.interpolate(&velocity, &mut velocities);
+        transfer.interpolate(&velocity, &mut velocities)?;
         Ok(())
     })?;
     say(format_args!("  transfer over solve      {:>8.2}", (locate + spread + interpolate) / solve));

@@ -51,9 +51,9 @@ fn transfer(spreads: bool) -> Result<()> {
     let (mut field, mut values) = (StaggeredField::zeros(grid), vec![Vec2::new(1.0, 2.0); positions.len()]);
     count(|| {
         if spreads {
-            transfer.spread(black_box(&values), &mut field);
+            transfer.spread(black_box(&values), &mut field)?;
         } else {
-            transfer.interpolate(black_box(&field), &mut values);
+            transfer.interpolate(black_box(&field), &mut values)?;
         }
         Ok(())
     })

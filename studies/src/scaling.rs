@@ -124,8 +124,8 @@ fn body(count: usize, budget: Duration) -> Result<Value> {
     let (fixed, other) = (transfer.clone(), forces.clone());
     let mut moving = transfer.clone();
     let mut locate = || moving.locate(black_box(&positions));
-    let mut spread = || fixed.spread(&other, black_box(&mut density));
-    let mut interpolate = || transfer.interpolate(black_box(&velocity), &mut velocities);
+    let mut spread = || drop(fixed.spread(&other, black_box(&mut density)));
+    let mut interpolate = || drop(transfer.interpolate(black_box(&velocity), &mut velocities));
     let mut force = || drop(black_box(solid.write_forces(&discretisation, &mut forces)));
     let turns = Turns::measure(budget, &mut [&mut locate, &mut spread, &mut interpolate, &mut force]);
     let per_marker = |work: usize| 1e9 * turns.least(work) / markers as f64;

@@ -289,3 +289,51 @@ fn viscosities_are_checked() {
     markers.push_group(16, MarkerKind::Interface { viscosity_inside: Some(2.0) });
     assert!(matches!(flow.velocities(&mut markers), Err(FlowError::Unsupported { .. })));
 }
+
+/// Not the small difference of large numbers: the error of the stresslet falls with h and does not grow with the ratio.
+#[test]
+fn the_stresslet_at_every_ratio() {
+    let channel = open_channel(5.0, 3.0);
+    let scenes = [
+        (SQUARE, vec![Droplet::ellipse(300.0)]),
+        (SQUARE, vec![Droplet::ellipse(0.05).turned(1.0)]),
+        (SQUARE, vec![Droplet::circle(2, 300.0)]),
+        (channel, vec![Droplet::ellipse(300.0).turned(0.7)]),
+        (channel, vec![Droplet::circle(2, 0.05).turned(0.7)]),
+        (
+            Region::Box { lengths: [9.0, 6.0] },
+            vec![
+                Droplet::ellipse(300.0).at(-3.0, 0.3),
+                Droplet::circle(2, 0.05).turned(0.4).at(0.0, -0.2),
+                Droplet::ellipse(1.0).at(2.9, 0.1),
+            ],
+        ),
+    ];
+    for (region, droplets) in scenes {
+        let exact = Exact::new(region, &droplets, 256).unwrap();
+        let all = SPACINGS.map(|h| exact.stresslet_errors(h).unwrap());
+        for (k, droplet) in droplets.iter().enumerate() {
+            let (errors, of_moments) = (all.each_ref().map(|e| e[k].observed), all.each_ref().map(|e| e[k].of_moments));
+            assert!(order(&SPACINGS, &errors) > 1.9, "{droplet:?}: {errors:?}");
+            assert!(errors[0] < 1.5e-2 && errors[1] < 4e-3, "{droplet:?}: {errors:?}");
+            if droplet.ratio <= 1.0 {
+                assert_eq!(errors, of_moments);
+            } else if droplets.len() == 1 {
+                assert!(errors[1] < 0.05 * of_moments[1], "{droplet:?}: {errors:?} {of_moments:?}");
+            }
+        }
+    }
+}
+
+/// Where viscosities become equal nothing jumps.
+#[test]
+fn the_stresslet_of_almost_equal_viscosities() {
+    let observed = |ratio: f64| {
+        let exact = Exact::new(SQUARE, &[Droplet::ellipse(ratio).turned(0.7)], 64).unwrap();
+        exact.stresslet_errors(0.1).unwrap()[0].observed
+    };
+    let equal = observed(1.0);
+    for ratio in [1.0 - 1e-6, 1.0 + 1e-6] {
+        assert!((observed(ratio) - equal).abs() < 1e-5, "{ratio}: {} {equal}", observed(ratio));
+    }
+}

@@ -1,7 +1,14 @@
 //! Wrong input ends in an error that names it, before any work; a run that goes wrong leaves the last good state.
 
-use motile::ib_core::{Body, FlowError, SceneError, StepSize};
-use motile::{Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Setup, SetupError};
+use motile::active_interface::Curve;
+use motile::ib_core::{
+    Body, Every, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, SceneError, StepSize, System, Vec2,
+    Warnings,
+};
+use motile::stokes_grid::InputError;
+use motile::{
+    AnyFlow, Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Region, Setup, SetupError,
+};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 #[test]
@@ -23,6 +30,91 @@ fn wrong_numbers_are_refused() {
     let narrow =
         Setup { region: open_channel(6.0, 1.6), ..on_grid(0.2) }.build().expect_err("narrower than the droplet");
     assert!(narrow.to_string().contains("6 x 1.6"), "{narrow}");
+}
+
+/// Lengths, spacings and numbers that would ask for more memory than there is end in an error before they do.
+#[test]
+fn sizes_are_refused_before_they_are_allocated() {
+    let square = |side: f64| Region::Box { lengths: [side; 2] };
+    let marker_spacing = |spacing| GridMethod { marker_spacing: Some(spacing), ..GridMethod::of_spacing(0.1) };
+    let setups = [
+        ("spacing", Setup { region: square(6.0), ..on_grid(1e-7) }),
+        ("spacing", Setup { region: square(1e5), ..on_grid(0.1) }),
+        ("spacing", Setup { region: open_channel(1e5, 1e5), ..on_grid(0.1) }),
+        ("marker-spacing", Setup { method: Method::Grid(marker_spacing(1e-9)), ..on_grid(0.1) }),
+        ("marker-spacing", Setup { method: Method::Grid(marker_spacing(1e-300)), ..on_grid(0.1) }),
+        ("nodes", Setup { method: Method::Integral(IntegralMethod { nodes: usize::MAX, cells: 0 }), ..on_grid(0.1) }),
+        ("cells", Setup { method: Method::Integral(IntegralMethod { nodes: 64, cells: usize::MAX }), ..on_grid(0.1) }),
+    ];
+    for (key, setup) in setups {
+        let mut error = None;
+        let memory = allocation_counter::measure(|| error = setup.build().err());
+        let error = error.unwrap_or_else(|| panic!("{key} is taken")).to_string();
+        assert!(error.contains(key), "{error}");
+        assert!(memory.bytes_max < 100 << 20, "{key}: {} MB", memory.bytes_max >> 20);
+    }
+}
+
+/// Lists of markers can be made shorter than the groups; the flow looks.
+#[test]
+fn lists_of_markers_that_were_shortened_are_refused() {
+    type Change = fn(&mut Markers);
+    let changes: [Change; 4] = [
+        |m| m.positions.truncate(20),
+        |m| m.forces.clear(),
+        |m| m.velocities.truncate(95),
+        |m| m.positions.push(Vec2::ZERO),
+    ];
+    for base in [on_grid(0.2), Setup::default()] {
+        for change in changes {
+            let mut flow = base.flow().unwrap();
+            let mut markers = Markers::new();
+            markers.push_group(96, MarkerKind::Interface { viscosity_inside: None });
+            markers.positions.copy_from_slice(&Curve::circle(1.0).unwrap().markers(96).unwrap());
+            let mut sample = [FlowSample::default()];
+            flow.velocities(&mut markers).unwrap();
+            flow.sample(&markers, &[Vec2::ZERO], &mut sample).unwrap();
+            change(&mut markers);
+            let error = flow.sample(&markers, &[Vec2::ZERO], &mut sample).unwrap_err();
+            assert!(matches!(error, FlowError::Input(InputError::WrongLength { expected: 96, .. })), "{error}");
+            assert_eq!(flow.velocities(&mut markers), Err(error));
+        }
+    }
+}
+
+#[test]
+fn places_that_are_not_finite_are_not_sampled() {
+    for base in [on_grid(0.2), Setup::default()] {
+        for viscosity in [None, Some(1000.0)] {
+            let droplets = vec![DropletSetup { viscosity, ..DropletSetup::default() }];
+            let mut scene = Setup { droplets, ..base.clone() }.build().unwrap().scene;
+            for bad in [f64::NAN, f64::INFINITY] {
+                let mut samples = [FlowSample::default(); 2];
+                let places = [Vec2::ZERO, Vec2::new(0.0, bad)];
+                let error = scene.system_mut().sample(&places, &mut samples).unwrap_err();
+                assert!(error.explanation().contains(&bad.to_string()), "{}", error.explanation());
+            }
+        }
+    }
+}
+
+/// A film that drains below what markers resolve ends the run before velocities are wild.
+#[test]
+fn a_film_beside_another_viscosity_that_is_not_resolved_ends_the_run() {
+    let droplets = vec![DropletSetup { viscosity: Some(1000.0), ..DropletSetup::active(-8.0) }];
+    let setup = Setup { region: open_channel(6.0, 2.2), droplets, ..on_grid(0.1) };
+    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    let (mut fastest, mut warnings) = (0.0_f64, Warnings::default());
+    let mut look = |system: &mut System<AnyFlow>| {
+        fastest = fastest.max(system.observe(droplets[0]).map_err(|e| e.to_string())?.speed());
+        warnings.look(system);
+        Ok::<(), Box<dyn std::error::Error + Send + Sync>>(())
+    };
+    let error = scene.run(20.0).observe(Every::Steps(1), &mut look).go().unwrap_err();
+    let SceneError::Flow { source: FlowError::Film { body: 0, gap, least }, .. } = error else { panic!("{error}") };
+    assert!(gap < least && gap > 0.5 * least && (least - 0.025).abs() < 1e-3, "{gap} {least}");
+    assert!(fastest < 0.5, "{fastest}");
+    assert!(warnings.worst().iter().any(|(_, warning)| warning.cause == "thin film"), "{warnings:?}");
 }
 
 #[test]

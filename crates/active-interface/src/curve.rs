@@ -23,7 +23,7 @@ use spline::PeriodicSpline;
 pub(crate) const MINIMUM_MARKERS: usize = 8;
 
 /// Most markers of an interface.
-const MAXIMUM_MARKERS: usize = 10_000_000;
+const MAXIMUM_MARKERS: usize = 1_000_000;
 
 /// Largest ratio of the distances between neighbours in a list of markers.
 const MAXIMUM_UNEVENNESS: f64 = 4.0;
@@ -274,7 +274,7 @@ impl Curve {
     /// (spacing)^2 times its curvature / 12.
     ///
     /// # Errors
-    /// Fewer than eight or more than ten million markers; so few that the polygon crosses itself; a curve whose chords
+    /// Fewer than eight or more than a million markers; so few that the polygon crosses itself; a curve whose chords
     /// could not be made equal; rotations or translations that are not finite.
     pub fn markers(&self, count: usize) -> Result<Vec<Vec2>, InterfaceError> {
         at_least("markers", count, MINIMUM_MARKERS)?;

@@ -60,6 +60,7 @@ impl BoundaryIntegral {
 
     /// Takes over positions and forces.
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+        markers.check()?;
         if markers.groups().iter().any(|group| group.kind == MarkerKind::Points) {
             return Err(FlowError::Unsupported {
                 what: "a body of points without a closed interface",

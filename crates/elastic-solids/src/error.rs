@@ -68,6 +68,21 @@ pub enum SolidError {
         /// Its y (length).
         y: f64,
     },
+    /// Two points of triangles at one place: triangles there do not hang together.
+    #[error(
+        "points {first} and {second} coincide at ({x:.4}, {y:.4}): make them one (in Gmsh: \"Coherence Mesh;\", or the \
+         tool that removes duplicate nodes)"
+    )]
+    CoincidentPoints {
+        /// A point.
+        first: usize,
+        /// The other one.
+        second: usize,
+        /// x of the latter (length).
+        x: f64,
+        /// Its y (length).
+        y: f64,
+    },
     /// An edge with more than one triangle on a side.
     #[error(
         "the edge between points {first} and {second} has two triangles on one side, one of them {triangle}: triangles \

@@ -31,10 +31,7 @@ pub trait ElasticForces: std::fmt::Debug + Send + Sync + 'static {
     fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError>;
 
     /// First Piola-Kirchhoff stress (force per reference length) in a triangle whose deformation gradient is
-    /// `gradient`, where it is defined.
-    ///
-    /// # Panics
-    /// A triangle beyond the last.
+    /// `gradient`, where it is defined; `None` for a triangle beyond the last.
     fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2>;
 
     /// The largest shear and the largest bulk modulus of small strains (force per length).

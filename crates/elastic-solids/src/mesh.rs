@@ -41,8 +41,7 @@ pub struct BoundaryLoop {
 /// A triangle mesh of the reference state of a solid, possibly periodic in x.
 ///
 /// Triangles are counter-clockwise. In a periodic mesh the two ends share their points: a triangle across the seam has
-/// corners one period away from its points, which [`TriangleMesh::corners`] and [`TriangleMesh::edge_vector`] account
-/// for. Every point belongs to a triangle and every edge to one or two.
+/// corners one period away from its points, which [`TriangleMesh::corners`] accounts for. Every point belongs to a triangle and every edge to one or two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TriangleMesh {
     points: Vec<Vec2>,
@@ -178,44 +177,47 @@ impl TriangleMesh {
     }
 
     /// The corners of a triangle when the points are at `positions` (length, one a point of the mesh): one continuous
-    /// triangle, also across the seam of a periodic mesh.
-    ///
-    /// # Panics
-    /// A triangle beyond the last, fewer positions than points.
-    #[inline]
+    /// triangle, also across the seam of a periodic mesh. `None` for a triangle beyond the last or another number of
+    /// positions than points.
     #[must_use]
-    pub fn corners(&self, triangle: usize, positions: &[Vec2]) -> [Vec2; 3] {
+    pub fn corners(&self, triangle: usize, positions: &[Vec2]) -> Option<[Vec2; 3]> {
+        (triangle < self.triangles.len() && self.fits(positions)).then(|| self.raw_corners(triangle, positions))
+    }
+
+    fn fits(&self, positions: &[Vec2]) -> bool {
+        positions.len() == self.points.len()
+    }
+
+    /// [`TriangleMesh::corners`] for a triangle and positions of this mesh.
+    #[inline]
+    pub(crate) fn raw_corners(&self, triangle: usize, positions: &[Vec2]) -> [Vec2; 3] {
         corners_of(&self.triangles[triangle], self.shifts[triangle], self.period.unwrap_or(0.0), positions)
     }
 
-    /// The centroid of a triangle in the reference state (length).
-    ///
-    /// # Panics
-    /// A triangle beyond the last.
-    #[must_use]
-    pub fn centroid(&self, triangle: usize) -> Vec2 {
-        self.corners(triangle, &self.points).iter().sum::<Vec2>() / 3.0
+    /// The centroid of a triangle of this mesh in the reference state (length).
+    pub(crate) fn centroid(&self, triangle: usize) -> Vec2 {
+        self.raw_corners(triangle, &self.points).iter().sum::<Vec2>() / 3.0
     }
 
-    /// The vector from the first to the second point of an edge when the points are at `positions` (length).
-    ///
-    /// # Panics
-    /// Fewer positions than points.
-    #[inline]
-    #[must_use]
-    pub fn edge_vector(&self, edge: &Edge, positions: &[Vec2]) -> Vec2 {
+    /// The vector from the first to the second point of an edge of this mesh when the points are at `positions`
+    /// (length).
+    pub(crate) fn edge_vector(&self, edge: &Edge, positions: &[Vec2]) -> Vec2 {
         let mut vector = positions[edge.points[1]] - positions[edge.points[0]];
         vector.x += f64::from(edge.periods) * self.period.unwrap_or(0.0);
         vector
     }
 
     /// The boundary loop as a polygon when the points are at `positions` (length): one continuous line, without the
-    /// repeated first point; for a loop with periods its end is that many periods ahead of its start.
-    ///
-    /// # Panics
-    /// Fewer positions than points.
+    /// repeated first point; for a loop with periods its end is that many periods ahead of its start. `None` for a loop
+    /// of another mesh or another number of positions than points.
     #[must_use]
-    pub fn boundary_polygon(&self, boundary: &BoundaryLoop, positions: &[Vec2]) -> Vec<Vec2> {
+    pub fn boundary_polygon(&self, boundary: &BoundaryLoop, positions: &[Vec2]) -> Option<Vec<Vec2>> {
+        let known = self.fits(positions) && boundary.points.iter().all(|&point| point < positions.len());
+        known.then(|| self.raw_polygon(boundary, positions))
+    }
+
+    /// [`TriangleMesh::boundary_polygon`] for a loop and positions of this mesh.
+    pub(crate) fn raw_polygon(&self, boundary: &BoundaryLoop, positions: &[Vec2]) -> Vec<Vec2> {
         let period = self.period.unwrap_or(0.0);
         let mut polygon: Vec<Vec2> = Vec::with_capacity(boundary.points.len());
         let mut shift = 0.0;

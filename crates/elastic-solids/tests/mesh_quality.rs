@@ -136,7 +136,9 @@ fn what_is_left_is_at_dislocations() {
     let mean = wall.quality().mean_edge;
     let (mut all, mut close) = (0.0, 0.0);
     for edge in wall.edges() {
-        let square = (wall.edge_vector(edge, wall.points()).length() / mean - 1.0).powi(2);
+        let [from, to] = edge.points.map(|point| wall.points()[point]);
+        let across = f64::from(edge.periods) * wall.period().unwrap_or(0.0);
+        let square = ((to - from + Vec2::new(across, 0.0)).length() / mean - 1.0).powi(2);
         all += square;
         if edge.points.iter().all(|&point| near[point]) {
             close += square;

@@ -4,6 +4,7 @@ mod equivalent;
 mod error;
 mod field;
 mod rigid;
+mod stresslet;
 
 use std::ops::Range;
 
@@ -74,6 +75,8 @@ pub(crate) struct Contrast {
 /// Which markers a droplet has.
 #[derive(Debug, Clone)]
 pub(crate) struct Droplet {
+    /// The number of its group.
+    pub(crate) group: usize,
     pub(crate) markers: Range<usize>,
     /// Whether its markers are equally spaced.
     pub(crate) even: bool,
@@ -151,7 +154,7 @@ impl Contrast {
         self.targets.clear();
         self.droplets.clear();
         self.nodes = 0;
-        for group in markers.groups() {
+        for (number, group) in markers.groups().iter().enumerate() {
             let Some(viscosity) = other_viscosity(&group.kind, self.viscosity)? else {
                 self.targets.extend(group.range.clone());
                 continue;
@@ -165,7 +168,7 @@ impl Contrast {
             curve.load(&self.matrix, self.nodes, viscosity - self.viscosity, positions)?;
             self.nodes += curve.len();
             let even = matches!(group.kind, MarkerKind::Interface { .. });
-            self.droplets.push(Droplet { markers: group.range.clone(), even });
+            self.droplets.push(Droplet { group: number, markers: group.range.clone(), even });
         }
         self.curves.truncate(self.droplets.len());
         let now = [self.curves.len(), self.nodes];

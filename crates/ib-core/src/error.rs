@@ -51,6 +51,20 @@ pub enum FlowError {
         /// What is allowed (length).
         allowed: f64,
     },
+    /// A film between a wall and a droplet of another viscosity that the double layer on its markers does not resolve:
+    /// velocities grow wild there.
+    #[error(
+        "the film between body {body}, whose fluid has another viscosity, and the wall is {gap:.3e}, below {least:.3e}, half the \
+         distance of its markers: use a finer grid or no grid"
+    )]
+    Film {
+        /// Number of the body, in the order of addition.
+        body: usize,
+        /// The film (length).
+        gap: f64,
+        /// The thinnest that is solved (length).
+        least: f64,
+    },
     /// An iteration did not converge.
     #[error(
         "{what} stopped at a relative residual of {residual:.1e} after {iterations} iterations, above {tolerance:e}"

@@ -62,6 +62,14 @@ impl Gaps {
         }
     }
 
+    /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where (length).
+    #[must_use]
+    pub fn contact(&self, discretisation: &Discretisation) -> Option<(usize, usize, Vec2)> {
+        let interfaces = |gap: &Gap| self.kinds[gap.body].is_interface() && self.kinds[gap.other].is_interface();
+        let narrowest = self.narrowest_near(discretisation).filter(interfaces);
+        narrowest.filter(|gap| gap.width <= 0.0).map(|gap| (gap.body, gap.other, gap.place))
+    }
+
     /// Whether a body lies inside an interface, or inside one of its images.
     fn lies_in(&self, inner: usize, outer: usize, periods: [Option<f64>; 2]) -> bool {
         let around = inner != outer && self.kinds[outer].is_interface();

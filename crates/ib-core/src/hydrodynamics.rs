@@ -88,6 +88,16 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     /// As [`Hydrodynamics::velocities`], and slices of different length.
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError>;
 
+    /// The stresslet (force times length, along x and y, about the centroid) of the flow around a group of markers as of
+    /// the last evaluation, where the flow knows it better than as the difference of the first moment of the group's
+    /// forces and a multiple of its velocities; by default, and where viscosities are equal, `None`.
+    ///
+    /// # Errors
+    /// No convergence.
+    fn stresslet(&self, _group: usize) -> Result<Option<[[f64; 2]; 2]>, FlowError> {
+        Ok(None)
+    }
+
     /// Work done since the start.
     fn work(&self) -> FlowWork;
 
@@ -117,6 +127,10 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         self.as_mut().sample(markers, points, out)
+    }
+
+    fn stresslet(&self, group: usize) -> Result<Option<[[f64; 2]; 2]>, FlowError> {
+        self.as_ref().stresslet(group)
     }
 
     fn work(&self) -> FlowWork {

@@ -8,7 +8,7 @@ pub use smeared_contrast::SmearedContrast;
 
 use std::sync::Arc;
 
-use input_checks::same_length;
+use input_checks::{all_points_finite, same_length};
 use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
 
 use crate::contrast::other_viscosity;
@@ -151,7 +151,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// The same for the positions located last.
     fn solve_located(&mut self, forces: &[Vec2]) -> Result<SolveReport, FlowError> {
         self.density.fill(0.0);
-        self.transfer.spread(forces, &mut self.density);
+        self.transfer.spread(forces, &mut self.density)?;
         self.solve_density(forces.len())
     }
 
@@ -195,8 +195,10 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(false)
     }
 
-    /// Refuses markers that are not finite or too far beyond a wall, and forces that are not finite.
+    /// Refuses lists of other lengths than the groups', markers that are not finite or too far beyond a wall, and forces
+    /// that are not finite.
     pub(crate) fn check(&self, markers: &Markers) -> Result<(), FlowError> {
+        markers.check()?;
         let walls = self.walls();
         let allowed = WALL_TOLERANCE * self.grid().spacing();
         for (body, group) in markers.groups().iter().enumerate() {
@@ -252,7 +254,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             return self.contrast_velocities(markers);
         }
         let report = self.solve(&markers.positions, &markers.forces)?;
-        self.transfer.interpolate(&self.velocity, &mut markers.velocities);
+        self.transfer.interpolate(&self.velocity, &mut markers.velocities)?;
         self.work.evaluations += 1;
         for index in 0..markers.groups().len() {
             self.correct(index, markers)?;
@@ -262,6 +264,7 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         same_length("the samples", points.len(), out.len())?;
+        all_points_finite("the points to sample", points)?;
         self.check(markers)?;
         if self.has_contrast(markers)? {
             return self.contrast_sample(markers, points, out);
@@ -270,6 +273,10 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
         let pressure = self.pressure_field()?;
         sampling::sample(&self.velocity, &pressure, points, out);
         Ok(())
+    }
+
+    fn stresslet(&self, group: usize) -> Result<Option<[[f64; 2]; 2]>, FlowError> {
+        self.contrast.as_ref().map_or(Ok(None), |flow| flow.stresslet(group))
     }
 
     fn work(&self) -> FlowWork {

@@ -8,10 +8,11 @@ mod locations;
 mod order;
 mod polynomial;
 
-use stokes_grid::{Grid, StaggeredField};
+use input_checks::same_length;
+use stokes_grid::{Grid, StaggeredField, StokesError};
 
 use crate::kernel::{CUBIC_QUADRATIC, Pieces};
-use crate::{Kernel, Vec2};
+use crate::{FlowError, Kernel, Vec2};
 use general::GeneralTransfer;
 use locations::{Location, Locations};
 use order::STRIDE;
@@ -73,29 +74,50 @@ impl<K: Kernel> Transfer<K> {
 
     /// Adds the force density of the located markers to `density` (force per volume), Cowley (2.33). `forces` (force)
     /// has an entry for each of them.
-    pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) {
+    ///
+    /// # Errors
+    /// Another number of forces than of markers, a field on another grid.
+    pub fn spread(&self, forces: &[Vec2], density: &mut StaggeredField) -> Result<(), FlowError> {
+        self.check("the forces", forces.len(), "the force density", density)?;
         let (general, scale) = (self.general(), 1.0 / (self.grid.spacing() * self.grid.spacing()));
         let (fx, fy) = density.components_mut();
         #[cfg(feature = "rayon")]
         if self.bands.are_used() {
             self.bands.spread(general, &self.locations, forces, scale, [fx, fy]);
-            return;
+            return Ok(());
         }
         let Locations { all: locations, irregular, .. } = &self.locations;
         let markers = Markers { locations, forces, stride: stride(&self.kernel), irregular };
         spread(general, scale, markers, Band { first_row: 0, fx, fy });
+        Ok(())
     }
 
     /// The velocities at the located markers (length per time), Cowley (2.34). `velocities` has an entry for each of
     /// them.
-    pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) {
+    ///
+    /// # Errors
+    /// Another number of velocities than of markers, a field on another grid.
+    pub fn interpolate(&self, velocity: &StaggeredField, velocities: &mut [Vec2]) -> Result<(), FlowError> {
+        self.check("the velocities", velocities.len(), "the velocity", velocity)?;
         let (general, Locations { all: locations, irregular, .. }) = (self.general(), &self.locations);
         #[cfg(feature = "rayon")]
         if self.bands.are_used() {
             bands::interpolate(general, locations, irregular, velocity, velocities);
-            return;
+            return Ok(());
         }
         interpolate(general, locations, irregular, velocity, velocities);
+        Ok(())
+    }
+
+    fn check(
+        &self,
+        list: &'static str,
+        entries: usize,
+        name: &'static str,
+        field: &StaggeredField,
+    ) -> Result<(), FlowError> {
+        same_length(list, self.locations.all.len(), entries)?;
+        if *field.grid() == self.grid { Ok(()) } else { Err(StokesError::GridMismatch { name }.into()) }
     }
 }
 

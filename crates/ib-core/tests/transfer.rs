@@ -1,11 +1,11 @@
 //! Spreading and interpolation as an adjoint pair, in boxes and channels, for every kernel.
 
 use ib_core::{
-    AnyKernel, Kernel, Transfer, Vec2,
+    AnyKernel, CubicQuadratic, FlowError, Kernel, Transfer, Vec2,
     kernel::{MAX_SUPPORT, Role},
 };
 use proptest::prelude::*;
-use stokes_grid::{Grid, StaggeredField};
+use stokes_grid::{Grid, InputError, StaggeredField, StokesError};
 
 /// A field of reproducible pseudo-random values in [-1, 1), zero on walls for the y component.
 fn noise(grid: Grid, seed: u64) -> StaggeredField {
@@ -35,10 +35,10 @@ fn check(grid: Grid, kernel: AnyKernel, positions: &[Vec2], forces: &[Vec2], see
     let mut transfer = Transfer::new(grid, kernel);
     transfer.locate(positions);
     let mut density = StaggeredField::zeros(grid);
-    transfer.spread(forces, &mut density);
+    transfer.spread(forces, &mut density).expect("a field of the grid");
     let velocity = noise(grid, seed);
     let mut velocities = vec![Vec2::ZERO; positions.len()];
-    transfer.interpolate(&velocity, &mut velocities);
+    transfer.interpolate(&velocity, &mut velocities).expect("a field of the grid");
     let h2 = grid.spacing() * grid.spacing();
     let on_grid = h2 * inner(&density, &velocity);
     let at_markers: f64 = forces.iter().zip(&velocities).map(|(f, u)| f.dot(*u)).sum();
@@ -98,7 +98,7 @@ fn walls_and_constants() {
         let mut transfer = Transfer::new(channel, kernel);
         transfer.locate(&positions);
         let mut velocities = vec![Vec2::ZERO; positions.len()];
-        transfer.interpolate(&velocity, &mut velocities);
+        transfer.interpolate(&velocity, &mut velocities).unwrap();
         for u in &velocities {
             assert!(u.x.abs() < 1e-14, "{}: no slip, {u}", kernel.name());
         }
@@ -108,7 +108,7 @@ fn walls_and_constants() {
         constant.fill(1.5);
         let mut transfer = Transfer::new(grid, kernel);
         transfer.locate(&positions);
-        transfer.interpolate(&constant, &mut velocities);
+        transfer.interpolate(&constant, &mut velocities).unwrap();
         for u in &velocities {
             assert!((u - Vec2::new(1.5, 1.5)).length() < 1e-13);
         }
@@ -152,7 +152,7 @@ proptest! {
             let mut transfer = Transfer::new(grid, kernel);
             transfer.locate(&[position]);
             let mut found = [Vec2::ZERO];
-            transfer.interpolate(&velocity, &mut found);
+            transfer.interpolate(&velocity, &mut found).unwrap();
             let [a, b] = [(position.x - x0) / h, (position.y - y0) / h];
             let mut expected = Vec2::ZERO;
             for column in a.floor() as i64 - 4..a.floor() as i64 + 5 {
@@ -216,16 +216,16 @@ fn polynomials_and_weights_one_by_one_transfer_alike() {
         fast.locate(&positions);
         slow.locate(&positions);
         let mut densities = [StaggeredField::zeros(grid), StaggeredField::zeros(grid)];
-        fast.spread(&forces, &mut densities[0]);
-        slow.spread(&forces, &mut densities[1]);
+        fast.spread(&forces, &mut densities[0]).unwrap();
+        slow.spread(&forces, &mut densities[1]).unwrap();
         let size = densities[1].x().iter().chain(densities[1].y()).fold(0.0_f64, |size, value| size.max(value.abs()));
         let pairs = densities[0].x().iter().zip(densities[1].x()).chain(densities[0].y().iter().zip(densities[1].y()));
         for (k, (fast, slow)) in pairs.enumerate() {
             assert!((fast - slow).abs() < 1e-13 * size, "{} {k}: {fast} {slow}", kernel.name());
         }
         let mut velocities = [vec![Vec2::ZERO; positions.len()], vec![Vec2::ZERO; positions.len()]];
-        fast.interpolate(&velocity, &mut velocities[0]);
-        slow.interpolate(&velocity, &mut velocities[1]);
+        fast.interpolate(&velocity, &mut velocities[0]).unwrap();
+        slow.interpolate(&velocity, &mut velocities[1]).unwrap();
         for (k, (fast, slow)) in velocities[0].iter().zip(&velocities[1]).enumerate() {
             assert!((fast - slow).length() < 1e-13, "{} at {:?}: {fast} {slow}", kernel.name(), positions[k]);
         }
@@ -245,14 +245,41 @@ fn what_is_not_in_the_box_does_no_harm() {
             let mut transfer = Transfer::new(grid, kernel);
             let mut alone = vec![Vec2::ZERO];
             transfer.locate(&[good]);
-            transfer.interpolate(&velocity, &mut alone);
+            transfer.interpolate(&velocity, &mut alone).unwrap();
             transfer.locate(&positions);
-            transfer.spread(&vec![Vec2::new(1.0, 2.0); positions.len()], &mut StaggeredField::zeros(grid));
+            transfer.spread(&vec![Vec2::new(1.0, 2.0); positions.len()], &mut StaggeredField::zeros(grid)).unwrap();
             let mut velocities = vec![Vec2::ZERO; positions.len()];
-            transfer.interpolate(&velocity, &mut velocities);
+            transfer.interpolate(&velocity, &mut velocities).unwrap();
             for chunk in velocities.chunks(4) {
                 assert!((chunk[1] - alone[0]).length() < 1e-15, "{}", kernel.name());
             }
         }
+    }
+}
+
+#[test]
+fn fields_of_other_grids_and_lists_of_other_lengths_are_refused() {
+    let [own, other] = [16, 8].map(|n| Grid::periodic(n, n, 0.1).unwrap());
+    let mut transfer = Transfer::new(own, CubicQuadratic::default());
+    transfer.locate(&[Vec2::ZERO, Vec2::new(0.75, -0.75)]);
+    let mut list = [Vec2::ZERO; 2];
+    for grid in [other, own.with_origin([0.0; 2]).unwrap(), Grid::channel(16, 16, 0.1).unwrap()] {
+        let mut field = StaggeredField::zeros(grid);
+        assert!(matches!(
+            transfer.spread(&list, &mut field),
+            Err(FlowError::Stokes(StokesError::GridMismatch { name: "the force density" }))
+        ));
+        assert!(matches!(
+            transfer.interpolate(&field, &mut list),
+            Err(FlowError::Stokes(StokesError::GridMismatch { name: "the velocity" }))
+        ));
+    }
+    let mut field = StaggeredField::zeros(own);
+    for count in [1, 3] {
+        let mut list = vec![Vec2::ZERO; count];
+        let expected = InputError::WrongLength { name: "the forces", expected: 2, found: count };
+        assert_eq!(transfer.spread(&list, &mut field), Err(FlowError::Input(expected)));
+        let expected = InputError::WrongLength { name: "the velocities", expected: 2, found: count };
+        assert_eq!(transfer.interpolate(&field, &mut list), Err(FlowError::Input(expected)));
     }
 }

@@ -16,7 +16,7 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
     let (mesh, displacements): (_, Vec<Vec2>) = (solid.mesh(), solid.displacements().collect());
     let mut shape = SolidShape::default();
     for (triangle, nodes) in mesh.triangles().iter().enumerate() {
-        shape.triangles.push(mesh.corners(triangle, solid.positions()));
+        shape.triangles.extend(mesh.corners(triangle, solid.positions()));
         shape.displacement.push(nodes.iter().map(|&node| displacements[node]).sum::<Vec2>().length() / 3.0);
     }
     shape.stress = stress_deviators(solid);
@@ -24,7 +24,7 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
     let mut end: Option<Vec2> = None;
     let mut around: Vec<Vec2> = Vec::new();
     for boundary in mesh.boundary_loops() {
-        let mut line = mesh.boundary_polygon(boundary, solid.positions());
+        let Some(mut line) = mesh.boundary_polygon(boundary, solid.positions()) else { continue };
         let period = f64::from(boundary.periods) * mesh.period().unwrap_or(0.0);
         line.push(line[0] + Vec2::new(period, 0.0));
         if boundary.periods == 0 {

@@ -79,6 +79,18 @@ pub enum SetupError {
         /// How deep it may be (length).
         allowed: f64,
     },
+    /// A droplet that starts in touch with another one, or with its own image.
+    #[error("{key} touches {other} at ({x:.4}, {y:.4}): leave a film of fluid between them")]
+    Touch {
+        /// Where it stands in the description, with its name if it has one of its own.
+        key: String,
+        /// The same of the other droplet.
+        other: String,
+        /// Where, in x.
+        x: f64,
+        /// Where, in y.
+        y: f64,
+    },
     /// A droplet inside another one whose fluid has a viscosity of its own.
     #[error(
         "{inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has {exterior}: move \

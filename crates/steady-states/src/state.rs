@@ -273,6 +273,7 @@ impl SteadyState {
                 velocities: &(0..fine).map(|k| at(&velocity, k)).collect::<Vec<_>>(),
                 numbers: &numbers,
                 viscosities: model.viscosities,
+                stresslet: None,
             },
             Convention::FarField,
         )?)

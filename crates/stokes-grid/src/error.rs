@@ -21,16 +21,18 @@ pub enum StokesError {
         /// The least number that works.
         minimum: usize,
     },
-    /// A grid whose number of points does not fit into memory.
-    #[error("a grid of {nx} x {ny} cells has more points than can be addressed: use fewer cells")]
+    /// A grid whose fields do not fit into memory.
+    #[error("a grid of {nx} x {ny} cells is too large: use at most {maximum} cells in all")]
     GridTooLarge {
         /// Cells in x.
         nx: usize,
         /// Cells in y.
         ny: usize,
+        /// The largest number of cells.
+        maximum: usize,
     },
-    /// A field made for another grid than the solver's.
-    #[error("{name} lives on another grid than the solver: make both from the same grid")]
+    /// A field made for another grid than that of the solver or transfer.
+    #[error("{name} lives on another grid: make both from the same grid")]
     GridMismatch {
         /// The field.
         name: &'static str,

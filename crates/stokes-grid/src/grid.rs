@@ -1,8 +1,8 @@
 //! Rectangular grids of square cells.
 
-use input_checks::{finite, positive};
+use input_checks::{all_finite, finite, positive};
 
-use crate::StokesError;
+use crate::{StokesError, error::checks::check_size};
 
 /// A rectangle of `nx` x `ny` square cells of width `h`, periodic in x, and in y either periodic or bounded by two
 /// walls.
@@ -30,11 +30,14 @@ impl Grid {
     /// The least number of cells in each direction.
     pub const MINIMUM_CELLS: usize = 2;
 
+    /// The most cells in all: velocities on them take 1 GB, a scene has some ten such fields.
+    pub const MAXIMUM_CELLS: usize = 1 << 26;
+
     /// A doubly periodic box of `nx` x `ny` cells of width `h` (length), centred on the origin of coordinates.
     ///
     /// # Errors
-    /// Fewer than [`Grid::MINIMUM_CELLS`] cells in a direction, more points than can be addressed, or a width that is
-    /// not positive and finite.
+    /// Fewer than [`Grid::MINIMUM_CELLS`] cells in a direction, more than [`Grid::MAXIMUM_CELLS`] in all, a width that
+    /// is not positive and finite, or extents that are not finite.
     pub fn periodic(nx: usize, ny: usize, h: f64) -> Result<Self, StokesError> {
         Self::new(nx, ny, h, false)
     }
@@ -53,11 +56,10 @@ impl Grid {
             return Err(StokesError::GridTooSmall { nx, ny, minimum: Self::MINIMUM_CELLS });
         }
         positive("grid spacing", h)?;
-        let points = ny.checked_add(1).and_then(|rows| rows.checked_mul(nx));
-        if points.is_none_or(|n| n > isize::MAX as usize / 64) {
-            return Err(StokesError::GridTooLarge { nx, ny });
-        }
-        let origin = [-0.5 * nx as f64 * h, -0.5 * ny as f64 * h];
+        check_size(nx, ny)?;
+        let lengths = [nx, ny].map(|cells| cells as f64 * h);
+        all_finite("the extents of the grid", &lengths)?;
+        let origin = lengths.map(|length| -0.5 * length);
         Ok(Self { nx, ny, h, origin, walls })
     }
 
@@ -118,3 +120,6 @@ impl Grid {
         self.ny + usize::from(self.walls)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -181,7 +181,8 @@ impl StokesSolver for PeriodicStokes {
         let (nx, ny, h) = (self.grid.nx(), self.grid.ny(), self.grid.spacing());
         let poisson = self.poisson.get_or_insert_with(|| Symbol::inverse_laplacian(nx, ny, -h));
         let out = pressure.values_mut();
-        self.transform.filter(
+        // Both are of the grid's size, so that the call cannot fail.
+        let _ = self.transform.filter(
             poisson,
             |j, row| stencil::divergence(force, j, row),
             |j, row| out[j * nx..][..nx].copy_from_slice(row),

@@ -6,7 +6,7 @@ mod symbol;
 
 use num_complex::Complex64;
 
-use crate::StokesError;
+use crate::{StokesError, error::checks::check_size};
 pub(crate) use columns::ColumnTransform;
 pub(crate) use rows::RowTransform;
 pub use symbol::Symbol;
@@ -40,11 +40,12 @@ impl RealFft2 {
     /// A plan for arrays of `nx` x `ny` values.
     ///
     /// # Errors
-    /// A size of zero.
+    /// A size of zero, or more than [`crate::Grid::MAXIMUM_CELLS`] values.
     pub fn new(nx: usize, ny: usize) -> Result<Self, StokesError> {
         if nx == 0 || ny == 0 {
             return Err(StokesError::GridTooSmall { nx, ny, minimum: 1 });
         }
+        check_size(nx, ny)?;
         let (rows, columns) = (RowTransform::new(nx), ColumnTransform::new(ny));
         let spectrum = vec![Complex64::ZERO; rows.width() * ny];
         Ok(Self { nx, ny, rows, columns, spectrum })
@@ -58,9 +59,9 @@ impl RealFft2 {
         }
     }
 
-    /// Transforms the columns of the plan's own spectrum, multiplies them and transforms them back.
+    /// Transforms the columns of the plan's own spectrum, multiplies them by a symbol of this size and transforms them
+    /// back.
     pub(crate) fn filter_columns(&mut self, symbol: &Symbol) {
-        assert!(symbol.fits(self.nx, self.ny), "a symbol for another size than the transform's");
         self.columns.filter(&mut self.spectrum, self.rows.width(), |m, column| symbol.apply(m, column));
     }
 
@@ -76,12 +77,21 @@ impl RealFft2 {
     /// rows of the result. One forward and one inverse transform, with the symbol applied to each column while it is in
     /// the cache.
     ///
-    /// # Panics
+    /// # Errors
     /// A symbol made for another size.
-    pub fn filter(&mut self, symbol: &Symbol, input: impl FnMut(usize, &mut [f64]), output: impl FnMut(usize, &[f64])) {
+    pub fn filter(
+        &mut self,
+        symbol: &Symbol,
+        input: impl FnMut(usize, &mut [f64]),
+        output: impl FnMut(usize, &[f64]),
+    ) -> Result<(), StokesError> {
+        if !symbol.fits(self.nx, self.ny) {
+            return Err(StokesError::GridMismatch { name: "the symbol" });
+        }
         self.forward_rows(input);
         self.filter_columns(symbol);
         self.inverse_rows(output);
+        Ok(())
     }
 }
 

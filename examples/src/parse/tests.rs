@@ -21,6 +21,32 @@ fn pairs() {
 }
 
 #[test]
+fn what_is_wrong_with_a_pair_is_told() {
+    assert_eq!(pair("1e8,0").unwrap_err(), "the first number must be a number from -1e6 to 1e6");
+    assert_eq!(pair("0,x").unwrap_err(), "the second number must be a number from -1e6 to 1e6");
+    assert_eq!(pair("1e8").unwrap_err(), "must be two numbers with a comma between them");
+}
+
+/// What is announced is what a description takes.
+#[test]
+fn ranges_of_counts() {
+    use motile::{Method, Setup};
+    for (text, taken) in [("15", false), ("16", true), ("4096", true), ("4097", false)] {
+        assert_eq!(nodes(text).is_ok(), taken, "{text}");
+        let [nodes, cells] = [text.parse().unwrap(), 16_384];
+        let setup = Setup { method: Method::Integral(IntegralMethod { nodes, cells }), ..Setup::default() };
+        assert_eq!(setup.check().is_ok(), taken, "{text}");
+    }
+    for (text, taken) in [("72", true), ("1000000", true), ("1000001", false)] {
+        assert_eq!(cells(text).is_ok(), taken, "{text}");
+        let [nodes, cells] = [72, text.parse().unwrap()];
+        let setup = Setup { method: Method::Integral(IntegralMethod { nodes, cells }), ..Setup::default() };
+        assert_eq!(setup.check().is_ok(), taken, "{text}");
+    }
+    assert_eq!(nodes("5000").unwrap_err(), "must be a whole number from 16 to 4096");
+}
+
+#[test]
 fn signs_and_sizes() {
     assert_eq!(activity("-2"), Ok(-2.0));
     assert_eq!(activity("0"), Ok(0.0));

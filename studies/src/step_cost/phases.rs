@@ -153,7 +153,7 @@ impl Pieces {
             density: StaggeredField::zeros(grid),
             velocities: Vec::new(),
             transform: RealFft2::new(nx, ny)?,
-            symbol: Symbol::new(nx, ny, |_, _| scale),
+            symbol: Symbol::new(nx, ny, |_, _| scale)?,
             field: (0..nx * ny).map(|i| ((i * i) as f64).sin()).collect(),
         })
     }
@@ -166,12 +166,13 @@ impl Pieces {
         let spread = twice(|| {
             transfer.locate(positions);
             density.fill(0.0);
-            transfer.spread(forces, density);
+            drop(transfer.spread(forces, density));
         });
-        let interpolate = twice(|| transfer.interpolate(density, velocities));
+        let interpolate = twice(|| drop(transfer.interpolate(density, velocities)));
         let transform = twice(|| {
             let mut sum = 0.0;
-            transform.filter(symbol, |j, row| row.copy_from_slice(&field[j * nx..][..nx]), |_, row| sum += row[0]);
+            let read = |j: usize, row: &mut [f64]| row.copy_from_slice(&field[j * nx..][..nx]);
+            drop(transform.filter(symbol, read, |_, row| sum += row[0]));
             std::hint::black_box(sum);
         });
         [spread, transform, interpolate]

@@ -13,12 +13,14 @@ mod cost;
 mod field;
 mod iterations;
 mod layer;
+mod stresslet;
 mod tables;
 
 pub use cost::{Cost, CostScene};
 pub use field::{FieldErrors, exact_flow, field_errors};
 pub use iterations::{Iterations, cold_iterations, iterations_in_a_run};
 pub use layer::{LayerErrors, layer_errors};
+pub use stresslet::StressletErrors;
 pub use tables::{RatioTen, ratio_ten};
 
 /// An ellipse with a tension along it and a viscosity inside, in a fluid of viscosity one.

@@ -23,6 +23,7 @@ impl<'a> InterfaceState<'a> {
             forces: flow.forces,
             velocities: flow.velocities,
             numbers: droplet.particle_numbers(),
+            stresslet: flow.stresslet,
             viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
         }
     }

@@ -54,6 +54,13 @@ impl Frame {
         Vec2::new(self.direction.dot(v), self.direction.perp_dot(v))
     }
 
+    /// A tensor along x and y, along the axes.
+    pub(crate) fn tensor(&self, [[xx, xy], [yx, yy]]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+        let [x, y] = [Vec2::new(xx, yx), Vec2::new(xy, yy)].map(|column| self.components(column));
+        let [along, across] = [Vec2::new(x.x, y.x), Vec2::new(x.y, y.y)].map(|row| self.components(row));
+        [along.into(), across.into()]
+    }
+
     /// Coordinates of the point `p` in the frame (length).
     #[must_use]
     pub fn coordinates(&self, p: Vec2) -> Vec2 {

@@ -47,6 +47,23 @@ impl ForceMoments {
         [[half, off], [off, -half]]
     }
 
+    /// Moves the stresslet by a `share` of the way from that of the `far_field` convention to the `known` one of the flow
+    /// far away, in these axes; in the other convention, whose viscous term has the other sign, by as much back.
+    pub(super) fn shift_stresslet(
+        &mut self,
+        share: f64,
+        far_field: &Self,
+        known: [[f64; 2]; 2],
+        convention: Convention,
+    ) {
+        let (computed, sign) = (far_field.stresslet(), if convention == Convention::FarField { 1.0 } else { -1.0 });
+        for (i, row) in self.dipole.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry += sign * share * (known[i][j] - computed[i][j]);
+            }
+        }
+    }
+
     /// The symmetric part S_ijk of F_ijk (force times length squared), its mean over the six orders of the indices, eq.
     /// (2.54).
     #[must_use]

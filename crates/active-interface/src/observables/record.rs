@@ -25,6 +25,9 @@ pub struct InterfaceState<'a> {
     pub numbers: &'a [f64],
     /// Viscosities inside and outside (stress times time).
     pub viscosities: [f64; 2],
+    /// The stresslet (force times length, along x and y) of the flow around the interface where it is known otherwise
+    /// than from forces and velocities, which for very different viscosities give it as a small difference.
+    pub stresslet: Option<[[f64; 2]; 2]>,
 }
 
 /// Modes of shape and concentration that are recorded.
@@ -76,7 +79,7 @@ pub struct Observables {
 /// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
 /// no area.
 pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
-    let InterfaceState { markers, forces, velocities, numbers, viscosities } = *state;
+    let InterfaceState { markers, forces, velocities, numbers, viscosities, stresslet } = *state;
     at_least("markers", markers.len(), 8)?;
     same_length("velocities", markers.len(), velocities.len())?;
     all_points_finite("the velocities", velocities)?;
@@ -84,6 +87,13 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
     let velocity = raw_centroid_velocity(markers, velocities, &area);
     let frame = Frame::of_motion(area.centroid, velocity)?;
 
+    let mut moments = force_moments(markers, forces, velocities, viscosities, convention, &frame)?;
+    if let Some(known) = stresslet {
+        let far_field = force_moments(markers, forces, velocities, viscosities, Convention::FarField, &frame)?;
+        // All of it for a very viscous droplet, continuous where viscosities become equal.
+        let share = (1.0 - viscosities[1] / viscosities[0]).max(0.0);
+        moments.shift_stresslet(share, &far_field, frame.tensor(known), convention);
+    }
     let mut record = Observables {
         centroid: area.centroid,
         velocity,
@@ -95,7 +105,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         ellipse: fit_ellipse(markers, &frame).ok(),
         active_region: None,
         active_curvature: None,
-        moments: force_moments(markers, forces, velocities, viscosities, convention, &frame)?,
+        moments,
         convention,
         squirmer: squirmer_coefficients(markers, velocities, VelocityFrame::CoMoving, &frame)?,
         squirmer_laboratory: squirmer_coefficients(markers, velocities, VelocityFrame::Laboratory, &frame)?,

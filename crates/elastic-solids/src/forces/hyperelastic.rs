@@ -37,12 +37,13 @@ impl<E: EnergyDensity> Hyperelastic<E> {
         Ok(Self { elements: Element::all(mesh), materials, points: mesh.points().len() })
     }
 
-    /// The material of a triangle.
-    ///
-    /// # Panics
-    /// A triangle beyond the last.
+    /// The material of a triangle; `None` for one beyond the last.
     #[must_use]
-    pub fn material(&self, triangle: usize) -> &E {
+    pub fn material(&self, triangle: usize) -> Option<&E> {
+        (triangle < self.elements.len()).then(|| self.raw_material(triangle))
+    }
+
+    fn raw_material(&self, triangle: usize) -> &E {
         &self.materials[if self.materials.len() == 1 { 0 } else { triangle }]
     }
 }
@@ -58,7 +59,7 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
         for (triangle, element) in self.elements.iter().enumerate() {
             let gradient = DeformationGradient::checked(element.gradient(positions))
                 .ok_or_else(|| element.inverted(triangle, positions))?;
-            element.add_forces(&self.material(triangle).stress(&gradient), forces);
+            element.add_forces(&self.raw_material(triangle).stress(&gradient), forces);
         }
         Ok(())
     }
@@ -69,13 +70,13 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
         for (triangle, element) in self.elements.iter().enumerate() {
             let gradient = DeformationGradient::checked(element.gradient(positions))
                 .ok_or_else(|| element.inverted(triangle, positions))?;
-            energy += self.material(triangle).energy(&gradient) * element.area;
+            energy += self.raw_material(triangle).energy(&gradient) * element.area;
         }
         Ok(energy)
     }
 
     fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2> {
-        Some(self.material(triangle).stress(&DeformationGradient::checked(*gradient)?))
+        Some(self.material(triangle)?.stress(&DeformationGradient::checked(*gradient)?))
     }
 
     fn stiffest(&self) -> Moduli {
@@ -101,7 +102,7 @@ impl Element {
     fn all(mesh: &TriangleMesh) -> Vec<Self> {
         (0..mesh.triangles().len())
             .map(|number| {
-                let at = mesh.corners(number, mesh.points());
+                let at = mesh.raw_corners(number, mesh.points());
                 let home = mesh.triangles()[number];
                 Self {
                     corners: home.map(|point| point as u32),

@@ -61,7 +61,7 @@ impl Springs {
     pub fn graded(mesh: &TriangleMesh, mut shear: impl FnMut(Vec2) -> f64) -> Result<Self, SolidError> {
         let sides = (0..mesh.triangles().len())
             .map(|triangle| {
-                let [a, b, c] = mesh.corners(triangle, mesh.points());
+                let [a, b, c] = mesh.raw_corners(triangle, mesh.points());
                 Ok(([b - a, c - b, a - c], positive("the shear modulus", shear(mesh.centroid(triangle)))?))
             })
             .collect::<Result<Vec<_>, SolidError>>()?;
@@ -120,7 +120,7 @@ impl ElasticForces for Springs {
     /// A triangle's share of the springs along its sides, which is a material of its own with the energy
     /// `4 mu/3 sum of (|A s|/d - 1)^2` over the sides s.
     fn stress(&self, triangle: usize, gradient: &Mat2) -> Option<Mat2> {
-        let (sides, shear) = &self.sides[triangle];
+        let (sides, shear) = self.sides.get(triangle)?;
         let mut stress = Mat2::ZERO;
         for side in sides {
             let (rest, now) = (side.length(), gradient * side);

@@ -11,7 +11,7 @@ use crate::{SolidError, TriangleMesh};
 mod join;
 mod parse;
 
-use join::join_ends;
+use join::{first_of_same, join_ends};
 use parse::{Contents, parse};
 
 /// Triangles that belong together, by the name or number that Gmsh has for them.
@@ -57,9 +57,15 @@ impl GmshMesh {
     ///
     /// # Errors
     /// [`SolidError::Gmsh`] with the line for text that is not in the format, other versions, binary files, elements
-    /// that are not triangles of three points; those of [`TriangleMesh::new`].
+    /// that are not triangles of three points; points that coincide, to 1e-3 of the shortest edge
+    /// ([`SolidError::CoincidentPoints`]); those of [`TriangleMesh::new`].
     pub fn from_text(text: &str) -> Result<Self, SolidError> {
         let Contents { points, triangles, groups } = parse(text)?;
+        let first = first_of_same(&points, &triangles, None);
+        if let Some((second, &first)) = first.iter().enumerate().find(|(number, first)| *number != **first) {
+            let [x, y] = points[second].into();
+            return Err(SolidError::CoincidentPoints { first, second, x, y });
+        }
         Ok(Self { mesh: TriangleMesh::new(points, triangles)?, groups })
     }
 
@@ -121,7 +127,7 @@ impl GmshMesh {
         let triangles = (0..self.mesh.triangles().len())
             .map(|number| {
                 let mut triangle = self.mesh.triangles()[number];
-                let corners = self.mesh.corners(number, self.mesh.points());
+                let corners = self.mesh.raw_corners(number, self.mesh.points());
                 for (point, corner) in triangle.iter_mut().zip(corners) {
                     let home = self.mesh.points()[*point];
                     if corner.x != home.x {

@@ -54,7 +54,7 @@ impl TriangleMesh {
         let uneven = lengths.iter().filter(|&length| (length - mean).abs() > 0.2 * mean).count() as f64;
         let (mut smallest, mut largest) = (f64::INFINITY, 0.0_f64);
         for triangle in 0..self.triangles().len() {
-            let corners = self.corners(triangle, self.points());
+            let corners = self.raw_corners(triangle, self.points());
             for k in 0..3 {
                 let (a, b) = (corners[(k + 1) % 3] - corners[k], corners[(k + 2) % 3] - corners[k]);
                 let angle = a.perp_dot(b).atan2(a.dot(b));

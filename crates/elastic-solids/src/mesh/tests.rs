@@ -31,7 +31,7 @@ fn a_frame_has_two_loops_with_the_solid_to_their_left() {
         .boundary_loops()
         .iter()
         .map(|boundary| {
-            let polygon = mesh.boundary_polygon(boundary, mesh.points());
+            let polygon = mesh.raw_polygon(boundary, mesh.points());
             (0..polygon.len()).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum()
         })
         .collect();
@@ -75,14 +75,36 @@ fn triangles_across_the_seam_are_as_large_as_the_others() {
     // Moved as a whole by more than a period, nothing changes.
     let moved: Vec<Vec2> = mesh.points().iter().map(|p| p + v(5.7, 1.0)).collect();
     for triangle in 0..8 {
-        let corners = mesh.corners(triangle, &moved);
+        let corners = mesh.raw_corners(triangle, &moved);
         assert!(((corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) - 1.0).abs() < 1e-13);
     }
     for boundary in mesh.boundary_loops() {
-        let polygon = mesh.boundary_polygon(boundary, &moved);
+        let polygon = mesh.raw_polygon(boundary, &moved);
         let advance = polygon[3].x - polygon[0].x;
         assert!((advance - 3.0 * f64::from(boundary.periods)).abs() < 1e-13);
     }
+}
+
+#[test]
+fn what_a_mesh_does_not_have() {
+    let mesh = equilateral_strip(v(0.0, 0.0), 4, 2, 1.0).unwrap();
+    let points = mesh.points();
+    assert!(mesh.corners(15, points).is_some() && mesh.corners(16, points).is_none());
+    assert!(mesh.corners(99, points).is_none() && mesh.corners(0, &points[1..]).is_none());
+    let boundary = &mesh.boundary_loops()[0];
+    assert!(mesh.boundary_polygon(boundary, points).is_some());
+    assert!(mesh.boundary_polygon(boundary, &points[1..]).is_none());
+    let foreign = BoundaryLoop { points: vec![0, 99], periods: 0 };
+    assert!(mesh.boundary_polygon(&foreign, points).is_none());
+    let material = crate::NeoHookean::new(1.0, 2.0).unwrap();
+    let law = crate::forces::Hyperelastic::new(&mesh, material);
+    assert!(law.material(15).is_some() && law.material(16).is_none());
+    for law in [&law as &dyn crate::ElasticForces, &crate::forces::Springs::new(&mesh, 1.0).unwrap()] {
+        let stress = |triangle| law.stress(triangle, &crate::material::Mat2::IDENTITY);
+        assert!(stress(15).is_some() && stress(16).is_none());
+    }
+    let solid = crate::Solid::hyperelastic(mesh, material);
+    assert!(solid.gradient(15).is_some() && solid.gradient(16).is_none());
 }
 
 #[test]

@@ -173,7 +173,7 @@ proptest! {
         let outline = Outline::closed(shape).unwrap();
         let spacing = size / 8.0;
         let mesh = outline.mesh(spacing).unwrap();
-        let polygon = mesh.boundary_polygon(&mesh.boundary_loops()[0], mesh.points());
+        let polygon = mesh.raw_polygon(&mesh.boundary_loops()[0], mesh.points());
         for point in &polygon {
             let arm = point - v(x, y);
             prop_assert!((arm.length() - radius(arm.y.atan2(arm.x))).abs() < 1e-12 * (1.0 + x.abs() + y.abs()) * size);

@@ -64,7 +64,7 @@ impl Solid {
     fn largest_normal_displacement(&self) -> f64 {
         let mut largest = 0.0_f64;
         for boundary in self.mesh.boundary_loops() {
-            let polygon = self.mesh.boundary_polygon(boundary, self.mesh.points());
+            let polygon = self.mesh.raw_polygon(boundary, self.mesh.points());
             let count = polygon.len();
             let advance = Vec2::new(f64::from(boundary.periods) * self.mesh.period().unwrap_or(0.0), 0.0);
             for (k, &point) in boundary.points.iter().enumerate() {
@@ -96,7 +96,7 @@ impl Solid {
     /// J of each triangle, its deformed over its reference area; negative where it is inverted.
     pub fn jacobians(&self) -> impl Iterator<Item = f64> {
         self.mesh.areas().iter().enumerate().map(|(triangle, area)| {
-            let [a, b, c] = self.mesh.corners(triangle, &self.positions);
+            let [a, b, c] = self.mesh.raw_corners(triangle, &self.positions);
             0.5 * (b - a).perp_dot(c - a) / area
         })
     }
@@ -115,14 +115,14 @@ impl Solid {
     pub(crate) fn check_inversion(&self) -> Result<(), SolidError> {
         // Mostly none is; the sign alone takes no division and no search.
         let upright = |triangle: usize| {
-            let [a, b, c] = self.mesh.corners(triangle, &self.positions);
+            let [a, b, c] = self.mesh.raw_corners(triangle, &self.positions);
             (b - a).perp_dot(c - a) > 0.0
         };
         if (0..self.mesh.triangles().len()).all(upright) {
             return Ok(());
         }
         let (jacobian, triangle) = self.smallest_jacobian();
-        let place = self.mesh.corners(triangle, &self.positions).iter().sum::<Vec2>() / 3.0;
+        let place = self.mesh.raw_corners(triangle, &self.positions).iter().sum::<Vec2>() / 3.0;
         Err(SolidError::Inverted { triangle, x: place.x, y: place.y, jacobian })
     }
 
@@ -133,7 +133,7 @@ impl Solid {
     pub fn stresses(&self) -> Result<Vec<Mat2>, SolidError> {
         self.check_inversion()?;
         let stress = |triangle: usize, jacobian: f64| {
-            let gradient = self.gradient(triangle);
+            let gradient = self.raw_gradient(triangle);
             let inverted = |place: Vec2| SolidError::Inverted { triangle, x: place.x, y: place.y, jacobian };
             let stress = self.law.stress(triangle, &gradient);
             let stress = stress.ok_or_else(|| inverted(self.mesh.centroid(triangle)))?;
@@ -142,14 +142,15 @@ impl Solid {
         self.jacobians().enumerate().map(|(triangle, jacobian)| stress(triangle, jacobian)).collect()
     }
 
-    /// Deformation gradient A of a triangle (4.10).
-    ///
-    /// # Panics
-    /// A triangle beyond the last.
+    /// Deformation gradient A of a triangle (4.10); `None` for one beyond the last.
     #[must_use]
-    pub fn gradient(&self, triangle: usize) -> Mat2 {
+    pub fn gradient(&self, triangle: usize) -> Option<Mat2> {
+        (triangle < self.mesh.triangles().len()).then(|| self.raw_gradient(triangle))
+    }
+
+    fn raw_gradient(&self, triangle: usize) -> Mat2 {
         let sides = |positions: &[Vec2]| {
-            let [a, b, c] = self.mesh.corners(triangle, positions);
+            let [a, b, c] = self.mesh.raw_corners(triangle, positions);
             Mat2::from_cols(b - a, c - a)
         };
         sides(&self.positions) * sides(self.mesh.points()).inverse()
@@ -159,6 +160,6 @@ impl Solid {
     /// which faces down, from left to right; `None` where there is none.
     pub(crate) fn surface(&self, periods: i32) -> Option<Vec<Vec2>> {
         let boundary = self.mesh.boundary_loops().iter().find(|boundary| boundary.periods == periods)?;
-        Some(self.mesh.boundary_polygon(boundary, &self.positions))
+        Some(self.mesh.raw_polygon(boundary, &self.positions))
     }
 }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use input_checks::{InputError, same_length};
 use stokes_layers::Vec2;
 
 /// What a group of markers is, as far as the flow is concerned.
@@ -48,7 +49,8 @@ pub struct MarkerGroup {
     pub kind: MarkerKind,
 }
 
-/// Positions, forces and velocities of the markers of all bodies, body after body.
+/// Positions, forces and velocities of the markers of all bodies, body after body: lists as long as all groups together,
+/// which flows check ([`Markers::check`]).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Markers {
     /// Positions (length), not wrapped into the box.
@@ -78,6 +80,17 @@ impl Markers {
     pub fn clear(&mut self) {
         self.groups.clear();
         self.resize(0);
+    }
+
+    /// Whether the lists are as long as the groups together.
+    ///
+    /// # Errors
+    /// A list that has been made longer or shorter.
+    pub fn check(&self) -> Result<(), InputError> {
+        let count = self.groups.last().map_or(0, |group| group.range.end);
+        same_length("the positions of the markers", count, self.positions.len())?;
+        same_length("the forces on the markers", count, self.forces.len())?;
+        same_length("the velocities of the markers", count, self.velocities.len())
     }
 
     fn resize(&mut self, count: usize) {

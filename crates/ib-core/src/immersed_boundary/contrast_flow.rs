@@ -5,6 +5,7 @@ use stokes_layers::{Forcing, Geometry};
 
 use super::{ImmersedBoundary, sampling};
 use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
+use crate::gap::wall_gap;
 use crate::mobility::{Clearance, Setting};
 use crate::{
     FlowError, FlowSample, Kernel, Markers, Transfer, Vec2, checkpoint::SavedState, hydrodynamics::SolveReport,
@@ -70,6 +71,19 @@ impl<K: Kernel> ContrastFlow<K> {
         self.contrast.restore(&saved);
     }
 
+    /// The stresslet of the flow around a droplet; `None` for markers that are no droplet of a larger viscosity: for a
+    /// smaller one forces and velocities give it without a loss.
+    pub(super) fn stresslet(&self, group: usize) -> Result<Option<[[f64; 2]; 2]>, FlowError> {
+        let Some(index) = self.contrast.droplets().iter().position(|droplet| droplet.group == group) else {
+            return Ok(None);
+        };
+        if self.contrast.curves()[index].contrast <= 0.0 {
+            return Ok(None);
+        }
+        let Nodes { forces, other, velocities, .. } = &self.nodes;
+        self.contrast.stresslet(index, forces, other, velocities).map(Some)
+    }
+
     /// Takes over the droplets.
     fn load(&mut self, grid: &Grid, markers: &Markers) -> Result<(), FlowError> {
         self.contrast.load(markers)?;
@@ -82,8 +96,7 @@ impl<K: Kernel> ContrastFlow<K> {
             positions.extend_from_slice(&markers.positions[droplet.markers.clone()]);
             forces.extend_from_slice(&markers.forces[droplet.markers.clone()]);
             velocities.extend_from_slice(&markers.velocities[droplet.markers.clone()]);
-            let group = markers.groups().iter().position(|group| group.range == droplet.markers).unwrap_or_default();
-            gaps.extend_from_slice(self.clearance.gaps(markers, group, grid.spacing(), grid.lengths()[0]));
+            gaps.extend_from_slice(self.clearance.gaps(markers, droplet.group, grid.spacing(), grid.lengths()[0]));
         }
         for array in [own, rigid, pulled, other, target] {
             array.resize(positions.len(), Vec2::ZERO);
@@ -139,6 +152,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
 
     fn contrast_with(&mut self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         flow.load(self.solver.grid(), markers)?;
+        self.check_films(flow, markers)?;
         self.work.evaluations += 1;
         let mut gradient = self.solve_others(flow, markers)?;
         let prepared = flow.contrast.prepare()?;
@@ -153,7 +167,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             let found = self.find_equivalent(flow)?;
             (iterations, residual) = (iterations + found.iterations, residual.max(found.residual));
             self.solve_droplets(&flow.transfer, &flow.imposed, flow.equivalent.forces())?;
-            self.add_to_others(flow, markers);
+            self.add_to_others(flow, markers)?;
         }
         for (droplet, curve) in flow.contrast.droplets().iter().zip(flow.contrast.curves()) {
             let velocities = &flow.nodes.velocities[curve.first..][..curve.len()];
@@ -164,6 +178,19 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         self.velocity.combine(1.0, 1.0, &flow.other);
         self.density.combine(1.0, 1.0, &flow.other_density);
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: gradient })
+    }
+
+    /// Refuses films at walls that are thinner than half the distance of a droplet's markers.
+    fn check_films(&self, flow: &ContrastFlow<K>, markers: &Markers) -> Result<(), FlowError> {
+        let Some(walls) = self.walls() else { return Ok(()) };
+        for (droplet, curve) in flow.contrast.droplets().iter().zip(flow.contrast.curves()) {
+            let gap = wall_gap(&markers.positions[droplet.markers.clone()], walls);
+            let least = 0.5 * curve.perimeter() / curve.len() as f64;
+            if gap < least {
+                return Err(FlowError::Film { body: droplet.group, gap, least });
+            }
+        }
+        Ok(())
     }
 
     /// The flow of all forces but the droplets' and of what is imposed: at the droplets' nodes, at the other markers
@@ -197,9 +224,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             markers.velocities.fill(Vec2::ZERO);
             return Ok(gradient);
         }
-        flow.transfer.interpolate(&flow.other, &mut flow.nodes.other);
+        flow.transfer.interpolate(&flow.other, &mut flow.nodes.other)?;
         if !flow.contrast.others().is_empty() {
-            self.transfer.interpolate(&flow.other, &mut markers.velocities);
+            self.transfer.interpolate(&flow.other, &mut markers.velocities)?;
             for index in 0..markers.groups().len() {
                 let start = markers.groups()[index].range.start;
                 if flow.contrast.others().binary_search(&start).is_ok() {
@@ -236,7 +263,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         velocities: &mut [Vec2],
     ) -> Result<[f64; 2], FlowError> {
         let gradient = self.solve_droplets(transfer, imposed, forces)?;
-        transfer.interpolate(&self.velocity, velocities);
+        transfer.interpolate(&self.velocity, velocities)?;
         self.correct_droplets(contrast, gaps, positions, forces, velocities)?;
         Ok(gradient)
     }
@@ -249,7 +276,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         forces: &[Vec2],
     ) -> Result<[f64; 2], FlowError> {
         self.density.fill(0.0);
-        transfer.spread(forces, &mut self.density);
+        transfer.spread(forces, &mut self.density)?;
         let mut gradient = self.solve_density(forces.len())?.mean_pressure_gradient;
         if let Some((imposed, fixed)) = imposed {
             self.velocity.combine(1.0, -1.0, imposed);
@@ -398,8 +425,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     }
 
     /// Adds the flow of the equivalent forces, which is on the grid, at the markers that are not on droplets.
-    fn add_to_others(&self, flow: &mut ContrastFlow<K>, markers: &mut Markers) {
-        self.transfer.interpolate(&self.velocity, &mut flow.all);
+    fn add_to_others(&self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<(), FlowError> {
+        self.transfer.interpolate(&self.velocity, &mut flow.all)?;
         let reach = self.reach();
         let velocity = |point| sampling::smooth_velocity(&self.velocity, point);
         for &marker in flow.contrast.others() {
@@ -414,6 +441,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
                 None => far,
             };
         }
+        Ok(())
     }
 
     pub(super) fn setting(&self) -> Setting {

@@ -53,7 +53,7 @@ impl Indicator {
         let symbol = Symbol::new(nx, rows, |m, n| {
             let laplacian = -(difference(m, nx) + difference(n, rows)) / (h * h);
             if m == 0 && n == 0 { 0.0 } else { 1.0 / laplacian }
-        });
+        })?;
         Ok(Self { transform: RealFft2::new(nx, rows)?, symbol, rows })
     }
 
@@ -63,7 +63,8 @@ impl Indicator {
         let (nx, ny, h) = (grid.nx(), grid.ny(), grid.spacing());
         let (x, y) = (field.x(), field.y());
         let folded = self.rows > ny;
-        self.transform.filter(
+        // Made of one size, so that the call cannot fail.
+        let _ = self.transform.filter(
             &self.symbol,
             |j, row| {
                 let (j, sign) = if j < ny { (j, -1.0) } else { (2 * ny - 1 - j, 1.0) };
@@ -153,7 +154,7 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
         self.varies = !self.spread.is_empty();
         self.normals.fill(0.0);
         self.transfer.locate(&self.positions);
-        self.transfer.spread(&self.spread, &mut self.normals);
+        self.transfer.spread(&self.spread, &mut self.normals)?;
         let (nx, ny) = (grid.nx(), grid.ny());
         let centres = self.centres.values_mut();
         self.indicator.solve(&self.normals, centres);

@@ -36,6 +36,27 @@ fn coupling_of_tangent_and_normal() {
     }
 }
 
+/// The coefficients in cos(4 angle) and cos(8 angle) stand for the deficits in every direction.
+#[test]
+fn every_direction() {
+    let table = MobilityDeficit::new(&CubicQuadratic::default());
+    let transforms = Transforms::new(&CubicQuadratic::default());
+    for q in [0.1, 0.5, 1.0] {
+        let deficit = table.at(q);
+        for angle in [0.0, 0.1, 0.2, 0.3, std::f64::consts::FRAC_PI_8, 0.6, std::f64::consts::FRAC_PI_4] {
+            let [tangential, normal, cross] = deficits(&transforms, q, angle);
+            let z = 0.25 * (4.0 * angle).cos();
+            let along = deficit.tangential + deficit.tangential_slope * z;
+            let along = along + deficit.tangential_curvature * (32.0 * z * z - 1.0);
+            // What is left of the series is a part of its last term.
+            let rest = 0.3 * deficit.tangential_curvature.abs() + 1e-5;
+            assert!((along - tangential).abs() < rest, "q {q}, {angle}: {along} {tangential} {deficit:?}");
+            assert!((deficit.normal + deficit.normal_slope * z - normal).abs() < 1e-3, "q {q}, {angle}: {normal}");
+            assert!((deficit.cross * (4.0 * angle).sin() - cross).abs() < 5e-4, "q {q}, {angle}: {cross}");
+        }
+    }
+}
+
 #[test]
 fn zero_wave_number_is_the_kink_constant() {
     // Direct quadrature of the same integral at q = 0 (a script with 1.2e5 trapezoidal points), 0 and 45 degrees.

@@ -47,7 +47,7 @@ impl Pieces {
         self.displacement.extend(solid.displacements());
         let mut images: HashMap<(usize, bool), usize> = HashMap::new();
         for (triangle, home) in mesh.triangles().iter().enumerate() {
-            let at = mesh.corners(triangle, solid.positions());
+            let Some(at) = mesh.corners(triangle, solid.positions()) else { continue };
             self.triangles.push([0, 1, 2].map(|k| {
                 let ahead = at[k].x - solid.positions()[home[k]].x;
                 if ahead == 0.0 {

@@ -33,7 +33,7 @@ const FILM: f64 = 0.05;
 /// A squeezed droplet's least half height, over its radius.
 const FLATTEST: f64 = 0.1;
 /// Most markers of an interface.
-pub(super) const MOST_MARKERS: f64 = 1e6;
+pub(super) const MOST_MARKERS: f64 = IntegralMethod::MOST_CELLS as f64;
 
 impl Setup {
     /// Makes the scene. Nothing large is allocated before [`Setup::check`] has passed.

@@ -12,8 +12,6 @@ use crate::SetupError;
 
 /// Most cells of a grid in a direction, and in all.
 const MOST_CELLS: [f64; 2] = [16_384.0, 1.7e7];
-/// Shape nodes of boundary integrals.
-const NODES: [usize; 2] = [16, 4096];
 /// Markers of an interface, and cells of its concentration.
 const MARKERS: [f64; 2] = [8.0, super::build::MOST_MARKERS];
 /// Largest length over the grid spacing that a solid may have.
@@ -105,7 +103,7 @@ impl Setup {
 
     fn check_integral(&self, &IntegralMethod { nodes, cells }: &IntegralMethod) -> Result<(), SetupError> {
         let checked = Checked { place: "method.integral" };
-        let [least, most] = NODES;
+        let [least, most] = IntegralMethod::NODES;
         if !(least..=most).contains(&nodes) {
             checked.refuse("nodes", &nodes, format!("give a number from {least} to {most}"))?;
         }

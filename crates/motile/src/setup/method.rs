@@ -54,6 +54,13 @@ pub struct IntegralMethod {
     pub cells: usize,
 }
 
+impl IntegralMethod {
+    /// Fewest and most nodes.
+    pub const NODES: [usize; 2] = [16, 4096];
+    /// Most cells.
+    pub const MOST_CELLS: usize = 1_000_000;
+}
+
 impl Default for IntegralMethod {
     fn default() -> Self {
         Self { nodes: 72, cells: 288 }

@@ -9,7 +9,8 @@ use super::{DropletSetup, Region, Setup, SolidSetup};
 use crate::SetupError;
 
 impl Setup {
-    /// Refuses bodies that reach beyond the region, overlap their own images, or lie in one another as they cannot.
+    /// Refuses bodies that reach beyond the region, overlap their own images, or lie in one another as they
+    /// cannot, and droplets without fluid between them.
     pub(super) fn check_places(
         &self,
         droplets: &[ActiveDroplet],
@@ -31,8 +32,12 @@ impl Setup {
             }
             bodies.push((boundary, MarkerKind::Points));
         }
-        match Gaps::of(bodies).conflict(discretisation) {
-            None => Ok(()),
+        let gaps = Gaps::of(bodies);
+        match gaps.conflict(discretisation) {
+            None => gaps.contact(discretisation).map_or(Ok(()), |(body, other, place)| {
+                let ([key, other], [x, y]) = ([body, other].map(|body| self.key(body)), place.into());
+                Err(SetupError::Touch { key, other, x, y })
+            }),
             Some(Conflict::Nested { inner, outer, interior, exterior }) => {
                 let [inner, outer] = [inner, outer].map(|body| self.key(body));
                 Err(SetupError::Nested { inner, outer, interior, exterior })

@@ -151,6 +151,11 @@ fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
             let (said, start) = (refused(&pair(x, 1.0, None)), format!("droplets[1] overlaps droplets[0]{depth}"));
             assert!(said.starts_with(&start) && said.contains("move them apart"), "{x}: {said}");
         }
+        for x in [2.0, 4.0] {
+            let said = refused(&pair(x, 1.0, None));
+            assert!(said.starts_with("droplets[1] touches droplets[0] at ("), "{x}: {said}");
+        }
+        assert!(pair(2.02, 1.0, None).build().is_ok() && pair(3.98, 1.0, None).build().is_ok());
         let nested = refused(&pair(0.2, 0.5, Some(50.0)));
         let start = "droplets[1] lies inside droplets[0], whose fluid has the viscosity 50 where the exterior has 100";
         assert!(nested.starts_with(start), "{nested}");

@@ -2,6 +2,8 @@
 
 use num_complex::Complex64;
 
+use crate::{StokesError, error::checks::check_size};
+
 /// A real factor for each wave number that does not change when a wave number changes its sign: the effect of a
 /// symmetric linear operator with constant coefficients, to be applied by [`crate::RealFft2::filter`].
 #[derive(Debug, Clone, PartialEq)]
@@ -14,17 +16,25 @@ pub struct Symbol {
 impl Symbol {
     /// Minus the inverse of h^2 times the five-point Laplacian, times `factor`; the constant goes to zero.
     pub(crate) fn inverse_laplacian(nx: usize, ny: usize, factor: f64) -> Self {
-        Self::new(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny) })
+        Self::of_size(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny) })
     }
 
     /// The inverse of h^4 times the square of the five-point Laplacian, times `factor`; the constant goes to zero.
     pub(crate) fn inverse_biharmonic(nx: usize, ny: usize, factor: f64) -> Self {
-        Self::new(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny).powi(2) })
+        Self::of_size(nx, ny, |m, n| if m == 0 && n == 0 { 0.0 } else { factor / laplacian(m, n, nx, ny).powi(2) })
     }
 
     /// The factors `factor(m, n)` for m = 0..=nx/2 and n = 0..=ny/2; all others follow by symmetry. The `1 / (nx ny)`
     /// of a forward and an inverse transform is put in here, so that a factor of one everywhere gives the identity.
-    pub fn new(nx: usize, ny: usize, factor: impl Fn(usize, usize) -> f64) -> Self {
+    ///
+    /// # Errors
+    /// More than [`crate::Grid::MAXIMUM_CELLS`] values.
+    pub fn new(nx: usize, ny: usize, factor: impl Fn(usize, usize) -> f64) -> Result<Self, StokesError> {
+        check_size(nx, ny)?;
+        Ok(Self::of_size(nx, ny, factor))
+    }
+
+    fn of_size(nx: usize, ny: usize, factor: impl Fn(usize, usize) -> f64) -> Self {
         let scale = 1.0 / (nx as f64 * ny as f64);
         let mut values = Vec::with_capacity((nx / 2 + 1) * (ny / 2 + 1));
         for m in 0..=nx / 2 {

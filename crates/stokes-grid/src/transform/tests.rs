@@ -23,14 +23,11 @@ fn a_filter_multiplies_each_wave_number() {
     for (nx, ny) in SIZES {
         let mut transform = RealFft2::new(nx, ny).unwrap();
         let factor = |m: usize, n: usize| 1.0 / (1.0 + (m * m) as f64 + 3.0 * n as f64);
-        let symbol = Symbol::new(nx, ny, factor);
+        let symbol = Symbol::new(nx, ny, factor).unwrap();
         let (f, mut filtered) = (field(nx, ny), vec![0.0; nx * ny]);
         let rows = |j: usize| j * nx..(j + 1) * nx;
-        transform.filter(
-            &symbol,
-            |j, row| row.copy_from_slice(&f[rows(j)]),
-            |j, row| filtered[rows(j)].copy_from_slice(row),
-        );
+        let read = |j: usize, row: &mut [f64]| row.copy_from_slice(&f[rows(j)]);
+        transform.filter(&symbol, read, |j, row| filtered[rows(j)].copy_from_slice(row)).unwrap();
         for (m, n) in (0..nx * ny).map(|k| (k % nx, k / nx)) {
             let expected = definition(&f, nx, ny, m, n) * factor(m.min(nx - m), n.min(ny - n));
             let value = definition(&filtered, nx, ny, m, n);
@@ -40,6 +37,18 @@ fn a_filter_multiplies_each_wave_number() {
 }
 
 #[test]
-fn a_plan_for_nothing_is_refused() {
+fn plans_for_nothing_and_for_other_sizes_are_refused() {
     assert!(matches!(RealFft2::new(0, 4), Err(StokesError::GridTooSmall { .. })));
+    let mut transform = RealFft2::new(6, 4).unwrap();
+    let found = transform.filter(&Symbol::new(4, 6, |_, _| 1.0).unwrap(), |_, _| (), |_, _| ());
+    assert_eq!(found, Err(StokesError::GridMismatch { name: "the symbol" }));
+}
+
+/// Sizes are looked at before anything is allocated.
+#[test]
+fn sizes_beyond_memory_are_refused() {
+    for (nx, ny) in [(1 << 18, 1 << 18), (usize::MAX, 2), (usize::MAX, usize::MAX)] {
+        assert!(matches!(RealFft2::new(nx, ny), Err(StokesError::GridTooLarge { .. })));
+        assert!(matches!(Symbol::new(nx, ny, |_, _| 1.0), Err(StokesError::GridTooLarge { .. })));
+    }
 }

@@ -86,7 +86,7 @@ impl CostScene {
 /// Time of a forward and an inverse real transform of a grid (seconds).
 fn transform_pair([nx, ny]: [usize; 2]) -> Result<f64, StudyError> {
     let mut transform = RealFft2::new(nx, ny)?;
-    let symbol = Symbol::new(nx, ny, |_, _| 1.0);
+    let symbol = Symbol::new(nx, ny, |_, _| 1.0)?;
     let values: Vec<f64> = (0..nx * ny).map(|k| (k as f64).sin()).collect();
     let mut out = vec![0.0; nx * ny];
     let mut best = f64::INFINITY;
@@ -96,7 +96,7 @@ fn transform_pair([nx, ny]: [usize; 2]) -> Result<f64, StudyError> {
             &symbol,
             |j, row| row.copy_from_slice(&values[j * nx..(j + 1) * nx]),
             |j, row| out[j * nx..(j + 1) * nx].copy_from_slice(row),
-        );
+        )?;
         best = best.min(clock.elapsed().as_secs_f64());
     }
     black_box(&out);

@@ -36,6 +36,7 @@ fn record(count: usize, heading: f64) -> Observables {
         velocities: &velocities,
         numbers: &numbers,
         viscosities: [100.0, 100.0],
+        stresslet: None,
     };
     observe(&state, Convention::FarField).unwrap()
 }
@@ -84,8 +85,15 @@ fn the_columns_have_names_of_their_own() {
 fn a_drop_without_particles_at_rest() {
     let (markers, forces, _, _) = droplet(40, 0.0, false);
     let rest = vec![Vec2::ZERO; 40];
-    let state =
-        InterfaceState { markers: &markers, forces: &forces, velocities: &rest, numbers: &[], viscosities: [1.0, 2.0] };
+    let viscosities = [1.0, 2.0];
+    let state = InterfaceState {
+        markers: &markers,
+        forces: &forces,
+        velocities: &rest,
+        numbers: &[],
+        viscosities,
+        stresslet: None,
+    };
     let record = observe(&state, Convention::AsPrinted).unwrap();
     assert_eq!(record.get("concentration_max"), None);
     assert_eq!(record.get("active_fraction"), None);
@@ -101,5 +109,44 @@ fn a_drop_without_particles_at_rest() {
         InterfaceState { viscosities: [f64::NAN, 1.0], ..state },
     ] {
         assert!(observe(&bad, Convention::FarField).is_err());
+    }
+}
+
+/// A stresslet that is known stands in for that of forces and velocities, in the droplet's axes; the printed convention
+/// has the viscous term with the other sign.
+#[test]
+fn a_known_stresslet() {
+    let (markers, forces, velocities, numbers) = droplet(40, 0.3, true);
+    let [inside, outside] = [300.0, 1.0];
+    let state = InterfaceState {
+        markers: &markers,
+        forces: &forces,
+        velocities: &velocities,
+        numbers: &numbers,
+        viscosities: [inside, outside],
+        stresslet: None,
+    };
+    let [computed, printed] =
+        [Convention::FarField, Convention::AsPrinted].map(|convention| observe(&state, convention).unwrap());
+    // What forces and velocities give, back to x and y.
+    let [[along, across], _] = computed.moments.stresslet();
+    let (sin, cos) = (2.0 * computed.heading()).sin_cos();
+    let [xx, xy] = [cos * along - sin * across, sin * along + cos * across];
+    let share = 1.0 - outside / inside;
+    for change in [0.0, 0.7] {
+        let known = InterfaceState { stresslet: Some([[xx + change, xy], [xy, -xx - change]]), ..state };
+        let shift = [cos * change, -sin * change];
+        for (convention, before, sign) in
+            [(Convention::FarField, &computed, 1.0), (Convention::AsPrinted, &printed, -1.0)]
+        {
+            let [before, after] = [before.moments, observe(&known, convention).unwrap().moments];
+            let moved = |k: usize| after.stresslet()[0][k] - before.stresslet()[0][k];
+            for (k, shift) in shift.into_iter().enumerate() {
+                assert!((moved(k) - sign * share * shift).abs() < 1e-10, "{convention:?} {k}: {}", moved(k));
+            }
+            let trace = |moments: ForceMoments| moments.dipole[0][0] + moments.dipole[1][1];
+            assert!((trace(after) - trace(before)).abs() < 1e-10);
+            assert_eq!(after.quadrupole, before.quadrupole);
+        }
     }
 }

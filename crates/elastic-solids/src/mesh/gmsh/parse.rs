@@ -94,6 +94,8 @@ struct File {
 }
 
 pub(super) fn parse(text: &str) -> Result<Contents, SolidError> {
+    // Some editors put a byte-order mark first.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = Lines { lines: text.lines(), number: 0 };
     let mut file = File::default();
     let mut format = false;

@@ -81,6 +81,30 @@ fn with_groups(mesh: TriangleMesh) -> GmshMesh {
 }
 
 #[test]
+fn a_byte_order_mark_is_passed_over() {
+    assert_eq!(GmshMesh::from_text(&format!("\u{feff}{SQUARE}")), GmshMesh::from_text(SQUARE));
+    assert!(GmshMesh::from_text(&format!("\n\u{feff}{SQUARE}")).is_err());
+}
+
+/// Two triangles that look like a square and do not hang together.
+#[test]
+fn nodes_that_were_not_merged_are_refused() {
+    let text = |x: f64| {
+        let nodes = format!("1\n2\n3\n4\n5\n6\n0 0 0\n1 0 0\n1 1 0\n{x} 0 0\n1 1 0\n0 1 0\n");
+        let triangles = "1 2 1 2\n2 1 2 2\n1 1 2 3\n2 4 5 6\n";
+        format!(
+            "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 6 1 6\n2 1 0 6\n{nodes}$EndNodes\n$Elements\n\
+             {triangles}$EndElements\n"
+        )
+    };
+    let error = |x| GmshMesh::from_text(&text(x)).unwrap_err();
+    assert_eq!(error(0.0), SolidError::CoincidentPoints { first: 0, second: 3, x: 0.0, y: 0.0 });
+    assert_eq!(error(5e-4), SolidError::CoincidentPoints { first: 0, second: 3, x: 5e-4, y: 0.0 });
+    assert_eq!(error(2e-3), SolidError::CoincidentPoints { first: 2, second: 4, x: 1.0, y: 1.0 });
+    assert!(error(0.0).to_string().ends_with("duplicate nodes)"));
+}
+
+#[test]
 fn what_is_written_is_read_again() {
     let file = with_groups(Outline::circle(Vec2::new(0.1, 1e-7), 1.0).unwrap().mesh(0.2).unwrap());
     let back = GmshMesh::from_text(&file.to_text().unwrap()).unwrap();

@@ -14,6 +14,8 @@ pub struct BodyFlow<'a> {
     pub forces: &'a [Vec2],
     /// Velocities of the fluid (length per time).
     pub velocities: &'a [Vec2],
+    /// The stresslet of the flow around it, where the flow knows it ([`Hydrodynamics::stresslet`]).
+    pub stresslet: Option<[[f64; 2]; 2]>,
 }
 
 impl<H: Hydrodynamics> System<H> {
@@ -66,14 +68,16 @@ impl<H: Hydrodynamics> System<H> {
     ///
     /// # Errors
     /// [`SceneError::ForeignHandle`]; [`SceneError::NotEvaluated`] where the flow of the present state is not known, as
-    /// before the first [`System::evaluate`].
+    /// before the first [`System::evaluate`]; those of [`Hydrodynamics::stresslet`].
     pub fn flow_at(&self, handle: impl Into<Handle<dyn Body>>) -> Result<BodyFlow<'_>, SceneError> {
         let index = self.index_of(handle.into())?;
         if !self.current {
             return Err(SceneError::NotEvaluated { body: self.bodies[index].name().to_owned() });
         }
         let range = self.markers.groups()[index].range.clone();
+        let stresslet = self.hydrodynamics.stresslet(index);
         Ok(BodyFlow {
+            stresslet: stresslet.map_err(|source| SceneError::Flow { time: self.time, source })?,
             positions: &self.markers.positions[range.clone()],
             forces: &self.markers.forces[range.clone()],
             velocities: &self.markers.velocities[range],

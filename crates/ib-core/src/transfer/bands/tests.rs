@@ -23,9 +23,9 @@ fn several_threads_give_the_bits_of_one() {
                 transfer.locate(&positions);
                 assert_eq!(transfer.bands.are_used(), threads > 1);
                 let mut density = StaggeredField::zeros(grid);
-                transfer.spread(&forces, &mut density);
+                transfer.spread(&forces, &mut density).unwrap();
                 let mut velocities = vec![Vec2::ZERO; positions.len()];
-                transfer.interpolate(&density, &mut velocities);
+                transfer.interpolate(&density, &mut velocities).unwrap();
                 (density, velocities)
             })
         };
