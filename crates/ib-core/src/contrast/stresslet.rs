@@ -9,7 +9,7 @@ impl Contrast {
     /// The stresslet (force times length) of the flow outside of a droplet under these forces, velocities of all other
     /// forces and velocities at the nodes of all droplets, as of the last solution.
     ///
-    /// The first moment of the forces and `(eta - eta_in) sum (v n + n v) ds`, whose sum it is (thesis (2.49)), are larger
+    /// The first moment of the forces and `(eta - eta_in) sum (v n + n v) ds`, whose sum it is (Cowley (2.49)), are larger
     /// than it by the ratio of viscosities, and so are their errors. But outside the flow is also that of a double layer
     /// in a fluid of one viscosity,
     ///
