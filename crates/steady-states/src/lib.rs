@@ -24,7 +24,7 @@
 //!
 //! # Equations
 //!
-//! Those of the thesis (chapter 2), for a droplet in a frame that moves with the velocity V:
+//! Those of Cowley (chapter 2), for a droplet in a frame that moves with the velocity V:
 //!
 //! ```text
 //! gamma = gamma0 - zeta_dmu c - Pi(c)                            (2.39)

@@ -55,7 +55,7 @@ pub(crate) type FrameMotion = [f64; 3];
 /// x = x0 + h n0,   c = m/|x_a|,   F = d(gamma(c) tau)/ds
 /// dh/dt = (v - V).n/(n0.n),   q = (v - V - dh/dt n0).tau,   dm/dt = -d(q c - D dc/ds)/da
 /// ```
-/// a the parameter: the equations (2.3), (2.5) and (2.39) of the thesis and the motion of the interface with the fluid,
+/// a the parameter: the equations (2.3), (2.5) and (2.39) of Cowley and the motion of the interface with the fluid,
 /// with points that slide along fixed lines.
 #[derive(Debug)]
 pub(crate) struct Model {
