@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release --example bifurcation_diagram -- --in activity --from -0.3 --to -4` follows the droplet at
 //! rest, and the swimmers that branch off where it polarises, and writes to `out/bifurcation_diagram/`:
-//! `branches.csv`, all points; `special.csv`, folds (kind 0), branch points (1) and Hopf points (2); `diagram.svg` (also
-//! as PNG), stable parts drawn through and unstable ones dashed. With `--swimmer` it starts from the swimmer at
+//! `branches.csv`, all points; `special.csv`, folds (kind 0), branch points (1) and Hopf points (2); `diagram.svg`
+//! (also as PNG), stable parts drawn through and unstable ones dashed. With `--swimmer` it starts from the swimmer at
 //! `--from`. It goes on with `--resume` where it was broken off. `--help` lists the flags.
 
 mod flags;

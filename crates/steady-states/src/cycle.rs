@@ -38,8 +38,8 @@ pub struct LimitCycle {
     tau: f64,
 }
 
-/// Derivatives of poses, states and so on at instants over half a period by the phase, for what is the same after half a
-/// period and what has changed its sign.
+/// Derivatives of poses, states and so on at instants over half a period by the phase, for what is the same after half
+/// a period and what has changed its sign.
 fn derivatives(instants: usize) -> [DMatrix<f64>; 2] {
     let full = |j: usize, k: usize| {
         if j == k {
@@ -60,7 +60,8 @@ struct Along {
 }
 
 impl LimitCycle {
-    /// The oscillations near a Hopf point with swings of about an amplitude (length), at the value of the parameter that they have it at; K instants over half a period, odd.
+    /// The oscillations near a Hopf point with swings of about an amplitude (length), at the value of the parameter that
+    /// they have it at; K instants over half a period, odd.
     ///
     /// # Errors
     /// A point of other symmetry or without a frequency; no convergence.
@@ -298,8 +299,8 @@ impl LimitCycle {
             for (lack, (have, want)) in lacks.iter_mut().zip(present.iter().zip(wanted)) {
                 *lack += 1.0 - have / want;
             }
-            // Columns: speed, period over 2 pi, two sources that do nothing. Rows: shifts along the channel and in time,
-            // area, number of particles.
+            // Columns: speed, period over 2 pi, two sources that do nothing. Rows: shifts along the channel and in
+            // time, area, number of particles.
             matrix.view_mut((j * n, size), (n, 1)).copy_from(&(tau * &along));
             matrix.view_mut((j * n, size + 1), (n, 1)).copy_from(&-own);
             matrix.view_mut((size, j * n), (1, n)).copy_from(&along.transpose());
