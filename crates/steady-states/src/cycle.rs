@@ -60,8 +60,8 @@ struct Along {
 }
 
 impl LimitCycle {
-    /// The oscillations near a Hopf point with swings of about an amplitude (length), at the value of the parameter that
-    /// they have it at; K instants over half a period, odd.
+    /// The oscillations near a Hopf point with swings of about an amplitude (length), at the value of the parameter
+    /// that they have it at; K instants over half a period, odd.
     ///
     /// # Errors
     /// A point of other symmetry or without a frequency; no convergence.
