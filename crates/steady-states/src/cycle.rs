@@ -8,7 +8,7 @@ use num_complex::Complex64;
 
 use crate::model::{Base, FrameMotion};
 use crate::modes::Part;
-use crate::spectrum::{eigenvalues, eigenvector};
+use crate::spectrum::eigenvector;
 use crate::state::CROWDING;
 use crate::system::System;
 use crate::{Critical, Parameter, Profile, SteadyError, Symmetry};
@@ -196,23 +196,6 @@ impl LimitCycle {
         let height =
             |phase: f64| odd.iter().map(|(m, c)| 2.0 * (c * Complex64::cis(*m as f64 * phase)).re).sum::<f64>();
         Ok((0..2000).map(|k| height(TAU * f64::from(k) / 2000.0).abs()).fold(0.0, f64::max))
-    }
-
-    /// Floquet multipliers, the largest first: factors of disturbances over a period, 1 for a shift in time and along
-    /// the channel and twice for area and number of particles, which are conserved. Eigenvalues of the linearised
-    /// equations of all instants (Hill's method), those of the fewest oscillations of each family.
-    ///
-    /// # Errors
-    /// Eigenvalues that do not converge.
-    pub fn multipliers(&mut self) -> Result<Vec<Complex64>, SteadyError> {
-        let (matrix, ..) = self.matrix()?;
-        let size = self.states.len() * self.system.modes.len();
-        let exponents = eigenvalues(&(matrix.view((0, 0), (size, size)) / -self.tau))?;
-        let strip = 1.0 / self.tau;
-        let within = exponents.into_iter().filter(|z| z.im.abs() <= strip * (1.0 + 1e-9));
-        let mut multipliers: Vec<Complex64> = within.map(|z| (z * TAU * self.tau).exp()).collect();
-        multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
-        Ok(multipliers)
     }
 
     fn base(&self, instant: usize) -> Result<Base, SteadyError> {

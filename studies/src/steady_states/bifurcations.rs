@@ -55,7 +55,13 @@ pub(super) fn threshold(count: usize) -> Result<()> {
     let widths = [2.1, 2.2, 2.5, 3.0, 3.5, 4.0, 5.0];
     let channels = widths.map(|width| (format!("channel {width}"), channel(12.0, width, -0.4, 10.0, count)));
     for (name, setup) in [("plane".to_owned(), scene(Region::Plane))].into_iter().chain(boxes).chain(channels) {
-        let point = polarisation(&setup)?;
+        let point = match polarisation(&setup) {
+            Ok(point) => point,
+            Err(error) => {
+                row(&[name, error.to_string()]);
+                continue;
+            }
+        };
         let found = activity(&point.critical);
         if setup.region == Region::Plane {
             exact = found;
@@ -79,7 +85,13 @@ pub(super) fn threshold(count: usize) -> Result<()> {
         let mut setup = scene(Region::Plane);
         setup.droplets = vec![DropletSetup::contractile(-4.0 * diffusion, strength)];
         setup.droplets[0].particles.iter_mut().for_each(|particles| particles.diffusion = diffusion);
-        let point = polarisation(&setup)?;
+        let point = match polarisation(&setup) {
+            Ok(point) => point,
+            Err(error) => {
+                row(&[strength.to_string(), diffusion.to_string(), error.to_string()]);
+                continue;
+            }
+        };
         let onset = onset(&point, diffusion).map_or_else(|_| "-".into(), |value| format!("{value:.4}"));
         row(&[strength.to_string(), diffusion.to_string(), format!("{:.6}", activity(&point.critical)), onset]);
     }
