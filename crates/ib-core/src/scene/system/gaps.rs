@@ -86,7 +86,7 @@ impl<H: Hydrodynamics> System<H> {
     /// The narrowest film in which velocities are within about a per cent (length).
     fn resolved_film(&self) -> f64 {
         let discretisation = self.hydrodynamics.discretisation();
-        let closed = matches!(self.hydrodynamics.drive(), Some(Drive::Flux(_)));
+        let closed = matches!(self.hydrodynamics.drive(), Some(Drive::ZeroFlux | Drive::Flux(_)));
         let cells = if closed { RESOLVED_CELLS_CLOSED } else { RESOLVED_CELLS };
         let nodes = || RESOLVED_NODES * self.node_spacing(&discretisation);
         discretisation.spacing.map_or_else(nodes, |spacing| cells * spacing)
