@@ -28,6 +28,18 @@ impl Base {
     }
 }
 
+impl Base {
+    /// The same curve after a turn about the origin and a shift across.
+    pub(crate) fn moved(&self, height: f64, angle: f64) -> Self {
+        let turn = Vec2::from_angle(angle);
+        let shift = Vec2::new(0.0, height);
+        Self {
+            positions: self.positions.iter().map(|x| turn.rotate(*x) + shift).collect(),
+            normals: self.normals.iter().map(|n| turn.rotate(*n)).collect(),
+        }
+    }
+}
+
 /// Unit normal to the right of a tangent.
 fn outward(tangent: Vec2) -> Vec2 {
     -tangent.perp().normalize()
