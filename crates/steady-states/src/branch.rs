@@ -107,7 +107,8 @@ impl Continuation {
     /// `seen` is told each point and the special points before it; the branch ends where it says false.
     ///
     /// # Errors
-    /// A description without the parameter; no convergence at the first step. Later failures end the branch.
+    /// A description without the parameter; a range that is empty or does not hold the start; no convergence at the
+    /// first step. Later failures end the branch.
     pub fn follow(
         &self,
         start: &SteadyState,
@@ -181,6 +182,14 @@ struct Follower {
 impl Follower {
     fn new(settings: Continuation, start: &SteadyState) -> Result<Self, SteadyError> {
         settings.parameter.with(start.setup(), settings.range[0])?;
+        let ([low, high], value) = (settings.range, settings.parameter.get(start.setup()).unwrap_or(f64::NAN));
+        let slack = 1e-9 * (high - low);
+        if !(high - low > 0.0 && high - low < f64::INFINITY && value >= low - slack && value <= high + slack) {
+            return Err(SteadyError::Unsupported {
+                what: format!("a branch from {} = {value} in the range {low} to {high}", settings.parameter.name()),
+                remedy: "give a range of some length that the start lies in",
+            });
+        }
         let part = if start.is_mirror_symmetric() { Part::Even } else { Part::Full };
         let system = System::new(start.setup())?;
         let outcome = Outcome::default();

@@ -1,7 +1,7 @@
 //! Branches and their special points against exact values.
 
 use motile::prelude::*;
-use steady_states::{Branch, Continuation, Parameter, SpecialKind, SteadyState, Symmetry};
+use steady_states::{Branch, Continuation, Parameter, SpecialKind, SteadyError, SteadyState, Symmetry};
 
 fn setup(region: Region, activity: f64, nodes: usize) -> Setup {
     let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
@@ -27,6 +27,15 @@ fn a_droplet_in_the_plane_polarises_at_the_threshold_of_linear_theory() {
         let activity = Parameter::Activity.get(point.critical.state.setup()).unwrap();
         assert_eq!(point.kind, SpecialKind::BranchPoint);
         assert!((slope(activity) - 0.4).abs() < 1e-8, "{activity}");
+    }
+}
+
+#[test]
+fn ranges_that_are_empty_or_elsewhere_are_refused() {
+    let state = SteadyState::uniform(&setup(Region::Plane, -0.3, 32)).unwrap();
+    for (from, to) in [(-0.3, -0.3), (-0.4, -0.6), (-0.3, f64::NEG_INFINITY), (f64::NAN, -0.3)] {
+        let outcome = Continuation::new(Parameter::Activity, from, to).follow(&state, |_, _| true);
+        assert!(matches!(outcome, Err(SteadyError::Unsupported { .. })), "{from} {to}: {outcome:?}");
     }
 }
 
