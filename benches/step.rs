@@ -38,7 +38,7 @@ fn on_grid(region: Region, spacing: f64) -> (Setup, [usize; 2]) {
     (setup, cells)
 }
 
-fn thick(setup: &Setup) -> Setup {
+fn viscous(setup: &Setup) -> Setup {
     let droplet = DropletSetup { viscosity: Some(1e4), ..DropletSetup::default() };
     Setup { droplets: vec![droplet], ..setup.clone() }
 }
@@ -58,7 +58,7 @@ fn scenes(c: &mut Criterion) {
     }
     for spacing in [0.1, 0.05] {
         let (setup, cells) = on_grid(Region::Box { lengths: [6.0, 6.0] }, spacing);
-        let sharp = thick(&setup);
+        let sharp = viscous(&setup);
         measure(c, "ratio 100, sharp", &sharp, cells);
         let grid = GridMethod { corrected: false, contrast: Contrast::Arithmetic, ..GridMethod::of_spacing(spacing) };
         measure(c, "ratio 100, arithmetic", &Setup { method: Method::Grid(grid), ..sharp }, cells);
@@ -71,7 +71,7 @@ fn scenes(c: &mut Criterion) {
         let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
         let integrals = Setup { method, ..Setup::default() };
         measure(c, &format!("{nodes} nodes"), &integrals, [120, 120]);
-        measure(c, &format!("{nodes} nodes, ratio 100"), &thick(&integrals), [120, 120]);
+        measure(c, &format!("{nodes} nodes, ratio 100"), &viscous(&integrals), [120, 120]);
         let narrow = Setup { region: between_walls(12.0, 3.0), ..integrals };
         measure(c, &format!("{nodes} nodes, channel"), &narrow, [240, 60]);
     }

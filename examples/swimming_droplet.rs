@@ -13,7 +13,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use clap::Parser;
 use motile::Setup;
 use motile_examples::{BoxFlags, SceneFlags, WatchedRun};
@@ -35,7 +35,11 @@ fn main() -> ExitCode {
 fn swim(Flags { file, scene: flags }: &Flags) -> Result<()> {
     // The scene: a droplet in a box, or what the file says.
     let file = file.as_ref().map(|path| -> Result<Setup> {
-        let read = || Ok::<_, anyhow::Error>(Setup::from_toml(&std::fs::read_to_string(path)?)?);
+        let read = || {
+            // A device could go on for ever.
+            ensure!(!path.exists() || path.is_file(), "it is no regular file");
+            Ok(Setup::from_toml(&std::fs::read_to_string(path)?)?)
+        };
         read().with_context(|| format!("--scene {}", path.display()))
     });
     let mut setup = flags.method.setup(&flags.droplet, file.transpose()?)?;

@@ -56,7 +56,7 @@ impl Steadiness {
         json!({ "reached": self.since.is_some(), "time": self.since, "at_rest": self.at_rest })
     }
 
-    /// What the verdict goes by, in words.
+    /// What the verdict is based on, in words.
     #[must_use]
     pub fn criterion(&self) -> &'static str {
         if self.at_rest {

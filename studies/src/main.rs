@@ -12,6 +12,7 @@ mod instructions;
 mod results;
 mod run_pool;
 mod scaling;
+mod steady_states;
 mod step_cost;
 mod stiffness;
 mod tables;
@@ -40,6 +41,7 @@ enum Study {
     Validation(validation::Flags),
     WorkPrecision(work_precision::Flags),
     StepCost(step_cost::Flags),
+    SteadyStates(steady_states::Flags),
     Stiffness(stiffness::Flags),
     ViscosityContrast(viscosity_contrast::Flags),
     Channels(channels::Flags),
@@ -59,6 +61,7 @@ fn main() -> ExitCode {
         Study::Validation(flags) => validation::run(flags),
         Study::WorkPrecision(flags) => work_precision::run(flags),
         Study::StepCost(flags) => step_cost::run(flags),
+        Study::SteadyStates(flags) => steady_states::run(flags),
         Study::Stiffness(flags) => stiffness::run(flags),
         Study::ViscosityContrast(flags) => viscosity_contrast::run(flags),
         Study::Channels(flags) => channels::run(flags),

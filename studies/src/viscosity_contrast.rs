@@ -82,14 +82,14 @@ fn jobs(flags: &Flags) -> Vec<Job> {
         pairs.extend(activities.iter().map(|activity| (500.0 + 0.5 * difference, 500.0 - 0.5 * difference, *activity)));
     }
     // Large contrasts, among them the droplets of figure 2.5 and that of section 2.3.3.3, (1000, 10) at -1.
-    let thick: &[(f64, f64, &[f64])] = &[
+    let viscous: &[(f64, f64, &[f64])] = &[
         (100.0, 10.0, &[-0.5, -1.0, -2.0, -3.0]),
         (1000.0, 10.0, &[-1.0, -3.0, -5.0, -7.0]),
         (1000.0, 100.0, &[-4.0, -8.0]),
         (1000.0, 500.0, &[-5.0, -8.0]),
         (10.0, 100.0, &[-1.0, -2.0, -3.0]),
     ];
-    for (inside, outside, activities) in thick {
+    for (inside, outside, activities) in viscous {
         pairs.extend(activities.iter().map(|activity| (*inside, *outside, *activity)));
     }
     let time = flags.time.unwrap_or(if flags.full { 120.0 } else { 40.0 });

@@ -27,7 +27,7 @@ fn elastic() -> Setup {
 }
 
 /// The same scene with droplets of another viscosity.
-fn thick(mut setup: Setup) -> Setup {
+fn viscous(mut setup: Setup) -> Setup {
     setup.droplets.iter_mut().for_each(|droplet| droplet.viscosity = Some(1000.0));
     setup
 }
@@ -42,13 +42,13 @@ fn steps_allocate_nothing() {
     let sharp = Method::Grid(GridMethod { contrast: Contrast::Sharp, ..coarse });
     let scenes = [
         ("grid", on_grid(0.2)),
-        ("grid, contrast", thick(on_grid(0.2))),
-        ("grid, arithmetic contrast", thick(smooth)),
+        ("grid, contrast", viscous(on_grid(0.2))),
+        ("grid, arithmetic contrast", viscous(smooth)),
         ("integrals", without_grid(32, 128)),
-        ("integrals, contrast", thick(without_grid(32, 128))),
+        ("integrals, contrast", viscous(without_grid(32, 128))),
         ("thesis", thesis.clone()),
-        ("thesis, sharp contrast", thick(Setup { method: sharp, ..thesis.clone() })),
-        ("thesis, contrast", thick(thesis)),
+        ("thesis, sharp contrast", viscous(Setup { method: sharp, ..thesis.clone() })),
+        ("thesis, contrast", viscous(thesis)),
     ];
     for (name, base) in scenes {
         for region in [base.region, open_channel(6.0, 2.4), open_channel(6.0, 3.0)] {
@@ -60,7 +60,7 @@ fn steps_allocate_nothing() {
 
 #[test]
 fn steps_between_elastic_walls_allocate_nothing() {
-    for setup in [elastic(), thick(elastic())] {
+    for setup in [elastic(), viscous(elastic())] {
         assert_eq!(allocations(setup.build().unwrap().scene), 0, "{:?}", setup.droplets[0].viscosity);
     }
 }

@@ -47,7 +47,7 @@ fn along_a_line_of_the_grid() {
 fn with_a_contrast() {
     let droplets = vec![DropletSetup { viscosity: Some(100.0), ..DropletSetup::contractile(-1.5, 3.0) }];
     let scene = Setup { viscosity: 6.0, droplets, ..Setup::default() };
-    check(SceneKind::ViscosityContrast, [&[0.01, 0.003], &[0.01, 0.003]], &scene);
+    check(SceneKind::ViscosityContrast, [&[0.01, 0.003], &[0.02, 0.01]], &scene);
 }
 
 #[test]

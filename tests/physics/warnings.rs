@@ -31,6 +31,13 @@ fn what_is_resolved_gives_no_warning() {
 fn thin_films_edges_and_small_droplets_are_told() {
     let grid = |spacing| Method::Grid(GridMethod::of_spacing(spacing));
     assert_eq!(causes(&channel(2.1, grid(0.1), -1.0), 0.2), ["thin film"]);
+    // A closed channel of width 2.6 is 4 % off at gaps of three spacings, an open one 0.3 %.
+    assert!(causes(&channel(2.6, grid(0.1), -1.5), 0.2).is_empty());
+    let Region::Channel { length, width, .. } = channel(2.6, grid(0.1), -1.5).region else { return };
+    let closed = Region::Channel { length, width, drive: Drive::ZeroFlux };
+    let closed = |spacing| Setup { region: closed.clone(), ..channel(width, grid(spacing), -1.5) };
+    assert_eq!(causes(&closed(0.1), 0.2), ["thin film"]);
+    assert!(causes(&closed(0.05), 0.2).is_empty());
     let edge = "edge of the concentration not resolved";
     assert_eq!(causes(&channel(5.0, grid(0.1), -8.0), 1.0), [edge]);
     let still = Particles { diffusion: 0.0, ..Particles::default() };

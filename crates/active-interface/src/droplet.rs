@@ -210,7 +210,7 @@ impl ActiveDroplet {
         self
     }
 
-    /// The same droplet with its area put back to the initial one after each step, by an equal normal displacement of
+    /// The same droplet with its area restored to the initial one after each step, by an equal normal displacement of
     /// all markers (off by default: the motion keeps the area but for the error of the time step).
     #[must_use]
     pub fn with_area_constraint(mut self, on: bool) -> Self {
@@ -234,7 +234,7 @@ impl ActiveDroplet {
     }
 
     /// The same droplet with or without the stabiliser (on by default), which makes the fast relaxation of crowded
-    /// particles implicit: a diffusivity `h c max(-d gamma/dc, 0) / (4 eta)` is added implicitly and taken off
+    /// particles implicit: a diffusivity `h c max(-d gamma/dc, 0) / (4 eta)` is added implicitly and subtracted
     /// explicitly.
     #[must_use]
     pub fn with_stabiliser(mut self, on: bool) -> Self {

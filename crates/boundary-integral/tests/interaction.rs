@@ -106,8 +106,8 @@ fn a_large_box_is_free_space_less_its_mean_flow() {
 
 #[test]
 fn rows_of_images_and_moments_agree() {
-    // A droplet that fills most of the box goes by rows, a small one by moments: the same lattice of droplets seen with
-    // one droplet a cell and with two goes both ways.
+    // A droplet that fills most of the box is summed by rows, a small one by moments: the same lattice of droplets seen
+    // with one droplet a cell and with two goes both ways.
     let droplet = Ellipse { centre: [0.2, 0.1], axes: [1.3, 1.1], angle: 0.3, ..three(8.0)[0] };
     let one = velocities(Geometry::Box { lengths: [3.0, 3.4] }, &[droplet], 96, 1e-13);
     let copy = Ellipse { centre: [3.2, 0.1], ..droplet };

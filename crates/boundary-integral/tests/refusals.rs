@@ -46,6 +46,15 @@ fn domains_and_settings() {
     assert!(solver().with_reference_perimeter(-1.0).is_err());
 }
 
+/// Beyond a ratio of 1e8 round-off would be seen in the velocities.
+#[test]
+fn ratios_of_viscosities() {
+    for (ratio, good) in [(1e8, true), (1e-8, true), (1.1e8, false), (1e-12, false)] {
+        let mut markers = markers(&[Ellipse { viscosity: Some(ratio), ..circle() }], 64);
+        assert_eq!(solver().velocities(&mut markers).is_ok(), good, "{ratio}");
+    }
+}
+
 #[test]
 fn plans() {
     assert!(PeriodicCalculus::new(3).is_err());

@@ -41,7 +41,8 @@ pub struct BoundaryLoop {
 /// A triangle mesh of the reference state of a solid, possibly periodic in x.
 ///
 /// Triangles are counter-clockwise. In a periodic mesh the two ends share their points: a triangle across the seam has
-/// corners one period away from its points, which [`TriangleMesh::corners`] accounts for. Every point belongs to a triangle and every edge to one or two.
+/// corners one period away from its points, which [`TriangleMesh::corners`] accounts for. Every point belongs to a
+/// triangle and every edge to one or two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TriangleMesh {
     points: Vec<Vec2>,

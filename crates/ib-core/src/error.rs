@@ -54,8 +54,8 @@ pub enum FlowError {
     /// A film between a wall and a droplet of another viscosity that the double layer on its markers does not resolve:
     /// velocities grow wild there.
     #[error(
-        "the film between body {body}, whose fluid has another viscosity, and the wall is {gap:.3e}, below {least:.3e}, half the \
-         distance of its markers: use a finer grid or no grid"
+        "the film between body {body}, whose fluid has another viscosity, and the wall is {gap:.3e}, below \
+         {least:.3e}, half the distance of its markers: use a finer grid or no grid"
     )]
     Film {
         /// Number of the body, in the order of addition.

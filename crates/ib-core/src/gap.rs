@@ -62,7 +62,8 @@ impl Gaps {
         }
     }
 
-    /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where (length).
+    /// Two interfaces, or one and its own image, without fluid between them: the body, the other one and where
+    /// (length).
     #[must_use]
     pub fn contact(&self, discretisation: &Discretisation) -> Option<(usize, usize, Vec2)> {
         let interfaces = |gap: &Gap| self.kinds[gap.body].is_interface() && self.kinds[gap.other].is_interface();

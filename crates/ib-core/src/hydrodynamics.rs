@@ -88,8 +88,8 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
     /// As [`Hydrodynamics::velocities`], and slices of different length.
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError>;
 
-    /// The stresslet (force times length, along x and y, about the centroid) of the flow around a group of markers as of
-    /// the last evaluation, where the flow knows it better than as the difference of the first moment of the group's
+    /// The stresslet (force times length, along x and y, about the centroid) of the flow around a group of markers as
+    /// of the last evaluation, where the flow knows it better than as the difference of the first moment of the group's
     /// forces and a multiple of its velocities; by default, and where viscosities are equal, `None`.
     ///
     /// # Errors

@@ -278,7 +278,7 @@ impl Follower {
     fn go(&mut self, mut seen: impl FnMut(&BranchPoint, &[SpecialPoint]) -> bool) -> Result<Branch, SteadyError> {
         let Continuation { parameter, range: [low, high], largest_step, most_points, .. } = self.settings;
         let mut branch = Branch { parameter, points: Vec::new(), special: Vec::new() };
-        let mut step = 0.2 * largest_step;
+        let (mut step, mut special) = (0.2 * largest_step, Vec::new());
         loop {
             let (point, tangent) = (self.point.clone(), self.tangent.clone());
             if self.rebase().is_err() {
@@ -289,12 +289,9 @@ impl Follower {
             let Ok(state) = state else { return Ok(branch) };
             let spectrum = self.system.spectrum(&self.point, self.part == Part::Even)?;
             let next = BranchPoint { value: self.value(), state, spectrum };
-            let special = match branch.points.last() {
-                Some(last) => crossings(parameter, last, &next),
-                None => Vec::new(),
-            };
+            special.extend(branch.points.last().map_or_else(Vec::new, |last| crossings(parameter, last, &next)));
             let goes_on = seen(&next, &special);
-            branch.special.extend(special);
+            branch.special.append(&mut special);
             branch.points.push(next);
             let inside = (low..=high).contains(&self.value());
             if !goes_on || branch.points.len() >= most_points || (!inside && branch.points.len() > 1) {
@@ -320,7 +317,7 @@ impl Follower {
             if falling * self.tangent[self.size()] < 0.0 && branch.points.len() > 1 {
                 let after = (self.point.clone(), self.system.model.setup.clone(), self.tangent.clone(), self.outcome);
                 if let Ok(fold) = self.fold(before, taken, [falling, after.2[self.size()]]) {
-                    branch.special.push(fold);
+                    special.push(fold);
                 }
                 (self.point, self.system, self.tangent, self.outcome) =
                     (after.0, System::new(&after.1)?, after.2, after.3);

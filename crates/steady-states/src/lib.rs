@@ -24,7 +24,7 @@
 //!
 //! # Equations
 //!
-//! Those of the thesis (chapter 2), for a droplet in a frame that moves with the velocity V:
+//! Those of Cowley (chapter 2), for a droplet in a frame that moves with the velocity V:
 //!
 //! ```text
 //! gamma = gamma0 - zeta_dmu c - Pi(c)                            (2.39)
@@ -42,8 +42,14 @@
 //! makes it regular, and V comes out with the state. The derivative is by central differences (errors of 1e-9), one
 //! evaluation of the flow a difference; a state that is its own mirror image is solved for among such states, and its
 //! eigenvalues come sorted by symmetry.
+//!
+//! [`Continuation`] follows a branch in any [`Parameter`] by pseudo-arclength and finds folds, branch points and Hopf
+//! points on the way; [`SteadyState::critical`] and [`Critical::curve`] go to such points and along them in a second
+//! parameter; [`LimitCycle`] has the oscillations that come from a Hopf point of a swimmer in a channel. The tables of
+//! `docs/steady-states.md` are computed by it.
 mod branch;
 mod critical;
+mod cycle;
 mod error;
 mod model;
 mod modes;
@@ -56,6 +62,7 @@ mod system;
 
 pub use branch::{Branch, BranchPoint, Continuation, SpecialKind, SpecialPoint};
 pub use critical::Critical;
+pub use cycle::LimitCycle;
 pub use error::SteadyError;
 /// A growth rate and an angular frequency.
 pub use num_complex::Complex64;

@@ -28,6 +28,18 @@ impl Base {
     }
 }
 
+impl Base {
+    /// The same curve after a turn about the origin and a shift across.
+    pub(crate) fn moved(&self, height: f64, angle: f64) -> Self {
+        let turn = Vec2::from_angle(angle);
+        let shift = Vec2::new(0.0, height);
+        Self {
+            positions: self.positions.iter().map(|x| turn.rotate(*x) + shift).collect(),
+            normals: self.normals.iter().map(|n| turn.rotate(*n)).collect(),
+        }
+    }
+}
+
 /// Unit normal to the right of a tangent.
 fn outward(tangent: Vec2) -> Vec2 {
     -tangent.perp().normalize()
@@ -43,7 +55,7 @@ pub(crate) type FrameMotion = [f64; 3];
 /// x = x0 + h n0,   c = m/|x_a|,   F = d(gamma(c) tau)/ds
 /// dh/dt = (v - V).n/(n0.n),   q = (v - V - dh/dt n0).tau,   dm/dt = -d(q c - D dc/ds)/da
 /// ```
-/// a the parameter: the equations (2.3), (2.5) and (2.39) of the thesis and the motion of the interface with the fluid,
+/// a the parameter: the equations (2.3), (2.5) and (2.39) of Cowley and the motion of the interface with the fluid,
 /// with points that slide along fixed lines.
 #[derive(Debug)]
 pub(crate) struct Model {

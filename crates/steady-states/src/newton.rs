@@ -3,13 +3,15 @@
 use nalgebra::DMatrix;
 
 use crate::modes::Part;
-use crate::system::{Along, Equations, Point, System};
+use crate::system::{Along, Correction, Equations, Point, System};
 use crate::{Parameter, Profile, SteadyError};
 
 /// Iterations before giving up.
 const MOST_ITERATIONS: usize = 30;
 /// A correction of this size is the last one.
 const SMALLEST: f64 = 3e-10;
+/// Least part of a correction that is taken where the whole has no flow.
+const LEAST_PART: f64 = 0.01;
 /// Rates of this part of D/R^2, and lacks of area and particles of this part of them, are none.
 const ROUND_OFF: f64 = 1e-11;
 /// Corrections that shrink by this factor do with the matrix that there is.
@@ -82,13 +84,13 @@ impl System {
                 before = f64::INFINITY;
                 continue;
             }
-            let part_of = (LARGEST / size).min(1.0);
-            point.state += part_of * &correction.state;
-            for (frame, change) in point.frame.iter_mut().zip(correction.frame) {
-                *frame += part_of * change;
-            }
-            if let Some(along) = along {
-                self.change(along.parameter, part_of * correction.parameter)?;
+            let mut part_of = (LARGEST / size).min(1.0);
+            // A droplet beyond a wall has no flow: less of the correction then.
+            while let Err(error) = self.corrected(point, &correction, part_of, along) {
+                part_of *= 0.5;
+                if part_of < LEAST_PART {
+                    return Err(error);
+                }
             }
             if size < SMALLEST {
                 let residual = self.residual(point)?.amax();
@@ -100,6 +102,34 @@ impl System {
             before = size;
         }
         Err(SteadyError::NoConvergence { residual, iterations: MOST_ITERATIONS, remedy: REMEDY })
+    }
+
+    /// Takes a part of a correction; on failure nothing has changed.
+    fn corrected(
+        &mut self,
+        point: &mut Point,
+        correction: &Correction,
+        part_of: f64,
+        along: Option<&Along>,
+    ) -> Result<(), SteadyError> {
+        let mut next = point.clone();
+        next.state += part_of * &correction.state;
+        for (frame, change) in next.frame.iter_mut().zip(correction.frame) {
+            *frame += part_of * change;
+        }
+        let setup = self.model.setup.clone();
+        let moved = match along {
+            Some(along) => self.change(along.parameter, part_of * correction.parameter),
+            None => Ok(()),
+        };
+        match moved.and_then(|()| self.load(&next)) {
+            Ok(()) => *point = next,
+            Err(error) => {
+                *self = Self::new(&setup)?;
+                return Err(error);
+            }
+        }
+        Ok(())
     }
 
     /// Largest relative lack of area or particles of the loaded state.

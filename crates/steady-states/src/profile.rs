@@ -280,6 +280,14 @@ impl Profile {
         Ok(Self { positions, density })
     }
 
+    /// Least curvature (1/length) at the nodes.
+    pub(crate) fn least_curvature(&self) -> Result<f64, SteadyError> {
+        let tangents = self.tangents()?;
+        let turning = Self { positions: tangents.clone(), density: Vec::new() }.tangents()?;
+        let curvature = tangents.iter().zip(&turning).map(|(t, rate)| t.perp_dot(*rate) / t.length().powi(3));
+        Ok(curvature.fold(f64::INFINITY, f64::min))
+    }
+
     /// Largest and smallest concentration (particles per length).
     pub(crate) fn extrema(&self) -> Result<[f64; 2], SteadyError> {
         let sampler = Sampler::new(self)?;

@@ -190,7 +190,7 @@ impl System {
 const MOST_ITERATIONS: usize = 100_000;
 
 /// Eigenvalues of a real matrix.
-pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex64>, SteadyError> {
+fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex64>, SteadyError> {
     let failed = SteadyError::Singular { what: "the eigenvalues", remedy: "use another number of nodes" };
     let schur = nalgebra::Schur::try_new(matrix.clone(), f64::EPSILON, MOST_ITERATIONS).ok_or(failed)?;
     Ok(schur.complex_eigenvalues().iter().map(|z| Complex64::new(z.re, z.im)).collect())

@@ -51,6 +51,8 @@ pub struct Measured {
     pub perimeter: f64,
     /// Centroid (length).
     pub centroid: Vec2,
+    /// Least curvature (1/length): negative for shapes with a hollow.
+    pub least_curvature: f64,
 }
 
 impl SteadyState {
@@ -243,6 +245,7 @@ impl SteadyState {
             concentration: self.profile.extrema()?.map(|c| c / model.concentration),
             perimeter: tangents.iter().map(|t| t.length() * step).sum(),
             centroid: moments.centroid,
+            least_curvature: self.profile.least_curvature()?,
         })
     }
 

@@ -1,4 +1,4 @@
-//! Growth rates of the round droplet in unbounded fluid against their exact values, thesis (2.18) and (2.19).
+//! Growth rates of the round droplet in unbounded fluid against their exact values, Cowley (2.18) and (2.19).
 
 use motile::active_interface::Tension;
 use motile::active_interface::theory::{LinearTheory, RoundDroplet};

@@ -15,6 +15,8 @@ use crate::{
 const FOUR_PI: f64 = 4.0 * PI;
 /// Largest ratio of the periods of a box.
 const LARGEST_RATIO: f64 = 20.0;
+/// Largest ratio of viscosities: velocities are then right to some 1e-8.
+const MOST_CONTRAST: f64 = 1e8;
 
 /// A closed interface as points of equally spaced parameters: point k of n belongs to the parameter 2 pi k/n.
 #[derive(Debug, Clone, Copy)]
@@ -172,14 +174,21 @@ impl InterfaceFlow {
     /// Takes over interfaces, truncated to the modes that the nodes carry.
     ///
     /// # Errors
-    /// A viscosity that is not positive and finite, positions or forces that are not finite, too few or too many
-    /// points, a clockwise curve, a node beyond a wall.
+    /// A viscosity that is not positive and finite, or more than 1e8 times larger or smaller than the exterior one,
+    /// where round-off would show; positions or forces that are not finite, too few or too many points, a clockwise
+    /// curve, a node beyond a wall.
     pub fn load<'a>(&mut self, interfaces: impl Iterator<Item = Interface<'a>> + Clone) -> Result<(), LayerError> {
         self.viscosities.clear();
         self.contrasts.clear();
         self.scales.clear();
         for Interface { viscosity, .. } in interfaces.clone() {
             positive("the viscosity inside an interface", viscosity)?;
+            within(
+                "the ratio of viscosities inside and outside",
+                viscosity / self.viscosity,
+                1.0 / MOST_CONTRAST,
+                MOST_CONTRAST,
+            )?;
             self.viscosities.push(viscosity);
             self.contrasts.push(viscosity - self.viscosity);
             self.scales.push(2.0 / (viscosity + self.viscosity));

@@ -17,7 +17,7 @@ fn square(side: f64) -> Region {
 }
 
 /// The same scene with a droplet of an activity and a viscosity in fluid of viscosity 10.
-fn thick(base: Setup, activity: f64, viscosity: f64) -> Setup {
+fn viscous(base: Setup, activity: f64, viscosity: f64) -> Setup {
     let droplet = DropletSetup { viscosity: Some(viscosity), ..DropletSetup::active(activity) };
     Setup { viscosity: 10.0, droplets: vec![droplet], ..base }
 }
@@ -103,7 +103,7 @@ pub(crate) fn tables(quick: bool) -> Tables {
         &["h", "errors", "area change", "steps"],
     );
     for &h in spacings(quick) {
-        let errors = steady(&reference(thick(on_grid(h), -1.0, 100.0), -1.0), 60.0)?;
+        let errors = steady(&reference(viscous(on_grid(h), -1.0, 100.0), -1.0), 60.0)?;
         let area = format!("{:.1e}", errors.area_change);
         swimming.push([h.to_string(), list(errors.list().into_iter()), area, errors.steps.to_string()]);
     }
@@ -227,7 +227,7 @@ pub(crate) fn decay(quick: bool) -> Tables {
         "Activity -1, viscosities 1000 inside and 10 outside: growth rate of a small polarisation",
         &["box", "way", "h", "rate", "error in %"],
     );
-    let grid = |h: f64| thick(on_grid(h), -1.0, 1000.0);
+    let grid = |h: f64| viscous(on_grid(h), -1.0, 1000.0);
     // Cowley's motion of markers and area constraint, with the default flux.
     let mut thesis = DropletSetup { viscosity: Some(1000.0), ..DropletSetup::thesis() };
     thesis.particles = Some(Particles { activity: -1.0, flux: Flux::default(), ..Particles::default() });
@@ -237,7 +237,7 @@ pub(crate) fn decay(quick: bool) -> Tables {
     };
     for side in [6.0, 3.0] {
         let rate = |setup: Setup| polarisation_rate(&Setup { region: square(side), ..setup });
-        let exact = rate(thick(without_grid(64, 252), -1.0, 1000.0))?;
+        let exact = rate(viscous(without_grid(64, 252), -1.0, 1000.0))?;
         let mut push = |way: &str, h: String, rate: f64| {
             let error = if way == "without a grid" { "-".to_owned() } else { per_cent((rate - exact) / exact.abs()) };
             table.push([side.to_string(), way.to_owned(), h, format!("{rate:.5}"), error]);
@@ -268,7 +268,7 @@ pub(crate) fn decay(quick: bool) -> Tables {
         Setup { method: Method::Grid(smooth), ..grid(h) }
     };
     for (way, spacing, setup) in [
-        ("without a grid", "-".to_owned(), thick(Setup::default(), -1.0, 1000.0)),
+        ("without a grid", "-".to_owned(), viscous(Setup::default(), -1.0, 1000.0)),
         ("sharp", "0.1".to_owned(), grid(0.1)),
         ("sharp", fine.to_string(), grid(fine)),
         ("arithmetic", "0.1".to_owned(), smooth(0.1)),
@@ -287,7 +287,7 @@ pub(crate) fn runs(quick: bool) -> Tables {
     );
     let time = if quick { 10.0 } else { 50.0 };
     for h in [0.1, 0.05] {
-        let run = long_run(&thick(on_grid(h), -7.0, 1000.0), time)?;
+        let run = long_run(&viscous(on_grid(h), -7.0, 1000.0), time)?;
         table.push([
             time.to_string(),
             h.to_string(),

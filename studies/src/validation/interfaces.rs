@@ -197,16 +197,16 @@ pub(crate) fn several(quick: bool) -> Tables {
         Ok(())
     };
     let equal = Setup::default();
-    let thick = DropletSetup { viscosity: Some(1000.0), ..DropletSetup::active(-7.0) };
-    let thick = Setup { viscosity: 10.0, droplets: vec![thick], ..Setup::default() };
+    let viscous = DropletSetup { viscosity: Some(1000.0), ..DropletSetup::active(-7.0) };
+    let viscous = Setup { viscosity: 10.0, droplets: vec![viscous], ..Setup::default() };
     let all = if quick { &RESOLUTIONS[1..3] } else { &RESOLUTIONS[1..4] };
-    for (base, offset) in [(&equal, EQUAL_OFFSET), (&thick, THICK_OFFSET)] {
+    for (base, offset) in [(&equal, EQUAL_OFFSET), (&viscous, THICK_OFFSET)] {
         push("two that pass, to t = 40", base, all, &|setup| passing(setup, offset, 40.0))?;
     }
     let ten = |base: &Setup| Setup { region: Region::Box { lengths: [10.4; 2] }, ..base.clone() };
     let time = if quick { 5.0 } else { 20.0 };
     let all = if quick { &RESOLUTIONS[1..2] } else { &RESOLUTIONS[1..3] };
-    for base in [&equal, &thick] {
+    for base in [&equal, &viscous] {
         push(&format!("ten in a box of 10.4, to t = {time}"), &ten(base), all, &|setup| ten_in_a_box(setup, time))?;
     }
     Ok(vec![table])

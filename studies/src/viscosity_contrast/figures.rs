@@ -26,9 +26,9 @@ struct Family {
 /// All families, in the order of their colours.
 const FAMILIES: [Family; 4] = [
     Family { name: "equal viscosities", has: equal },
-    Family { name: "thicker inside, sum 1000", has: |job| job.inside > job.outside && job.sum() == 1000.0 },
-    Family { name: "thicker inside", has: |job| job.inside > job.outside && job.sum() != 1000.0 },
-    Family { name: "thicker outside", has: |job| job.inside < job.outside },
+    Family { name: "more viscous inside, sum 1000", has: |job| job.inside > job.outside && job.sum() == 1000.0 },
+    Family { name: "more viscous inside", has: |job| job.inside > job.outside && job.sum() != 1000.0 },
+    Family { name: "more viscous outside", has: |job| job.inside < job.outside },
 ];
 
 /// Discs for unbounded fluid, circles for the box, in the colours of the families.

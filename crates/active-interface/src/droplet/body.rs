@@ -131,7 +131,7 @@ impl Body for ActiveDroplet {
         if let Some(transport) = self.transport.as_mut() {
             let lengths = &self.shape.geometry.lengths;
             transport.add_advection(&self.numbers, lengths, &self.slip, numbers);
-            // What the stabiliser adds implicitly is taken off here.
+            // What the stabiliser adds implicitly is subtracted here.
             if self.stabiliser.len() == count {
                 transport.add_diffusion(lengths, &self.stabiliser, &self.numbers, -1.0, numbers);
             }

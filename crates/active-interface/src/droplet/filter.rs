@@ -15,7 +15,7 @@ const MOST_PASSES: f64 = 20.0;
 ///
 /// `e = (1 - S)^2 X`, `S = (1 - l^2 d_ss)^-1`, l = h/2; each marker moves by `-a (e . n) n`, `a = dt gamma / (2 eta
 /// h)`, in as many passes as make a at most a half in each, so that what the filter does in a time does not depend on
-/// the length of steps; the area that this would change is put back evenly.
+/// the length of steps; the area that this would change is restored evenly.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ShortWaveFilter {
     once: Vec<Vec2>,

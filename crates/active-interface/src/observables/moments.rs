@@ -47,8 +47,8 @@ impl ForceMoments {
         [[half, off], [off, -half]]
     }
 
-    /// Moves the stresslet by a `share` of the way from that of the `far_field` convention to the `known` one of the flow
-    /// far away, in these axes; in the other convention, whose viscous term has the other sign, by as much back.
+    /// Moves the stresslet by a `share` of the way from that of the `far_field` convention to the `known` one of the
+    /// flow far away, in these axes; in the other convention, whose viscous term has the other sign, by as much back.
     pub(super) fn shift_stresslet(
         &mut self,
         share: f64,

@@ -11,7 +11,7 @@ use crate::{InterfaceError, curve::polygon_moments};
 /// The frame of reference in which the velocity along the interface is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum VelocityFrame {
-    /// That of the droplet: the velocity of its centroid is taken off.
+    /// That of the droplet: the velocity of its centroid is subtracted.
     #[default]
     CoMoving,
     /// That of the fluid far away. Halves B1.

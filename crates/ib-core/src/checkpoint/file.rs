@@ -4,7 +4,7 @@
 //! say what it is, the version of the format (four bytes), the length of the contents (eight), their CRC-32 (four).
 
 use std::fs::{self, File};
-use std::io::{Read, Write};
+use std::io::{Error, Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::{Checkpoint, CheckpointError};
@@ -89,7 +89,7 @@ impl Checkpoint {
         };
         // A device or a directory must not be replaced.
         if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
-            let source = std::io::Error::other("there is something there that is not a file");
+            let source = Error::other("there is something there that is not a file");
             return Err(problem("write", path)(source));
         }
         let written = File::create(&temporary).and_then(|mut file| {
@@ -114,7 +114,11 @@ impl Checkpoint {
     /// checkpoint of this version.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
         let mut bytes = Vec::new();
-        let read = File::open(path).and_then(|mut file| file.read_to_end(&mut bytes));
+        // A device could go on for ever.
+        let read = File::open(path).and_then(|mut file| match file.metadata()?.is_file() {
+            true => file.read_to_end(&mut bytes),
+            false => Err(Error::other("it is no regular file")),
+        });
         read.map_err(|source| CheckpointError::reading(path, source))?;
         Self::from_bytes(&bytes)
     }

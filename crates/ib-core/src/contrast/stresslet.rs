@@ -9,15 +9,15 @@ impl Contrast {
     /// The stresslet (force times length) of the flow outside of a droplet under these forces, velocities of all other
     /// forces and velocities at the nodes of all droplets, as of the last solution.
     ///
-    /// The first moment of the forces and `(eta - eta_in) sum (v n + n v) ds`, whose sum it is (thesis (2.49)), are larger
-    /// than it by the ratio of viscosities, and so are their errors. But outside the flow is also that of a double layer
-    /// in a fluid of one viscosity,
+    /// The first moment of the forces and `(eta - eta_in) sum (v n + n v) ds`, whose sum it is (Cowley (2.49)), are
+    /// larger than it by the ratio of viscosities, and so are their errors. But outside the flow is also that of a
+    /// double layer in a fluid of one viscosity,
     ///
     /// `eta (v - v_other) = K q` on the interfaces, K that of [`stokes_layers::dense::DoubleLayerMatrix`],
     ///
-    /// which is the flow of no forces inside as well, so that `S = sum (q n + n q) ds` without its trace. A rigid motion
-    /// of a droplet, which K takes to zero, has no part in it; where a droplet is pulled the flow is that of the forces
-    /// which carry its net force and torque besides, R F, whose moment is added.
+    /// which is the flow of no forces inside as well, so that `S = sum (q n + n q) ds` without its trace. A rigid
+    /// motion of a droplet, which K takes to zero, has no part in it; where a droplet is pulled the flow is that of the
+    /// forces which carry its net force and torque besides, R F, whose moment is added.
     pub(crate) fn stresslet(
         &self,
         droplet: usize,

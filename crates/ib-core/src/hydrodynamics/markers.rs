@@ -49,8 +49,8 @@ pub struct MarkerGroup {
     pub kind: MarkerKind,
 }
 
-/// Positions, forces and velocities of the markers of all bodies, body after body: lists as long as all groups together,
-/// which flows check ([`Markers::check`]).
+/// Positions, forces and velocities of the markers of all bodies, body after body: lists as long as all groups
+/// together, which flows check ([`Markers::check`]).
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Markers {
     /// Positions (length), not wrapped into the box.

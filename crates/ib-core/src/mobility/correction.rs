@@ -27,7 +27,7 @@ use crate::{FlowError, Vec2};
 /// is symmetric and takes to each term the wave number half way between that of the force and that of the velocity.
 ///
 /// These mobilities are averages over positions of the interface between the grid lines. Where it runs along the grid,
-/// the tangential one depends on that position, through the first harmonic of the grid, which is taken off: for each
+/// the tangential one depends on that position, through the first harmonic of the grid, which is subtracted: for each
 /// axis, with `phi = 2 pi y / h` for the interface along x,
 ///
 /// `V -= (h/eta) 2 Re(e^{i phi/2} S[H] e^{i phi/2} F_t) (tau + tau' - (tau . tau') tau)`,
@@ -262,8 +262,8 @@ impl Plan {
         Ok(())
     }
 
-    /// What is put back along the tangent and the normal of each marker (length per time). A uniform pressure moves
-    /// nothing, so a force has no uniform normal velocity.
+    /// The mobility that is restored along the tangent and the normal of each marker (length per time). A uniform
+    /// pressure moves nothing, so a force has no uniform normal velocity.
     fn restored(&self) -> impl Iterator<Item = [f64; 2]> {
         let count = self.places.len();
         let turned = move |which: usize, k: usize| {

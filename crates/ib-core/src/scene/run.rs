@@ -47,6 +47,8 @@ struct Watch<'a, H> {
     observer: &'a mut dyn Observer<H>,
 }
 
+/// Most steps of a run, at the length of the first: more would take years.
+const MOST_STEPS: f64 = 1e10;
 /// Most reports of an observer at exact times.
 const MOST_REPORTS: f64 = 1e7;
 /// What of an interval is round-off of the summed steps.
@@ -306,10 +308,20 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
             return Err(SceneError::NoErrorEstimate { integrator });
         }
         self.step.check()?;
-        match self.step {
-            StepSize::Fixed(dt) => self.scene.check_step(dt),
-            StepSize::OfLimit(_) | StepSize::Adaptive { .. } => self.check_limit(),
+        let step = match self.step {
+            StepSize::Fixed(dt) => {
+                self.scene.check_step(dt)?;
+                Some(dt)
+            }
+            StepSize::OfLimit(_) | StepSize::Adaptive { .. } => {
+                self.check_limit()?;
+                self.limit().map(|(dt, ..)| dt)
+            }
+        };
+        if let Some(dt) = step {
+            within("the time step at the start of the run", dt, length / MOST_STEPS, f64::INFINITY)?;
         }
+        Ok(())
     }
 
     /// Refuses a step size that is a part of the stability limit where nothing that moves has one.

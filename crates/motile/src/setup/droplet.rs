@@ -30,7 +30,7 @@ pub struct DropletSetup {
     pub tension: f64,
     /// How the markers move along the interface.
     pub motion: MarkerMotion,
-    /// Whether the area is put back to the initial one after each step.
+    /// Whether the area is restored to the initial one after each step.
     pub area_constraint: bool,
     /// Its shape at the start.
     pub shape: DropletShape,

@@ -183,13 +183,13 @@ pub enum MeshKind {
 #[serde(rename_all = "kebab-case")]
 pub enum Surface {
     /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order. A round droplet that
-    /// would start in touch with the walls starts squeezed a little, beside a film.
+    /// would start in contact with the walls starts squeezed a little, beside a film.
     #[default]
     Corrected,
     /// Walls, and only they, are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first
-    /// order, of a few tenths of a grid spacing where droplets keep away, but bears droplets that are pressed against a
-    /// bent wall for long, such as the mouth of a constriction, where in time they enter corrected surfaces or invert a
-    /// triangle of springs.
+    /// order, of a few tenths of a grid spacing where droplets keep away, but tolerates droplets that are pressed
+    /// against a bent wall for long, such as the mouth of a constriction, where in time they enter corrected surfaces
+    /// or invert a triangle of springs.
     SetBack,
     /// Nothing, as in Cowley.
     Plain,

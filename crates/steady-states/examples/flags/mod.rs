@@ -20,7 +20,7 @@ pub(crate) enum Kind {
 /// What drives the flow along a channel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Forcing {
-    /// No mean pressure gradient, as in the thesis.
+    /// No mean pressure gradient, as in Cowley.
     ZeroGradient,
     /// No net flux.
     ZeroFlux,

@@ -83,7 +83,7 @@ impl Layers {
         let len = REFINEMENT * curve.len();
         let inside = weights.find(curve, transforms, point, *reach);
         let velocities = &self.fine[body * len..(body + 1) * len];
-        // The double layer of a constant is known: with the velocity of the nearest node taken off, nothing is divided
+        // The double layer of a constant is known: with the velocity of the nearest node subtracted, nothing is divided
         // by a small distance.
         let constant = if inside.is_some() { velocities[weights.nearest()] } else { Complex64::default() };
         if inside == Some(true) {

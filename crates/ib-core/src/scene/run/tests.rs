@@ -41,6 +41,18 @@ fn times<I: Integrator>(scene: &mut Scene<Flow, I>, until: f64, step: StepSize, 
 }
 
 #[test]
+fn runs_that_would_never_end_are_refused() {
+    let mut scene = empty();
+    scene.add(drawn().with_stiffness(1.5).unwrap());
+    let refused =
+        |outcome: Result<(), SceneError>| matches!(outcome, Err(SceneError::Input(InputError::OutOfRange { .. })));
+    assert!(refused(scene.run(1.0).step_size(StepSize::Fixed(1e-300)).go()));
+    scene.add(drawn().with_stiffness(1e12).unwrap());
+    assert!(refused(scene.run(1.0).step_size(StepSize::OfLimit(0.5)).go()));
+    assert!(scene.run(1e-9).step_size(StepSize::OfLimit(0.5)).go().is_ok());
+}
+
+#[test]
 fn reports_are_exact_or_after_a_step() {
     for step in [StepSize::Fixed(0.7), StepSize::OfLimit(0.5), StepSize::Adaptive { tolerance: 1e-3 }] {
         let mut scene = empty();

@@ -1,5 +1,7 @@
 //! How near the bodies come to one another and to walls.
 
+use stokes_grid::Drive;
+
 use super::System;
 use crate::gap::{Boundary, Conflict, Gap, Gaps, Outline, wall_gap};
 use crate::{Body, Discretisation, Handle, Hydrodynamics, Repulsion, SceneError, Vec2, Warning};
@@ -7,6 +9,8 @@ use crate::{Body, Discretisation, Handle, Hydrodynamics, Repulsion, SceneError, 
 /// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
 /// neighbouring nodes of an interface where there is no grid.
 const RESOLVED_CELLS: f64 = 1.0;
+/// The same in channels of given flux: what a droplet displaces has to pass it, and slow swimmers err by more.
+const RESOLVED_CELLS_CLOSED: f64 = 5.5;
 const RESOLVED_NODES: f64 = 0.3;
 
 impl<H: Hydrodynamics> System<H> {
@@ -74,7 +78,7 @@ impl<H: Hydrodynamics> System<H> {
                 "a gap of {gap:.2e} from {other}, below {resolved:.2e}, what is resolved: use a finer {}",
                 if discretisation.spacing.is_some() { "grid, or boundary integrals" } else { "interface (more nodes)" }
             );
-            warnings.push(Warning { body, cause: "thin film", excess: resolved / gap.max(f64::MIN_POSITIVE), message });
+            warnings.push(Warning { body, cause: "thin film", excess: resolved / gap.max(1e-3 * resolved), message });
         }
         warnings
     }
@@ -82,9 +86,10 @@ impl<H: Hydrodynamics> System<H> {
     /// The narrowest film in which velocities are within about a per cent (length).
     fn resolved_film(&self) -> f64 {
         let discretisation = self.hydrodynamics.discretisation();
-        discretisation
-            .spacing
-            .map_or_else(|| RESOLVED_NODES * self.node_spacing(&discretisation), |spacing| RESOLVED_CELLS * spacing)
+        let closed = matches!(self.hydrodynamics.drive(), Some(Drive::ZeroFlux | Drive::Flux(_)));
+        let cells = if closed { RESOLVED_CELLS_CLOSED } else { RESOLVED_CELLS };
+        let nodes = || RESOLVED_NODES * self.node_spacing(&discretisation);
+        discretisation.spacing.map_or_else(nodes, |spacing| cells * spacing)
     }
 
     /// The largest distance of neighbouring nodes of an interface (length).

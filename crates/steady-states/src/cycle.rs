@@ -1,0 +1,412 @@
+//! Oscillations that come from a Hopf point of a straight swimmer in a channel.
+
+use std::f64::consts::{PI, TAU};
+
+use motile::ib_core::Vec2;
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex64;
+
+use crate::model::{Base, FrameMotion};
+use crate::modes::Part;
+use crate::spectrum::eigenvector;
+use crate::state::CROWDING;
+use crate::system::System;
+use crate::{Critical, Parameter, Profile, SteadyError, Symmetry};
+
+/// Newton iterations for a cycle.
+const MOST_ITERATIONS: usize = 15;
+/// A correction of this size is the last one.
+const SMALLEST: f64 = 1e-8;
+/// Largest correction that is taken whole.
+const LARGEST: f64 = 0.5;
+
+/// An oscillation of a droplet across a channel: after half a period it is the mirror image of itself.
+///
+/// Shape and concentration are trigonometric polynomials in space and time. In time there are K instants over half a
+/// period, at which the equations hold (Fourier collocation); space is as in [`crate::SteadyState`], over a curve that
+/// moves and turns with the droplet.
+#[derive(Debug)]
+pub struct LimitCycle {
+    system: System,
+    /// The curve at rest, its own mirror image.
+    shape: Profile,
+    /// Where it is at each instant: x, y (length) and angle (radians).
+    poses: Vec<[f64; 3]>,
+    states: Vec<DVector<f64>>,
+    speed: f64,
+    /// Period over 2 pi (time).
+    tau: f64,
+}
+
+/// Derivatives of poses, states and so on at instants over half a period by the phase, for what is the same after half
+/// a period and what has changed its sign.
+fn derivatives(instants: usize) -> [DMatrix<f64>; 2] {
+    let full = |j: usize, k: usize| {
+        if j == k {
+            return 0.0;
+        }
+        let difference = PI * (j as f64 - k as f64) / instants as f64;
+        let sign = if (j + k).is_multiple_of(2) { 0.5 } else { -0.5 };
+        sign / (0.5 * difference).tan()
+    };
+    [1.0, -1.0].map(|sign| DMatrix::from_fn(instants, instants, |j, k| full(j, k) + sign * full(j, k + instants)))
+}
+
+/// An equation for the parameter: the correction is at right angles to a direction.
+struct Along {
+    parameter: Parameter,
+    direction: Vec<DVector<f64>>,
+    change: f64,
+}
+
+impl LimitCycle {
+    /// The oscillations near a Hopf point with swings of about an amplitude (length), at the value of the parameter
+    /// that they have it at; K instants over half a period, odd.
+    ///
+    /// # Errors
+    /// A point of other symmetry or without a frequency; no convergence.
+    pub fn from_hopf(
+        hopf: &Critical,
+        parameter: Parameter,
+        amplitude: f64,
+        instants: usize,
+    ) -> Result<Self, SteadyError> {
+        let Critical { state, mode } = hopf;
+        if mode.symmetry != Symmetry::Antisymmetric || mode.value.im <= 0.0 || instants.is_multiple_of(2) {
+            return Err(SteadyError::Unsupported {
+                what: "this is not a Hopf point of swings across a channel, or the number of instants is even".into(),
+                remedy: "give a Hopf point whose mode is antisymmetric, and an odd number",
+            });
+        }
+        let mut system = System::new(state.setup())?;
+        let reduced = system.reduced(state.point(), Part::Odd)?;
+        let (_, vector) = eigenvector(&reduced.matrix, mode.value)?;
+        let vector = reduced.basis.map(|v| Complex64::new(v, 0.0)) * vector;
+        let odd = system.modes.part(Part::Odd);
+        let (profile, speed) = (state.profile().clone(), state.velocity().x);
+        let point = system.point(&profile, [speed, 0.0, 0.0])?;
+        // What of the mode is a shift across and a turn moves the curve.
+        system.load(&point)?;
+        let mut rigid = DMatrix::zeros(odd.len(), 2);
+        for (k, motion) in [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].into_iter().enumerate() {
+            let (h, m) = system.model.rigid_rates(&point.base, motion)?;
+            rigid.set_column(k, &system.modes.analyse(h, m)?.rows(odd.start, odd.len()));
+        }
+        let singular = || SteadyError::Singular { what: "rigid motions", remedy: "give more nodes" };
+        let normal = (rigid.transpose() * &rigid).try_inverse().ok_or_else(singular)? * rigid.transpose();
+        let parts = normal.map(|v| Complex64::new(v, 0.0)) * &vector;
+        let unit = amplitude / parts[0];
+        let rest = &vector - rigid.map(|v| Complex64::new(v, 0.0)) * &parts;
+        let at = |vector: &DVector<Complex64>, j: usize| {
+            let turn = Complex64::cis(PI * j as f64 / instants as f64) * unit;
+            let mut whole = DVector::zeros(system.modes.len());
+            whole.rows_mut(odd.start, odd.len()).copy_from(&vector.map(|z| (z * turn).re));
+            whole
+        };
+        let direction: Vec<DVector<f64>> = (0..instants).map(|j| at(&vector, j)).collect();
+        let states = (0..instants).map(|j| &point.state + at(&rest, j)).collect();
+        let poses = (0..instants).map(|j| {
+            let turn = Complex64::cis(PI * j as f64 / instants as f64) * unit;
+            [0.0, (parts[0] * turn).re, (parts[1] * turn).re]
+        });
+        let poses = poses.collect();
+        let mut cycle = Self { system, shape: profile, poses, states, speed, tau: 1.0 / mode.value.im };
+        cycle.newton(Some(&Along { parameter, direction, change: 0.0 }))?;
+        cycle.settled()
+    }
+
+    /// The oscillation at another value of a parameter, nearby.
+    ///
+    /// # Errors
+    /// No convergence.
+    pub fn at(&self, parameter: Parameter, value: f64) -> Result<Self, SteadyError> {
+        let mut next = self.copy(&parameter.with(&self.system.model.setup, value)?)?;
+        next.newton(None)?;
+        next.settled()
+    }
+
+    /// The next oscillation of a branch, beyond this one as seen from another one before it: `factor` times as far
+    /// (pseudo-arclength continuation, so that folds are passed).
+    ///
+    /// # Errors
+    /// No convergence.
+    pub fn beyond(&self, before: &Self, parameter: Parameter, factor: f64) -> Result<Self, SteadyError> {
+        let change = self.value(parameter) - before.value(parameter);
+        let ahead = self.value(parameter) + factor * change;
+        let mut next = self.copy(&parameter.with(&self.system.model.setup, ahead)?)?;
+        // Over the curves of this cycle.
+        let mut before = before.copy(&before.system.model.setup)?;
+        before.move_onto(&self.shape, &self.poses)?;
+        let direction: Vec<DVector<f64>> = self.states.iter().zip(&before.states).map(|(a, b)| a - b).collect();
+        for (state, way) in next.states.iter_mut().zip(&direction) {
+            *state += factor * way;
+        }
+        next.speed += factor * (self.speed - before.speed);
+        next.tau += factor * (self.tau - before.tau);
+        next.newton(Some(&Along { parameter, direction, change }))?;
+        next.settled()
+    }
+
+    /// The same cycle over the curves that serve it best.
+    fn settled(mut self) -> Result<Self, SteadyError> {
+        self.refit()?;
+        self.newton(None)?;
+        Ok(self)
+    }
+
+    fn copy(&self, setup: &motile::Setup) -> Result<Self, SteadyError> {
+        let Self { shape, poses, states, speed, tau, .. } = self;
+        let (shape, poses, states) = (shape.clone(), poses.clone(), states.clone());
+        Ok(Self { system: System::new(setup)?, shape, poses, states, speed: *speed, tau: *tau })
+    }
+
+    /// Value of a parameter.
+    #[must_use]
+    pub fn value(&self, parameter: Parameter) -> f64 {
+        parameter.get(&self.system.model.setup).unwrap_or(f64::NAN)
+    }
+
+    /// Period (time).
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        TAU * self.tau
+    }
+
+    /// Mean speed along the channel (length per time).
+    #[must_use]
+    pub fn mean_speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Largest distance of the centroid from the centre line (length).
+    ///
+    /// # Errors
+    /// A shape that is not finite.
+    pub fn amplitude(&self) -> Result<f64, SteadyError> {
+        let heights = (0..self.poses.len()).map(|j| Ok(self.lab_profile(j)?.moments()?.centroid.y));
+        let heights = heights.collect::<Result<Vec<f64>, SteadyError>>()?;
+        let count = heights.len();
+        // Odd harmonics, from both halves of the period.
+        let coefficient = |m: usize| {
+            let terms = heights.iter().enumerate();
+            terms.map(|(j, y)| y * Complex64::cis(-PI * (m * j) as f64 / count as f64)).sum::<Complex64>()
+                / count as f64
+        };
+        let odd: Vec<(usize, Complex64)> = (1..count).step_by(2).map(|m| (m, coefficient(m))).collect();
+        let height =
+            |phase: f64| odd.iter().map(|(m, c)| 2.0 * (c * Complex64::cis(*m as f64 * phase)).re).sum::<f64>();
+        Ok((0..2000).map(|k| height(TAU * f64::from(k) / 2000.0).abs()).fold(0.0, f64::max))
+    }
+
+    fn base(&self, instant: usize) -> Result<Base, SteadyError> {
+        let [x, y, angle] = self.poses[instant];
+        let mut base = Base::new(&self.shape)?.moved(y, angle);
+        base.positions.iter_mut().for_each(|position| position.x += x);
+        Ok(base)
+    }
+
+    fn lab_profile(&self, instant: usize) -> Result<Profile, SteadyError> {
+        let base = self.base(instant)?;
+        let (offsets, density) = self.system.modes.synthesise(&self.states[instant]);
+        let positions =
+            base.positions.iter().zip(&base.normals).zip(&offsets).map(|((x, n), h)| *x + *h * *n).collect();
+        Ok(Profile { positions, density })
+    }
+
+    /// Poses' derivatives by the phase.
+    fn pose_rates(&self) -> Vec<[f64; 3]> {
+        let count = self.poses.len();
+        let [same, turned] = derivatives(count);
+        let rate = |matrix: &DMatrix<f64>, j: usize, axis: usize| -> f64 {
+            (0..count).map(|k| matrix[(j, k)] * self.poses[k][axis]).sum()
+        };
+        (0..count).map(|j| [rate(&same, j, 0), rate(&turned, j, 1), rate(&turned, j, 2)]).collect()
+    }
+
+    /// Derivatives of the states by the phase less their rates times the period over 2 pi, an instant after the other;
+    /// and those derivatives over the period, which are the rates of a solution and smoother before there is one.
+    fn residual(&mut self) -> Result<(DVector<f64>, Vec<DVector<f64>>), SteadyError> {
+        let (count, n) = (self.states.len(), self.system.modes.len());
+        let [same, turned] = derivatives(count);
+        let odd = self.system.modes.part(Part::Odd);
+        let rates = self.pose_rates();
+        let (mut residual, mut own) = (DVector::zeros(count * n), Vec::new());
+        for (j, pose_rate) in rates.into_iter().enumerate() {
+            let base = self.base(j)?;
+            let (h, m) = self.system.modes.synthesise(&self.states[j]);
+            self.system.model.load(&base, &h, &m)?;
+            let (h, m) = self.system.model.rates(&base, [self.speed, 0.0, 0.0])?;
+            let rate = self.system.modes.analyse(h, m)?;
+            let (h, m) = self.system.model.rigid_rates(&base, motion(pose_rate, self.poses[j]))?;
+            let rigid = self.system.modes.analyse(h, m)?;
+            let mut moved = rigid;
+            for k in 0..count {
+                for index in 0..n {
+                    moved[index] +=
+                        (if odd.contains(&index) { &turned } else { &same })[(j, k)] * self.states[k][index];
+                }
+            }
+            residual.rows_mut(j * n, n).copy_from(&(&moved - self.tau * rate));
+            own.push(moved / self.tau);
+        }
+        Ok((residual, own))
+    }
+
+    /// The linearised equations bordered by rigid motions, shifts in time and what is conserved, and what is conserved.
+    fn matrix(&mut self) -> Result<(DMatrix<f64>, [f64; 2]), SteadyError> {
+        let (count, n) = (self.states.len(), self.system.modes.len());
+        let [same, turned] = derivatives(count);
+        let odd = self.system.modes.part(Part::Odd);
+        let size = count * n;
+        let mut matrix = DMatrix::zeros(size + 5, size + 5);
+        let (rates, (_, own)) = (self.pose_rates(), self.residual()?);
+        let mut lacks = [0.0; 2];
+        for (j, (pose_rate, own)) in rates.into_iter().zip(&own).enumerate() {
+            let (base, tau) = (self.base(j)?, self.tau);
+            let [ux, uy, turn] = motion(pose_rate, self.poses[j]);
+            let frame: FrameMotion = [self.speed + ux / tau, uy / tau, turn / tau];
+            let point = crate::system::Point { base, state: self.states[j].clone(), frame };
+            let jacobian = self.system.jacobian(&point, Part::Full)?;
+            matrix.view_mut((j * n, j * n), (n, n)).copy_from(&(-tau * jacobian));
+            for k in 0..count {
+                for index in 0..n {
+                    matrix[(j * n + index, k * n + index)] +=
+                        (if odd.contains(&index) { &turned } else { &same })[(j, k)];
+                }
+            }
+            self.system.load(&point)?;
+            let (h, m) = self.system.model.rigid_rates(&point.base, [1.0, 0.0, 0.0])?;
+            let along = self.system.modes.analyse(h, m)?;
+            let conserved = self.system.conserved_gradients(&point.base, Part::Full)?;
+            let (present, wanted) = (self.system.model.present(), self.system.model.conserved());
+            for (lack, (have, want)) in lacks.iter_mut().zip(present.iter().zip(wanted)) {
+                *lack += 1.0 - have / want;
+            }
+            // Columns: speed, period over 2 pi, two sources that do nothing. Rows: shifts along the channel and in
+            // time, area, number of particles.
+            matrix.view_mut((j * n, size), (n, 1)).copy_from(&(tau * &along));
+            matrix.view_mut((j * n, size + 1), (n, 1)).copy_from(&-own);
+            matrix.view_mut((size, j * n), (1, n)).copy_from(&along.transpose());
+            matrix.view_mut((size + 1, j * n), (1, n)).copy_from(&own.transpose());
+            for (k, gradient) in conserved.iter().enumerate() {
+                matrix[(j * n + self.system.modes.index(k == 1, false, 0), size + 2 + k)] = 1.0;
+                matrix.view_mut((size + 2 + k, j * n), (1, n)).copy_from(&gradient.transpose());
+            }
+        }
+        matrix[(size + 4, size + 4)] = 1.0;
+        Ok((matrix, lacks))
+    }
+
+    fn newton(&mut self, along: Option<&Along>) -> Result<(), SteadyError> {
+        let (count, n) = (self.states.len(), self.system.modes.len());
+        let size = count * n;
+        let mut last = f64::INFINITY;
+        let mut factors = None;
+        for _ in 0..MOST_ITERATIONS {
+            let (residual, _) = self.residual()?;
+            let (lu, lacks) = match factors.take() {
+                Some(factors) => factors,
+                None => {
+                    let (mut matrix, lacks) = self.matrix()?;
+                    if let Some(Along { parameter, direction, change }) = along {
+                        let setup = self.system.model.setup.clone();
+                        let value = self.value(*parameter);
+                        let step = 1e-5 * value.abs().max(0.01);
+                        let mut sides = Vec::new();
+                        for value in [value + step, value - step] {
+                            sides.push(self.copy(&parameter.with(&setup, value)?)?.residual()?.0);
+                        }
+                        let derivative = (&sides[0] - &sides[1]) / (2.0 * step);
+                        matrix.view_mut((0, size + 4), (size, 1)).copy_from(&derivative);
+                        for (j, way) in direction.iter().enumerate() {
+                            matrix.view_mut((size + 4, j * n), (1, n)).copy_from(&way.transpose());
+                        }
+                        matrix[(size + 4, size + 4)] = *change;
+                    }
+                    (matrix.lu(), lacks)
+                }
+            };
+            let mut right = DVector::zeros(size + 5);
+            right.rows_mut(0, size).copy_from(&-&residual);
+            (right[size + 2], right[size + 3]) = (lacks[0], lacks[1]);
+            let singular = SteadyError::Singular { what: "a cycle", remedy: "start from another amplitude" };
+            let correction = lu.solve(&right).ok_or(singular)?;
+            let amount = correction.rows(0, size).amax();
+            if !amount.is_finite() {
+                break;
+            }
+            let part = (LARGEST / amount).min(1.0);
+            for (j, state) in self.states.iter_mut().enumerate() {
+                *state += part * correction.rows(j * n, n);
+            }
+            self.speed += part * correction[size];
+            self.tau += part * correction[size + 1];
+            if let Some(Along { parameter, .. }) = along {
+                self.system.change(*parameter, part * correction[size + 4])?;
+            }
+            if amount < SMALLEST {
+                return Ok(());
+            }
+            // The same matrix as long as it does; what is conserved is then right already.
+            if amount < 1e-2 && amount < 0.3 * last {
+                factors = Some((lu, [0.0; 2]));
+            }
+            last = amount;
+        }
+        Err(SteadyError::NoConvergence {
+            residual: last,
+            iterations: MOST_ITERATIONS,
+            remedy: "take a smaller step, more nodes or more instants",
+        })
+    }
+
+    /// Goes over to the mean shape, where the droplet is at each instant.
+    fn refit(&mut self) -> Result<(), SteadyError> {
+        let count = self.states.len();
+        let even = self.system.modes.part(Part::Even);
+        let mut mean = DVector::zeros(self.system.modes.len());
+        for state in &self.states {
+            let mut rows = mean.rows_mut(even.start, even.len());
+            rows += state.rows(even.start, even.len()) / count as f64;
+        }
+        let (offsets, density) = self.system.modes.synthesise(&mean);
+        let base = Base::new(&self.shape)?;
+        let positions =
+            base.positions.iter().zip(&base.normals).zip(&offsets).map(|((x, n), h)| *x + *h * *n).collect();
+        let nodes = self.shape.nodes();
+        let shape = crate::newton::centred(Profile { positions, density }.resampled(nodes, CROWDING)?)?;
+        let poses: Vec<[f64; 3]> = (0..count)
+            .map(|j| {
+                let profile = self.lab_profile(j)?;
+                let centroid = profile.moments()?.centroid;
+                // The particles are at the rear.
+                let offset = |(x, m): (&Vec2, &f64)| (centroid - *x) * *m;
+                let ahead: Vec2 = profile.positions.iter().zip(&profile.density).map(offset).sum();
+                Ok([centroid.x, centroid.y, ahead.y.atan2(ahead.x)])
+            })
+            .collect::<Result<_, SteadyError>>()?;
+        self.move_onto(&shape, &poses)
+    }
+
+    /// The same cycle over other curves.
+    fn move_onto(&mut self, shape: &Profile, poses: &[[f64; 3]]) -> Result<(), SteadyError> {
+        let profiles = (0..self.states.len()).map(|j| self.lab_profile(j)).collect::<Result<Vec<_>, _>>()?;
+        (self.shape, self.poses) = (shape.clone(), poses.to_vec());
+        for (j, profile) in profiles.iter().enumerate() {
+            let base = self.base(j)?;
+            let too_far = SteadyError::NoConvergence {
+                residual: f64::NAN,
+                iterations: 0,
+                remedy: "take smaller steps: the cycle has changed too much",
+            };
+            let (offsets, density) = profile.over(&base.positions, &base.normals)?.ok_or(too_far)?;
+            self.states[j] = self.system.modes.analyse(&offsets, &density)?;
+        }
+        Ok(())
+    }
+}
+
+/// Motion of a frame about the origin from the rate of a pose, which turns about its own place.
+fn motion([x, y, turn]: [f64; 3], pose: [f64; 3]) -> FrameMotion {
+    [x + turn * pose[1], y - turn * pose[0], turn]
+}
