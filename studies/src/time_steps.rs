@@ -311,7 +311,8 @@ fn orders(report: &mut String) -> Result<()> {
     tell(
         report,
         "\nA swimmer of activity -2 starts, viscosity 100, to t = 1.6: root mean square changes of marker positions and \
-         particle numbers (over their mean) when the step is halved to 0.001, and the order of the last two halvings:\n\n\
+         of particle numbers (over their mean) when the step is halved to 0.001, and the orders of the last two \
+         halvings:\n\n\
          | flow | stabiliser | filter | positions | numbers | orders |\n|---|---|---|---|---|---|",
     )?;
     let rms =

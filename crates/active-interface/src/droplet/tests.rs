@@ -130,8 +130,8 @@ fn laws_chosen_at_run_time_are_laws() {
     assert!(constant.unwrap().tensions().iter().all(|&tension| tension == 7.0));
 }
 
-/// h c max(-d gamma/dc, 0) / (4 eta): c = 4 is far above the step of B, of 2 at c_T = 2, so that dgamma/dc = 1/2 - 2 there;
-/// at c = 1 the tension rises.
+/// h c max(-d gamma/dc, 0) / (4 eta): c = 4 is far above the step of B, of 2 at c_T = 2, so that d gamma/dc = 1/2 - 2
+/// there; at c = 1 the tension rises.
 #[test]
 fn the_stabiliser_by_hand() {
     for (c, on, expected) in [(4.0, true, vec![0.15; 64]), (1.0, true, vec![0.0; 64]), (4.0, false, Vec::new())] {
