@@ -310,8 +310,8 @@ fn after(setup: &Setup, stabilised: bool, dt: f64) -> Result<[Vec<f64>; 2]> {
 fn orders(report: &mut String) -> Result<()> {
     tell(
         report,
-        "\nA swimmer of activity -2 starts, viscosity 100, to t = 1.6: root mean square changes of marker positions and \
-         of particle numbers (over their mean) when the step is halved to 0.001, and the orders of the last two \
+        "\nA swimmer of activity -2 starts, viscosity 100, to t = 1.6: root mean square changes of marker positions \
+         and of particle numbers (over their mean) when the step is halved to 0.001, and the orders of the last two \
          halvings:\n\n\
          | flow | stabiliser | filter | positions | numbers | orders |\n|---|---|---|---|---|---|",
     )?;
