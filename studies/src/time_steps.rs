@@ -1,8 +1,8 @@
 //! What time steps cost: Runge-Kutta-Chebyshev against the midpoint rule between stiff walls, the largest stable steps
-//! against the predicted ones between walls and of swimmers, and adaptive against fixed steps for a swimmer that
-//! starts.
+//! against the predicted ones between walls and of swimmers, the order between halvings of the step, and adaptive
+//! against fixed steps for a swimmer that starts.
 //!
-//! `cargo run --release -p studies -- time_steps` prints four tables and writes them to `out/time_steps/tables.md`.
+//! `cargo run --release -p studies -- time_steps` prints five tables and writes them to `out/time_steps/tables.md`.
 //! `--study` chooses one of them; `--help` lists the flags.
 
 use std::fmt::Write as _;
@@ -32,6 +32,8 @@ enum Study {
     Limits,
     /// Largest stable steps of swimmers, with and without the stabiliser of the coupling of concentration and tension.
     Coupling,
+    /// Differences between halvings of the step and their orders, with and without stabiliser and filter.
+    Order,
     /// Adaptive and fixed steps of a swimmer that starts.
     Transient,
 }
@@ -59,6 +61,9 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     }
     if wanted(Study::Coupling) {
         coupling(&mut report)?;
+    }
+    if wanted(Study::Order) {
+        orders(&mut report)?;
     }
     if wanted(Study::Transient) {
         transient(&mut report)?;
@@ -286,6 +291,49 @@ fn coupling(report: &mut String) -> Result<()> {
                 let times = largest / limit;
                 tell(report, format_args!("| {activity} | {flow} | {name} | {limit:.4} | {reason} | {times:.1} |"))?;
             }
+        }
+    }
+    Ok(())
+}
+
+/// Positions of the markers and particle numbers, these over their mean, of a swimmer after a time of 1.6.
+fn after(setup: &Setup, stabilised: bool, dt: f64) -> Result<[Vec<f64>; 2]> {
+    let mut scene = free(setup, stabilised)?;
+    scene.run(1.6).step_size(StepSize::Fixed(dt)).go()?;
+    let (_, droplet) = scene.system().bodies::<ActiveDroplet>().next().context("a swimmer")?;
+    let numbers = droplet.particle_numbers();
+    let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
+    let positions = droplet.markers().iter().flat_map(Vec2::to_array).collect();
+    Ok([positions, numbers.iter().map(|number| number / mean).collect()])
+}
+
+fn orders(report: &mut String) -> Result<()> {
+    tell(
+        report,
+        "\nA swimmer of activity -2 starts, viscosity 100, to t = 1.6: root mean square changes of marker positions \
+         and of particle numbers (over their mean) when the step is halved to 0.001, and the orders of the last two \
+         halvings:\n\n\
+         | flow | stabiliser | filter | positions | numbers | orders |\n|---|---|---|---|---|---|",
+    )?;
+    let rms =
+        |[a, b]: [&[f64]; 2]| (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt();
+    let grid = |filter| Method::Grid(GridMethod { filter, ..GridMethod::of_spacing(0.2) });
+    let integrals = |cells| Method::Integral(IntegralMethod { nodes: 72, cells });
+    let flows = [("grid 0.2", grid(true), "on"), ("grid 0.2", grid(false), "off")];
+    let flows = flows
+        .into_iter()
+        .chain([("integrals, 72 cells", integrals(72), "none"), ("integrals, 288 cells", integrals(288), "none")]);
+    for (flow, method, filter) in flows {
+        for (stabilised, name) in [(true, "on"), (false, "off")] {
+            let setup = Setup { method, ..Setup::default() };
+            let [long, middle, short] = [0.004, 0.002, 0.001].map(|dt| after(&setup, stabilised, dt));
+            let (long, middle, short) = (long?, middle?, short?);
+            let change = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| [0, 1].map(|i| rms([&a[i], &b[i]]));
+            let ([a, b], [c, d]) = (change(&long, &middle), change(&middle, &short));
+            let orders = [(a / c).log2(), (b / d).log2()];
+            let line =
+                format!("| {flow} | {name} | {filter} | {c:.1e} | {d:.1e} | {:.2}, {:.2} |", orders[0], orders[1]);
+            tell(report, line)?;
         }
     }
     Ok(())

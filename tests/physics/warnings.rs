@@ -35,7 +35,7 @@ fn thin_films_edges_and_small_droplets_are_told() {
     assert!(causes(&channel(2.6, grid(0.1), -1.5), 0.2).is_empty());
     let Region::Channel { length, width, .. } = channel(2.6, grid(0.1), -1.5).region else { return };
     let closed = Region::Channel { length, width, drive: Drive::ZeroFlux };
-    let closed = |spacing| Setup { region: closed.clone(), ..channel(width, grid(spacing), -1.5) };
+    let closed = |spacing| Setup { region: closed, ..channel(width, grid(spacing), -1.5) };
     assert_eq!(causes(&closed(0.1), 0.2), ["thin film"]);
     assert!(causes(&closed(0.05), 0.2).is_empty());
     let edge = "edge of the concentration not resolved";

@@ -66,6 +66,10 @@ pub(crate) fn trials() -> Vec<Trial> {
             let base = Setup { droplets: of_viscosity(0.1), ..coarse() };
             run_by(way, &base, extent.pick(1.0, 20.0), look)
         }),
+        Recipe::new(2, "viscosities equal but for the last digit", &[Way::Grid, Way::Integral], |way, extent, look| {
+            let base = Setup { droplets: of_viscosity(100.0_f64.next_up()), ..coarse() };
+            run_by(way, &base, extent.pick(1.0, 20.0), look)
+        }),
         Recipe::new(3, "viscosity 10, tension up to 1000", ACCURATE, low_viscosity),
         Recipe::new(3, "viscosity 10, tension up to 1000", &[Way::Thesis], low_viscosity).ending_in(UNFILTERED),
         Recipe::new(5, "five cells a radius", &[Way::Grid], five_cells),
@@ -78,6 +82,8 @@ pub(crate) fn trials() -> Vec<Trial> {
             run_by(way, &base, extent.pick(5.0, 60.0), look)
         })
         .area_within(2e-3),
+        Recipe::new(7, "a channel of 2.2 R0, viscosity ratio 10", &[Way::Grid], film).ending_in(&[Ending::Film]),
+        Recipe::new(7, "a channel of 2.2 R0, viscosity ratio 10", &[Way::Integral], film),
         Recipe::new(10, "a long time: no creep", &[Way::Grid, Way::Integral], long),
         Recipe::new(10, "a long time: no creep", &[Way::Thesis], long).ending_in(UNFILTERED),
         Recipe::new(11, "no particles on half of the interface", EVERY, |way, extent, look| {
@@ -127,6 +133,15 @@ fn low_viscosity(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, Ca
 fn five_cells(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
     let base = Setup { droplets: one(-4.0, 10.0), ..on_grid(GridMethod::of_spacing(0.2), [6.0, 6.0]) };
     run_by(way, &base, extent.pick(20.0, 100.0), look)
+}
+
+/// The film at the walls becomes thinner than the grid's markers see.
+fn film(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
+    let region = Region::Channel { length: 6.0, width: 2.2, drive: Drive::ZeroGradient };
+    let particles = Particles { activity: -8.0, excluded_volume: Exclusion::Step(16.0), ..Particles::default() };
+    let droplets =
+        vec![DropletSetup { particles: Some(particles), viscosity: Some(1000.0), ..DropletSetup::default() }];
+    run_by(way, &Setup { region, droplets, ..coarse() }, extent.pick(10.0, 20.0), look)
 }
 
 fn narrow_box(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {

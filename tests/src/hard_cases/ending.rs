@@ -44,6 +44,8 @@ pub enum Ending {
     Crossing,
     /// A marker went beyond a wall.
     BeyondWall,
+    /// A film at a wall became thinner than markers of a droplet of another viscosity see.
+    Film,
     /// Area or particles changed too much.
     NotConserved,
     /// An inverted triangle.
@@ -77,6 +79,7 @@ impl Ending {
             SceneError::Body { source, .. } => Self::of_body(source),
             SceneError::Flow { source, .. } => match source {
                 FlowError::BeyondWall { .. } => Self::BeyondWall,
+                FlowError::Film { .. } => Self::Film,
                 FlowError::NonFinite { .. } => Self::NonFinite,
                 FlowError::NoConvergence { .. } => Self::NotConverged,
                 _ => Self::Other,

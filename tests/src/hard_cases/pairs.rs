@@ -1,7 +1,7 @@
 //! Two droplets.
 
 use motile::stokes_grid::Drive;
-use motile::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
+use motile::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, RepulsionSetup, Setup};
 
 use crate::hard_cases::drive::{by, run_way};
 use crate::hard_cases::{Ending, Recipe, Trial, Way, expand};
@@ -53,5 +53,23 @@ pub(crate) fn trials() -> Vec<Trial> {
             run_way(way, scene, extent.pick(6.0, 40.0), look)
         })
         .area_within(2e-3),
+        Recipe::new(18, "net forces at a viscosity ratio of 10", &[Way::Grid, Way::Integral], |way, extent, look| {
+            let droplet = |name: &str, x: f64| DropletSetup {
+                name: name.to_owned(),
+                centre: [x, 0.0],
+                viscosity: Some(100.0),
+                ..DropletSetup::passive(10.0)
+            };
+            let setup = Setup {
+                region: Region::Box { lengths: [8.0, 4.0] },
+                method: Method::Grid(GridMethod::of_spacing(0.1)),
+                viscosity: 10.0,
+                repulsion: Some(RepulsionSetup { strength: 2000.0, range: 0.3 }),
+                droplets: vec![droplet("first droplet", -1.05), droplet("second droplet", 1.05)],
+                ..Setup::default()
+            };
+            let scene = by(way, &setup).build()?.scene;
+            run_way(way, scene, extent.pick(0.2, 10.0), look)
+        }),
     ])
 }

@@ -78,3 +78,6 @@ impl ShortWaveFilter {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -42,3 +42,6 @@ impl ActiveDroplet {
 pub(crate) fn finest_response(discretisation: &Discretisation) -> f64 {
     discretisation.spacing.unwrap_or(0.5 / discretisation.interface_stiffness)
 }
+
+#[cfg(test)]
+mod tests;

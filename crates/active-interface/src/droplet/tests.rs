@@ -129,3 +129,22 @@ fn laws_chosen_at_run_time_are_laws() {
         ActiveDroplet::new(&markers, vec![0.3; 32], Box::new(crate::ConstantTension::new(7.0).unwrap()), 0.1);
     assert!(constant.unwrap().tensions().iter().all(|&tension| tension == 7.0));
 }
+
+/// h c max(-d gamma/dc, 0) / (4 eta): c = 4 is far above the step of B, of 2 at c_T = 2, so that d gamma/dc = 1/2 - 2
+/// there; at c = 1 the tension rises.
+#[test]
+fn the_stabiliser_by_hand() {
+    for (c, on, expected) in [(4.0, true, vec![0.15; 64]), (1.0, true, vec![0.0; 64]), (4.0, false, Vec::new())] {
+        let mut droplet = droplet(Motion::default());
+        let lengths = &droplet.shape.geometry.lengths;
+        let numbers = lengths.iter().map(|length| c * length).collect();
+        let law = ContractileTension::thesis(1.0, -0.5, 2.0, 1.0).unwrap();
+        droplet = ActiveDroplet::new(droplet.markers(), numbers, law, 0.05).unwrap();
+        let step = ib_core::body::StepInfo { dt: 0.01, stabilised: on };
+        droplet.begin_step(&Converging { smooth: false }.discretisation(), step).unwrap();
+        assert_eq!(droplet.stabiliser.len(), expected.len());
+        for (found, expected) in droplet.stabiliser.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{c}: {found} {expected}");
+        }
+    }
+}

@@ -159,3 +159,6 @@ impl Contrast {
         self.curves.iter().map(offset).collect()
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -60,3 +60,6 @@ impl RigidModes {
         self.weighted.chunks_exact((2 * nodes).max(1))
     }
 }
+
+#[cfg(test)]
+mod tests;

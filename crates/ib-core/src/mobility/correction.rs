@@ -296,3 +296,6 @@ impl Plan {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

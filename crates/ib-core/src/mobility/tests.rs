@@ -91,3 +91,25 @@ fn bodies_are_told_the_deficit_of_the_kernel_in_use() {
         ImmersedBoundary::new(solver(), CubicQuadratic::default()).discretisation().mobility_deficit.unwrap();
     assert_ne!(*of_default, *of_peskin);
 }
+
+/// A kernel that spreads nothing loses all of the mobility 1/(4 q), tangential and normal, and couples neither.
+#[test]
+fn a_kernel_that_spreads_nothing_loses_everything() {
+    let nothing = Transforms { normal: Vec::new(), tangential: Vec::new() };
+    for q in [0.05, 0.5, 2.0, 6.0] {
+        for angle in [0.0, 0.3] {
+            let [tangential, normal, cross] = deficits(&nothing, q, angle);
+            assert!((4.0 * q * tangential - 1.0).abs() < 1e-9, "q {q}: {tangential}");
+            assert!((4.0 * q * normal - 1.0).abs() < 1e-9, "q {q}: {normal}");
+            assert_eq!(cross, 0.0);
+        }
+    }
+}
+
+#[test]
+fn the_normal_correction_fades_at_the_spacing_of_the_grid() {
+    for (q, expected) in [(0.0, 1.0), (1.0, 0.939_413_062_813_475_8), (2.0, (-1.0_f64).exp()), (4.0, (-16.0_f64).exp())]
+    {
+        assert!((normal_taper(q) / expected - 1.0).abs() < 1e-14, "{q}");
+    }
+}

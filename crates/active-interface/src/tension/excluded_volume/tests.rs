@@ -59,6 +59,13 @@ fn plateau_is_where_the_slope_equals_the_pull() {
 }
 
 #[test]
+fn the_quadratic_law_by_hand() {
+    let law = ExcludedVolume::Quadratic { strength: 0.25 };
+    assert_eq!([0.0, 2.0, 12.0].map(|c| law.pressure(c)), [0.0, 0.5, 18.0]);
+    assert_eq!([0.0, 2.0, 12.0].map(|c| law.slope(c)), [0.0, 0.5, 3.0]);
+}
+
+#[test]
 fn bad_values_are_refused() {
     assert!(thesis().check().is_ok() && ExcludedVolume::None.check().is_ok());
     assert!(step(-1.0, 200.0, 20.0).check().is_err());

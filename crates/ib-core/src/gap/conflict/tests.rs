@@ -84,3 +84,17 @@ fn bodies_beside_and_inside_one_another_do_not() {
     // A droplet inside a solid.
     assert!(depth([(circle(0.0, 1.0), MarkerKind::Points), (circle(0.3, 0.5), INTERFACE)]).unwrap() > 0.4);
 }
+
+/// A quarter of the grid spacing; without a grid, of the longest side of an interface.
+#[test]
+fn contact_is_a_quarter_of_a_spacing() {
+    for kind in [INTERFACE, MarkerKind::Points] {
+        let pair = |apart: f64| depth([(circle(0.0, 1.0), kind), (circle(apart, 1.0), MarkerKind::Points)]);
+        assert_eq!(pair(2.0 - 0.024), None);
+        assert!((pair(2.0 - 0.026).unwrap() - 0.026).abs() < 1e-4);
+    }
+    let gaps = Gaps::of([(circle(0.0, 1.0), INTERFACE), (circle(3.0, 2.0), MarkerKind::Points)]);
+    let free = Discretisation { spacing: None, ..discretisation() };
+    assert!((gaps.allowed(&discretisation()) - 0.025).abs() < 1e-16);
+    assert!((gaps.allowed(&free) - 0.5 * (TAU / 192.0).sin()).abs() < 1e-14);
+}

@@ -1,9 +1,9 @@
 use std::f64::consts::TAU;
 
-use crate::gap::Boundary;
+use crate::gap::{Boundary, SolidGap};
 use crate::{
-    Body, BodyError, CubicQuadratic, Discretisation, ImmersedBoundary, MarkerBody, MarkerKind, Repulsion, Scene,
-    SceneError, StepSize, Vec2,
+    Body, BodyError, CubicQuadratic, Discretisation, ImmersedBoundary, MarkerBody, MarkerKind, Observer, Repulsion,
+    Scene, SceneError, StepSize, Vec2,
 };
 use stokes_grid::{Grid, PeriodicStokes};
 
@@ -290,4 +290,27 @@ fn bodies_of_the_same_name_are_told_apart() {
     let SceneError::Overlap { body, other, depth, .. } = &error else { panic!("{error}") };
     assert_eq!((body.as_str(), other.as_str()), ("disc (body 1)", "disc (body 0)"));
     assert!((depth - 0.5).abs() < 0.02, "{depth}");
+}
+
+#[test]
+fn the_least_gap_to_solids_is_kept_with_its_time() {
+    let mut scene = scene();
+    scene.add(Disc(circle(Vec2::new(-1.0, 0.0), 0.3)));
+    // From 0.8 to 0.3 to 0.6.
+    let ring = scene.add(ring("ring", Vec2::new(0.5, 0.0), 0.4, None, Vec2::ZERO));
+    let mut gaps = [SolidGap::new(0.1), SolidGap::new(0.1).with_set_back(0.25)];
+    for (shift, present) in [(0.0, 0.8), (-0.5, 0.3), (0.3, 0.6)] {
+        for marker in scene.body_mut(ring).unwrap().positions_mut() {
+            marker.x += shift;
+        }
+        for (gap, behind) in gaps.iter_mut().zip([0.0, 0.25]) {
+            gap.observe(scene.system_mut()).unwrap();
+            assert!((gap.present().unwrap() - (present - behind)).abs() < 1e-12, "{gap:?}");
+        }
+        scene.step(0.05).unwrap();
+    }
+    for (gap, least) in gaps.iter().zip([0.3, 0.05]) {
+        let (found, time) = gap.smallest().unwrap();
+        assert!((found - least).abs() < 1e-12 && time == 0.05, "{found} {time}");
+    }
 }

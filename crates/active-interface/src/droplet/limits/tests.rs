@@ -1,0 +1,35 @@
+use super::*;
+use crate::Curve;
+use ib_core::Domain;
+
+fn limits_of(droplet: &ActiveDroplet) -> Vec<(&'static str, f64)> {
+    let discretisation = Discretisation {
+        domain: Domain { origin: [0.0; 2], periods: [None; 2], walls: None },
+        viscosity: 3.0,
+        spacing: Some(0.1),
+        shape_modes: None,
+        interface_stiffness: 0.5,
+        mobility_deficit: None,
+    };
+    let mut found = Vec::new();
+    droplet.limits(&discretisation, &mut |limit| {
+        assert_eq!(limit.cause, StepCause::Decay);
+        found.push((limit.reason, limit.dt));
+    });
+    found
+}
+
+/// Modes that decay at the rate a are stable under the midpoint rule up to 2/a: a = s gamma / eta, eta the mean
+/// viscosity of both sides, for the interface and the given rate for its markers.
+#[test]
+fn the_bounds_of_a_passive_droplet_by_hand() {
+    let markers = Curve::circle(1.0).unwrap().markers(32).unwrap();
+    let moving = |motion| ActiveDroplet::passive(&markers, 6.0).unwrap().with_motion(motion);
+    let tension = "the surface tension";
+    assert_eq!(limits_of(&moving(Motion::WithFluid)), [(tension, 2.0)]);
+    let thick = moving(Motion::WithFluid).with_viscosity_inside(9.0).unwrap();
+    assert_eq!(limits_of(&thick), [(tension, 4.0)]);
+    let mut droplet = moving(Motion::default());
+    droplet.relaxation = 8.0;
+    assert_eq!(limits_of(&droplet), [(tension, 2.0), ("the relaxation of the marker spacing", 0.25)]);
+}

@@ -1,0 +1,53 @@
+use std::f64::consts::TAU;
+
+use super::*;
+use crate::CubicQuadratic;
+
+/// Cells of 0.1 between walls at -1 and 1, a kernel of variance 4.
+const CHANNEL: Setting =
+    Setting { spacing: 0.1, origin: [0.0; 2], viscosity: 3.0, walls: Some([-1.0, 1.0]), variance: 4.0 };
+
+/// erfc(1) = 0.157299207, erfc(1/2) = 0.479500122.
+#[test]
+fn corrections_fade_towards_walls_and_solids() {
+    // One and two spacings from either wall, or from a solid that is nearer: x = 1/2 and 1.
+    for (gap, tangential, normal) in
+        [(0.0, 0.0, 0.0), (1.0, 0.646_145_14, 0.154_818_12), (2.0, 0.910_926_15, 0.399_576_4)]
+    {
+        for left in [
+            CHANNEL.left(-1.0 + 0.1 * gap, None),
+            CHANNEL.left(1.0 - 0.1 * gap, Some(&f64::INFINITY)),
+            CHANNEL.left(0.0, Some(&gap)),
+            Setting { walls: None, ..CHANNEL }.left(7.0, Some(&gap)),
+        ] {
+            assert!((left[0] - tangential).abs() < 2e-6 && (left[1] - normal).abs() < 1e-7, "{gap}: {left:?}");
+        }
+    }
+    assert_eq!(Setting { walls: None, ..CHANNEL }.left(7.0, None), [1.0; 2]);
+    assert_eq!(CHANNEL.left(0.0, Some(&90.0))[1], CHANNEL.left(0.0, None)[1]);
+}
+
+/// An ellipse off the grid's axes, and what the correction makes of forces on it.
+fn corrected(force: impl Fn(Vec2) -> Vec2) -> Vec<Vec2> {
+    let turn = Vec2::from_angle(0.3);
+    let at = |k: u32| {
+        let (sin, cos) = (TAU * f64::from(k) / 128.0).sin_cos();
+        turn.rotate(Vec2::new(0.7 * cos, 0.5 * sin))
+    };
+    let positions: Vec<Vec2> = (0..128).map(at).collect();
+    let forces: Vec<Vec2> = (0..128).map(|k| force(0.5 * (at(k + 1) - at(k + 127)))).collect();
+    let mut velocities = vec![Vec2::ZERO; 128];
+    let deficit = Arc::new(MobilityDeficit::new(&CubicQuadratic::default()));
+    let setting = Setting { walls: None, ..CHANNEL };
+    MobilityCorrection::new(deficit).apply(&setting, &[], &positions, &forces, &mut velocities).unwrap();
+    velocities
+}
+
+/// The normal forces of a uniform pressure inside are balanced by it, in whatever direction the interface runs.
+#[test]
+fn a_uniform_pressure_moves_nothing() {
+    let largest = |velocities: &[Vec2]| velocities.iter().map(|v| v.length()).fold(0.0, f64::max);
+    let pressed = corrected(|chord| 2.0 * Vec2::new(chord.y, -chord.x));
+    let dragged = corrected(|chord| 2.0 * chord);
+    assert!(largest(&pressed) < 1e-14 && largest(&dragged) > 0.01, "{} {}", largest(&pressed), largest(&dragged));
+}
