@@ -431,6 +431,11 @@ fn a_run_saves_checkpoints_and_stops_when_told() {
     assert_eq!(error.to_string(), format!("there is no checkpoint at {}", nowhere.display()));
     let error = Checkpoint::read(&directory.0).expect_err("no file");
     assert!(matches!(error, CheckpointError::Directory { .. }), "{error}");
+    if cfg!(unix) {
+        // A device that never ends is not read.
+        let error = Checkpoint::read(std::path::Path::new("/dev/zero")).expect_err("no file");
+        assert!(matches!(error, CheckpointError::File { .. }), "{error}");
+    }
     // What is not a file stays what it is.
     assert!(matches!(scene.checkpoint("").write(&directory.0), Err(CheckpointError::File { .. })));
     assert!(directory.0.is_dir());

@@ -114,10 +114,14 @@ impl Checkpoint {
     /// checkpoint of this version.
     pub fn read(path: &Path) -> Result<Self, CheckpointError> {
         let mut bytes = Vec::new();
-        // A device could go on for ever.
-        let read = File::open(path).and_then(|mut file| match file.metadata()?.is_file() {
-            true => file.read_to_end(&mut bytes),
-            false => Err(Error::other("it is no regular file")),
+        let read = File::open(path).and_then(|mut file| {
+            let kind = file.metadata()?.file_type();
+            // A device could go on for ever.
+            if kind.is_file() || kind.is_dir() {
+                file.read_to_end(&mut bytes)
+            } else {
+                Err(Error::other("it is no regular file"))
+            }
         });
         read.map_err(|source| CheckpointError::reading(path, source))?;
         Self::from_bytes(&bytes)
