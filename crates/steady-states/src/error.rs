@@ -6,7 +6,7 @@ use motile::boundary_integral::LayerError;
 use motile::ib_core::input::InputError;
 
 /// An error of this crate, with the offending value and the remedy.
-#[derive(Debug, thiserror::Error)]
+#[derive(thiserror::Error)]
 #[non_exhaustive]
 pub enum SteadyError {
     /// A description that makes no scene.
@@ -70,3 +70,5 @@ pub enum SteadyError {
         remedy: &'static str,
     },
 }
+
+motile::ib_core::input::debug_as_explanation!(SteadyError);
