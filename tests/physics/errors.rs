@@ -51,6 +51,16 @@ fn sizes_are_refused_before_they_are_allocated() {
 }
 
 #[test]
+fn activities_beyond_measure_are_named() {
+    let with = |activity| Setup { droplets: vec![DropletSetup::active(activity)], ..on_grid(0.2) };
+    let message = with(-1e308).build().expect_err("an infinite tension").to_string();
+    assert!(message.contains("particles.activity") && message.contains("not finite"), "{message}");
+    let error = with(-1e200).build().unwrap().scene.run(1.0).go().unwrap_err();
+    assert!(matches!(error, SceneError::StepTooShort { .. }), "{error}");
+    assert!(error.to_string().contains("give droplet less activity"), "{error}");
+}
+
+#[test]
 fn places_that_are_not_finite_are_not_sampled() {
     for base in [on_grid(0.2), Setup::default()] {
         for viscosity in [None, Some(1000.0)] {

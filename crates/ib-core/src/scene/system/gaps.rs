@@ -68,6 +68,10 @@ impl<H: Hydrodynamics> System<H> {
     /// What a user should know of the present state, though a run can go on from it: what the bodies warn of, and films
     /// that the method does not resolve.
     pub fn warnings(&mut self) -> Vec<Warning> {
+        if !self.apart {
+            // No step has looked at the gaps of this state.
+            self.look_at_gaps();
+        }
         let discretisation = self.hydrodynamics.discretisation();
         let mut warnings: Vec<Warning> = self.bodies.iter().flat_map(|body| body.warnings(&discretisation)).collect();
         let between = self.narrowest.map(|gap| (gap.width, self.name_of(gap.body), self.name_of(gap.other)));
@@ -163,15 +167,20 @@ impl<H: Hydrodynamics> System<H> {
     /// Finds the narrowest gap of the present state and refuses nested interfaces; how deep a body may be inside
     /// another one (length).
     fn find_gaps(&mut self) -> Result<f64, SceneError> {
-        self.place_markers();
-        let discretisation = self.hydrodynamics.discretisation();
-        self.gaps.update(&self.bodies, &self.markers);
+        let discretisation = self.look_at_gaps();
         if let Some(Conflict::Nested { inner, outer, interior, exterior }) = self.gaps.nested(&discretisation) {
             let [inner, outer] = [inner, outer].map(|index| self.name_of(index));
             return Err(SceneError::NestedInterfaces { time: self.time, inner, outer, interior, exterior });
         }
-        self.narrowest = self.gaps.narrowest_near(&discretisation);
         Ok(self.gaps.allowed(&discretisation))
+    }
+
+    fn look_at_gaps(&mut self) -> Discretisation {
+        self.place_markers();
+        let discretisation = self.hydrodynamics.discretisation();
+        self.gaps.update(&self.bodies, &self.markers);
+        self.narrowest = self.gaps.narrowest_near(&discretisation);
+        discretisation
     }
 
     /// Takes the gap that was found last into the smallest one.
