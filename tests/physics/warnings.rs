@@ -65,16 +65,14 @@ fn the_start_is_looked_at() {
             let region = Region::Box { lengths: [8.0, 6.0] };
             let mut scene = Setup { region, method, droplets, ..Setup::default() }.build().unwrap().scene;
             let warnings = scene.system_mut().warnings();
-            warnings
-                .iter()
-                .filter(|warning| warning.cause == "thin film")
-                .map(|warning| warning.excess)
-                .collect::<Vec<_>>()
+            let films = warnings.iter().filter(|warning| warning.cause == "thin film");
+            films.map(|warning| warning.excess).collect::<Vec<_>>()
         };
         assert!(films(0.5).is_empty());
         let resolved = if method == grid(0.1) { 0.1 } else { 0.3 * TAU / 72.0 };
         let [excess] = films(0.02)[..] else { panic!("{:?}", films(0.02)) };
-        assert!((excess - resolved / 0.02).abs() < 0.02 * excess, "{excess}");
+        // Markers stand up to 2e-4 outside of a circle, so that their polygon has its area.
+        assert!((excess - resolved / 0.02).abs() < 0.03 * excess, "{excess}");
     }
 }
 
