@@ -16,7 +16,11 @@ fn errors(geometry: Geometry, second: Complex64, viscosities: [f64; 2]) -> [f64;
     });
     let forces = vec![Vec2::ZERO; NODES];
     let interfaces = curves.iter().zip(viscosities);
-    let given = interfaces.map(|(positions, viscosity)| Interface { positions, forces: &forces, viscosity });
+    let given = interfaces.map(|(positions, viscosity)| Interface {
+        positions,
+        forces: &forces,
+        viscosities: [viscosity, 1.0],
+    });
     flow.load(given).unwrap();
     let InterfaceFlow { layers, contrasts, scales, .. } = &mut flow;
     layers.single_layer(true);

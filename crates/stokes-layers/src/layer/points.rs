@@ -39,8 +39,8 @@ impl Layers {
         }
     }
 
-    /// The flow at the point of that number, and the curve that it lies inside of: the single layer less the double
-    /// layer.
+    /// The flow at the point of that number, and the innermost curve that it lies inside of: the single layer less
+    /// the double layer.
     pub(crate) fn flow_at(&mut self, index: usize, point: Complex64, density: Density<'_>) -> (Flow, Option<usize>) {
         let mut flow = Flow::default();
         let mut inside = None;
@@ -62,7 +62,9 @@ impl Layers {
                 } else {
                     None
                 };
-                if side.unwrap_or_else(|| self.curves[body].winds_around(point)) {
+                let within = side.unwrap_or_else(|| self.curves[body].winds_around(point));
+                let smaller = |other: usize| self.curves[body].radius < self.curves[other].radius;
+                if within && inside.is_none_or(smaller) {
                     inside = Some(body);
                 }
             }
