@@ -68,10 +68,9 @@ impl BoundaryIntegral {
             });
         }
         let viscosity = self.flow.viscosity();
-        let interface = |group: &MarkerGroup| Interface {
-            positions: &markers.positions[group.range.clone()],
-            forces: &markers.forces[group.range.clone()],
-            viscosities: group.viscosities(viscosity),
+        let interface = |group: &MarkerGroup| {
+            let (positions, forces) = (&markers.positions[group.range.clone()], &markers.forces[group.range.clone()]);
+            Interface::closed(positions, forces, group.viscosities(viscosity))
         };
         Ok(self.flow.load(markers.groups().iter().map(interface))?)
     }
