@@ -49,6 +49,8 @@ pub struct System<H> {
     /// fluid's.
     around: Vec<Option<usize>>,
     outside: Vec<Option<f64>>,
+    /// The interfaces around the bodies before the last step.
+    before: Vec<Option<usize>>,
     /// The narrowest gap of the present state.
     narrowest: Option<Gap>,
     pub(crate) least_gap: Option<f64>,
@@ -73,6 +75,7 @@ impl<H: Hydrodynamics> System<H> {
             gaps: Gaps::default(),
             around: Vec::new(),
             outside: Vec::new(),
+            before: Vec::new(),
             narrowest: None,
             least_gap: None,
             repulsion: None,

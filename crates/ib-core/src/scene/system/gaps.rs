@@ -137,11 +137,11 @@ impl<H: Hydrodynamics> System<H> {
     /// images by more than a quarter of the grid spacing, and no gap be narrower than the bound, if there is one.
     pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
         let any = self.bodies.iter().any(|body| body.kind().is_interface());
-        let (time, before) = (self.time, std::mem::take(&mut self.around));
+        let (time, mut before) = (self.time, std::mem::take(&mut self.before));
+        before.clone_from(&self.around);
         let allowed = if any { self.find_gaps() } else { 0.0 };
-        if !any {
-            self.around = before;
-        } else if let Some(body) = (0..before.len()).find(|&body| before[body] != self.around[body]) {
+        let changed = (0..before.len()).find(|&body| before[body] != self.around[body]);
+        if let Some(body) = changed {
             let place = |around: Option<usize>| match around {
                 Some(outer) => format!("inside {}", self.name_of(outer)),
                 None => "in the exterior fluid".to_owned(),
@@ -149,6 +149,7 @@ impl<H: Hydrodynamics> System<H> {
             let [before, now] = [place(before[body]), place(self.around[body])];
             return Err(SceneError::Containment { time, body: self.name_of(body), before, now });
         }
+        self.before = before;
         if let Some(Gap { body, place, other, width }) = self.narrowest {
             let names = || [body, other].map(|index| self.name_of(index));
             if width < -allowed {
