@@ -71,6 +71,26 @@ fn droplets_in_droplets_move_as_they_should() {
     }
 }
 
+/// An interface without tension between equal fluids, in a droplet a tenth as viscous as the exterior fluid, moves with
+/// the fluid there.
+#[test]
+fn an_interface_that_is_none_moves_with_the_fluid() {
+    for region in REGIONS {
+        let solved = |mut flow: AnyFlow, spacing: f64| {
+            let mut markers = scene([0.1; 2], spacing, Vec2::ZERO);
+            let inner = markers.groups()[1].range.clone();
+            markers.forces[inner].fill(Vec2::ZERO);
+            flow.velocities(&mut markers).unwrap();
+            means(&markers)
+        };
+        let exact = solved(integral(region()), TAU * 0.4 / 256.0);
+        let errors =
+            SPACINGS.map(|h| (solved(on_grid(region(), h), 0.5 * h)[1] - exact[1]).length() / exact[1].length());
+        println!("{:?}: {errors:?}", region());
+        assert!(errors[2] < 5e-3 && order(&SPACINGS, &errors) > 1.7, "{:?}: {errors:?}", region());
+    }
+}
+
 /// Velocities and pressures in each of the three fluids, a kernel's width away from the interfaces, as without a grid.
 #[test]
 fn the_flow_in_each_fluid() {
