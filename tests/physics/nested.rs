@@ -79,7 +79,7 @@ fn an_interface_that_is_none_moves_with_the_fluid() {
         let solved = |mut flow: AnyFlow, spacing: f64| {
             let mut markers = scene([0.1; 2], spacing, Vec2::ZERO);
             let inner = markers.groups()[1].range.clone();
-            markers.forces[inner].fill(Vec2::ZERO);
+            markers.forces_mut()[inner].fill(Vec2::ZERO);
             flow.velocities(&mut markers).unwrap();
             means(&markers)
         };
