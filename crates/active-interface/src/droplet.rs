@@ -44,7 +44,8 @@ pub enum Motion {
     /// own that keeps them equally spaced; the default (docs/method.md, section 4). The mobility correction needs it.
     Equidistributed {
         /// Rate at which unequal spacing relaxes, in units of D/R^2, D the diffusion constant of the particles and 2 pi
-        /// R the perimeter; without particles, of tension over mean viscosity and R.
+        /// R the perimeter; without particles, of a fifth of the tension over mean viscosity and R, so that it sets no
+        /// shorter steps than the tension does.
         relaxation: f64,
         /// Whether modes of the markers shorter than the kernel are filtered after each step; without it they grow in
         /// long runs. Only on a grid.

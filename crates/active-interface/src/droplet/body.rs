@@ -140,11 +140,7 @@ impl Body for ActiveDroplet {
 
     fn begin_step(&mut self, discretisation: &Discretisation, step: StepInfo) -> Result<(), BodyError> {
         if let Motion::Equidistributed { relaxation, .. } = self.motion {
-            let radius = self.shape.geometry.perimeter / TAU;
-            let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
-            let surface = tension / (self.mean_viscosity(discretisation) * radius);
-            let diffusion = self.diffusion / (radius * radius);
-            self.relaxation = relaxation * if self.transport.is_some() { diffusion } else { surface };
+            self.relaxation = relaxation * self.spacing_rate(discretisation);
         }
         let count = self.shape.markers.len();
         self.fit(discretisation);

@@ -1,5 +1,7 @@
 //! The stable time steps of a droplet.
 
+use std::f64::consts::TAU;
+
 use ib_core::{
     Discretisation,
     body::{StepCause, StepLimit},
@@ -14,8 +16,10 @@ impl ActiveDroplet {
         let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
         let stiffness = discretisation.interface_stiffness * tension;
         limits(StepLimit::decay(2.0 * viscosity / stiffness, "the surface tension"));
-        if let Motion::Equidistributed { .. } = self.motion {
-            limits(StepLimit::decay(2.0 / self.relaxation, "the relaxation of the marker spacing"));
+        if let Motion::Equidistributed { relaxation, .. } = self.motion {
+            // That of the next step, and of the last one where the flow itself sets it.
+            let rate = self.relaxation.max(relaxation * self.spacing_rate(discretisation));
+            limits(StepLimit::decay(2.0 / rate, "the relaxation of the marker spacing"));
         }
         if self.transport.is_some() {
             // Rate of the crowded particles' relaxation, c |gamma'| q / (4 eta), up to q = 1/h or so.
@@ -34,6 +38,18 @@ impl ActiveDroplet {
             let dt = 1.8 * self.shape.geometry.mean_length() / slip;
             limits(StepLimit { dt, reason: "the particles' transport", cause: StepCause::Transport });
         }
+    }
+}
+
+impl ActiveDroplet {
+    /// The unit of the rate at which unequal spacing relaxes ([`Motion::Equidistributed`], 1/time).
+    pub(crate) fn spacing_rate(&self, discretisation: &Discretisation) -> f64 {
+        let radius = self.shape.geometry.perimeter / TAU;
+        if self.transport.is_some() {
+            return self.diffusion / (radius * radius);
+        }
+        let tension = self.tensions.iter().fold(0.0_f64, |a, &b| a.max(b));
+        0.2 * tension / (self.mean_viscosity(discretisation) * radius)
     }
 }
 

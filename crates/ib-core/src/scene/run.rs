@@ -155,6 +155,11 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     pub fn go(mut self) -> Result<(), SceneError> {
         self.check()?;
         self.start = self.scene.time();
+        if self.until - self.start > self.negligible() {
+            // What the first bound on the step looks at: how fast particles are carried, for one.
+            let mut rate = vec![0.0; self.scene.system().state_len()];
+            self.scene.system_mut().present_rate(&mut rate)?;
+        }
         self.notify(true)?;
         let least = self.least.unwrap_or_else(|| LEAST * self.limit().map_or(self.until - self.start, |(dt, ..)| dt));
         let mut taken = 0_usize;

@@ -29,7 +29,11 @@ fn the_bounds_of_a_passive_droplet_by_hand() {
     assert_eq!(limits_of(&moving(Motion::WithFluid)), [(tension, 2.0)]);
     let thick = moving(Motion::WithFluid).with_viscosity_inside(9.0).unwrap();
     assert_eq!(limits_of(&thick), [(tension, 4.0)]);
+    // 50 times a fifth of 6 over 3 and the radius of a circle of the same perimeter, before any step.
     let mut droplet = moving(Motion::default());
-    droplet.relaxation = 8.0;
-    assert_eq!(limits_of(&droplet), [(tension, 2.0), ("the relaxation of the marker spacing", 0.25)]);
+    let spacing = |droplet: &ActiveDroplet| limits_of(droplet)[1];
+    assert_eq!(spacing(&droplet).0, "the relaxation of the marker spacing");
+    assert!((spacing(&droplet).1 - 0.1 * droplet.shape.geometry.perimeter / TAU).abs() < 1e-12);
+    droplet.relaxation = 40.0;
+    assert_eq!(spacing(&droplet).1, 0.05);
 }
