@@ -89,7 +89,8 @@ impl Units {
         let solids = if matches!(scene, Scene::Solids) { self.walls() } else { Vec::new() };
         let repulsion = repulsion.filter(|_| droplets.len() == 2);
         let viscosity = self.viscosity(100.0);
-        Setup { region, method, viscosity, droplets, solids, repulsion, step: StepSize::OfLimit(0.5) }
+        let step = StepSize::OfLimit(0.5);
+        Setup { region, method, viscosity, droplets, solids, rigid: Vec::new(), repulsion, step }
     }
 }
 

@@ -70,7 +70,7 @@ impl RigidWalls {
         layers.load(walls.map(given), true)?;
         layers.single_layer(false);
         layers.refine_kept();
-        check_apart(&layers.curves)?;
+        check_apart(&layers.curves, length)?;
 
         let half = 0.5 * width;
         let count = 2 * layers.starts[layers.curves.len()];
@@ -193,7 +193,7 @@ fn flux_behind(layers: &mut Layers, viscosity: f64, half: f64, unit: &DVector<f6
 }
 
 /// Refuses walls that cross or touch, themselves or one another.
-fn check_apart(curves: &[Curve]) -> Result<(), LayerError> {
+fn check_apart(curves: &[Curve], length: f64) -> Result<(), LayerError> {
     for (first, one) in curves.iter().enumerate() {
         let count = one.fine.position.len();
         // Ends of the piece of the curve from a fine node on.
@@ -210,10 +210,8 @@ fn check_apart(curves: &[Curve]) -> Result<(), LayerError> {
                     if first == second && i == 0 && j + 1 == count {
                         continue;
                     }
-                    let shift = [one, other].iter().find(|c| c.is_open()).map_or_else(Default::default, |open| {
-                        let d = other.fine.position[j] + other.centre - a;
-                        d - open.wrap(d)
-                    });
+                    let apart = other.fine.position[j] + other.centre - a;
+                    let shift = length * (apart.re / length).round();
                     let [c, d] = piece(other, j).map(|z| z - shift);
                     if (c - a).norm_sqr() > (b - a).norm_sqr() + (d - c).norm_sqr() + touching * touching {
                         continue;
