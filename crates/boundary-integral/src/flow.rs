@@ -49,8 +49,8 @@ impl BoundaryIntegral {
         Ok(Self { stiffness: stiffness(self.settings().nodes, perimeter), ..self })
     }
 
-    /// The same between rigid walls and obstacles in a channel ([`InterfaceFlow::with_walls`]), which is wider than what
-    /// they leave. Costs time and memory that grow with the third and second power of the number of their nodes.
+    /// The same between rigid walls and obstacles in a channel ([`InterfaceFlow::with_walls`]), which is wider than
+    /// what they leave. Costs time and memory that grow with the third and second power of the number of their nodes.
     ///
     /// # Errors
     /// Another region than a channel; more than 3000 nodes in all; walls beyond those of the channel; walls that cross

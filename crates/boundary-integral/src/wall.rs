@@ -30,8 +30,8 @@ enum Side {
 /// use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
-/// // A wavy channel of length 12 between y = -1.5 - 0.3 cos(2 pi x/12) and its mirror image, in a straight one of width
-/// // 5, with a post in it. A unit pressure gradient drives fluid through.
+/// // A wavy channel of length 12 between y = -1.5 - 0.3 cos(2 pi x/12) and its mirror image, in a straight one of
+/// // width 5, with a post in it. A unit pressure gradient drives fluid through.
 /// let side = |x: f64| 1.5 + 0.3 * (std::f64::consts::TAU * x / 12.0).cos();
 /// let walls = [
 ///     RigidWall::below(12.0, 96, |x| -side(x))?,
@@ -84,8 +84,8 @@ impl RigidWall {
         Self::obstacle((0..nodes).map(|k| centre + radius * Vec2::from_angle(angle(k))).collect(), nodes)
     }
 
-    /// The lower side of a channel through points of one period (length), to the right, at equally spaced values of some
-    /// parameter; the line may overhang.
+    /// The lower side of a channel through points of one period (length), to the right, at equally spaced values of
+    /// some parameter; the line may overhang.
     ///
     /// # Errors
     /// As [`RigidWall::below`]; fewer points than nodes, or more than a million.
