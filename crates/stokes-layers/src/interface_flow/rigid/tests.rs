@@ -45,7 +45,7 @@ fn moved(flow: &mut InterfaceFlow, centre: Vec2, axes: [f64; 2], inside: f64) ->
     let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * (at(k) - 0.7).cos()).collect();
     let mut forces = vec![Vec2::ZERO; count];
     PeriodicCalculus::new(count)?.tension_forces(&positions, &tension, TensionPlacement::Points, &mut forces)?;
-    flow.load([Interface::closed(&positions, &forces, inside)].into_iter())?;
+    flow.load([Interface::closed(&positions, &forces, [inside, 1.0])].into_iter())?;
     flow.solve()?;
     let mut velocities = vec![Vec2::ZERO; count];
     flow.velocities(0, &mut velocities)?;
@@ -142,7 +142,7 @@ fn what_has_no_tension_moves_with_the_flow() {
     flow.load(std::iter::empty()).unwrap();
     let alone = samples(&mut flow, &points);
     let forces = vec![Vec2::ZERO; 48];
-    flow.load([Interface::closed(&points, &forces, 1.0)].into_iter()).unwrap();
+    flow.load([Interface::closed(&points, &forces, [1.0; 2])].into_iter()).unwrap();
     flow.solve().unwrap();
     let mut velocities = vec![Vec2::ZERO; 48];
     flow.velocities(0, &mut velocities).unwrap();
@@ -194,7 +194,7 @@ fn steady_state_allocates_nothing() {
     let mut velocities = vec![Vec2::ZERO; count];
     for inside in [1.0, 6.0] {
         let mut go = |flow: &mut InterfaceFlow| {
-            flow.load([Interface::closed(&positions, &forces, inside)].into_iter()).unwrap();
+            flow.load([Interface::closed(&positions, &forces, [inside, 1.0])].into_iter()).unwrap();
             flow.solve().unwrap();
             flow.velocities(0, &mut velocities).unwrap();
         };
