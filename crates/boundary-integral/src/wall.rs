@@ -43,7 +43,7 @@ enum Side {
 /// let mut samples = [FlowSample::default(); 2];
 /// flow.sample(&Markers::new(), &[Vec2::new(-3.0, 0.0), Vec2::new(3.5 + 1e-9, 0.0)], &mut samples)?;
 /// println!("velocity in the middle {:.4}", samples[0].velocity.x);
-/// assert!(samples[0].velocity.x > 0.5 && samples[1].velocity.length() < 1e-7);
+/// assert!((samples[0].velocity.x - 0.4223).abs() < 1e-4 && samples[1].velocity.length() < 1e-7);
 /// # Ok(())
 /// # }
 /// ```
