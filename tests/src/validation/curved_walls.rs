@@ -54,12 +54,13 @@ fn ellipse(
     let mut markers = Markers::new();
     markers.push_group(count, MarkerKind::UnevenInterface { viscosity_inside });
     let angle = |k: usize| TAU * k as f64 / count as f64;
-    for (k, position) in markers.positions.iter_mut().enumerate() {
+    for (k, position) in markers.positions_mut().iter_mut().enumerate() {
         *position = centre + Vec2::new(axes[0] * angle(k).cos(), axes[1] * angle(k).sin());
     }
     let tension: Vec<f64> = (0..count).map(|k| tension(angle(k))).collect();
     let mut calculus = PeriodicCalculus::new(count)?;
-    calculus.tension_forces(&markers.positions, &tension, TensionPlacement::Points, &mut markers.forces)?;
+    let [positions, forces, _] = markers.lists_mut();
+    calculus.tension_forces(positions, &tension, TensionPlacement::Points, forces)?;
     Ok(markers)
 }
 
@@ -86,9 +87,9 @@ pub fn fixed(droplet: usize, wall: usize) -> Result<CurvedErrors, StudyError> {
             let tension = |t: f64| 1.0 + amplitude * (t - phase).cos();
             let mut markers = ellipse(centre, [a, 1.0 / a], 8 * droplet.div_ceil(8), None, tension)?;
             flow.velocities(&mut markers)?;
-            let stride = markers.velocities.len() / 8;
+            let stride = markers.velocities().len() / 8;
             let [vx, vy] = ["vx", "vy"].map(|name| rows.clone().select("kind", "marker").column(name));
-            for ((found, vx), vy) in markers.velocities.iter().step_by(stride).zip(vx?).zip(vy?) {
+            for ((found, vx), vy) in markers.velocities().iter().step_by(stride).zip(vx?).zip(vy?) {
                 errors.markers = errors.markers.max(found.distance(Vec2::new(vx, vy)));
             }
             let field = rows.select("kind", "field");
@@ -134,7 +135,7 @@ pub fn film(width: f64, viscosity_inside: f64, droplet: usize, wall: usize) -> R
         let tension = |t: f64| 1.0 + 0.5 * (t - 0.7).cos();
         let mut markers = ellipse(centre, [0.65; 2], droplet, Some(viscosity_inside), tension)?;
         channel(Forcing::default(), droplet, wall)?.velocities(&mut markers)?;
-        Ok(markers.velocities.iter().step_by(droplet / 16).copied().collect())
+        Ok(markers.velocities().iter().step_by(droplet / 16).copied().collect())
     };
     let (found, reference) = (velocities(droplet, wall)?, velocities(256, 384)?);
     let largest = reference.iter().map(|v| v.length()).fold(0.0, f64::max);
@@ -155,7 +156,7 @@ pub fn gradient(length: f64, amplitude: f64, nodes: usize) -> Result<f64, StudyE
     // Fluid in fluid, which changes nothing.
     let mut markers = Markers::new();
     markers.push_group(32, MarkerKind::UnevenInterface { viscosity_inside: None });
-    for (k, position) in markers.positions.iter_mut().enumerate() {
+    for (k, position) in markers.positions_mut().iter_mut().enumerate() {
         *position = 0.2 * Vec2::from_angle(TAU * k as f64 / 32.0);
     }
     Ok(-flow.velocities(&mut markers)?.mean_pressure_gradient[0])
