@@ -21,7 +21,7 @@ const SMALLEST: f64 = 1e-8;
 const LARGEST: f64 = 0.5;
 
 /// Growth of a step after one that has converged.
-const LONGER: f64 = 1.2;
+const LONGER: f64 = 1.3;
 /// Least step over the one before.
 const SHORTEST: f64 = 0.03;
 
@@ -139,11 +139,14 @@ impl LimitCycle {
         let mut last = Self::from_hopf(hopf, parameter, 1.5 * amplitude, instants)?;
         let mut factor = 1.0;
         while seen(&last) {
-            match last.beyond(&before, parameter, factor) {
-                Ok(next) => (before, last, factor) = (last, next, LONGER),
-                Err(error) if factor < SHORTEST => return Err(error),
-                Err(_) => factor *= 0.5,
-            }
+            let next = loop {
+                match last.beyond(&before, parameter, factor) {
+                    Ok(next) => break next,
+                    Err(error) if factor < SHORTEST => return Err(error),
+                    Err(_) => factor *= 0.5,
+                }
+            };
+            (before, last, factor) = (last, next, LONGER);
         }
         Ok(())
     }

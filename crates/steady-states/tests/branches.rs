@@ -70,3 +70,44 @@ fn swings_across_a_channel_begin_at_a_hopf_point() {
     let found = Parameter::Activity.get(hopf.critical.state.setup()).unwrap();
     assert!((found - line).abs() < 2e-3, "{found} {line}");
 }
+
+#[test]
+fn a_branch_of_swimmers_ends_at_rest_at_the_threshold_and_not_in_a_fold() {
+    let region = Region::Plane;
+    let rest = follow(&SteadyState::uniform(&setup(region, -0.35, 48)).unwrap(), -0.35, -0.5);
+    let swimmer = SteadyState::find(&setup(region, -0.45, 48)).unwrap();
+    let branch = follow(&swimmer, -0.45, -0.3);
+    assert!(matches!(branch.end, BranchEnd::Rest), "{}", branch.end);
+    let [point] = branch.special.as_slice() else { panic!("{:?}", branch.special.len()) };
+    let [found, exact] =
+        [point, &rest.special[0]].map(|point| Parameter::Activity.get(point.critical.state.setup()).unwrap());
+    assert!(point.kind == SpecialKind::BranchPoint && (found - exact).abs() < 1e-7, "{found} {exact}");
+}
+
+#[test]
+fn swimmers_across_branch_off_where_those_along_do_and_are_as_fast() {
+    let rest = follow(&SteadyState::uniform(&setup(Region::Plane, -0.35, 48)).unwrap(), -0.35, -0.5);
+    let across = rest.special.iter().find(|point| point.critical.mode.symmetry == Symmetry::Antisymmetric).unwrap();
+    let swimmers = Continuation { largest_step: 0.2, ..Continuation::new(Parameter::Activity, -0.35, -0.6) };
+    let branch = swimmers.switch(across, true, |_, _| true).unwrap();
+    let last = &branch.points.last().unwrap().state;
+    let along = SteadyState::find(&setup(Region::Plane, -0.6, 48)).unwrap();
+    assert!(!last.is_mirror_symmetric() && last.velocity().x.abs() < 1e-7, "{}", last.velocity());
+    let speeds = [last, &along].map(|state| state.measured().unwrap().speed);
+    assert!((speeds[0] / speeds[1] - 1.0).abs() < 1e-7, "{speeds:?}");
+}
+
+#[test]
+fn the_threshold_over_the_excluded_volume_is_that_of_linear_theory() {
+    let rest = follow(&SteadyState::uniform(&setup(Region::Plane, -0.35, 32)).unwrap(), -0.35, -0.5);
+    let strengths = [12.0, 30.0, 100.0, 200.0];
+    let parameters = [Parameter::Activity, Parameter::ExcludedVolume];
+    let curve = rest.special[0].critical.curve(parameters, strengths, |_| {}).unwrap();
+    assert_eq!(curve.len(), strengths.len());
+    for (critical, strength) in curve.iter().zip(strengths) {
+        let activity = Parameter::Activity.get(critical.state.setup()).unwrap();
+        let law = DropletSetup::contractile(activity, strength).particles.unwrap().law(10.0).unwrap();
+        let slope = motile::active_interface::Tension::slope(&law, 100.0);
+        assert!((slope - 0.4).abs() < 1e-8, "{strength}: {activity}, {slope}");
+    }
+}

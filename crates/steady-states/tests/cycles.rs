@@ -4,7 +4,7 @@ use motile::prelude::*;
 use steady_states::{LimitCycle, Parameter, SteadyState, Symmetry};
 
 #[test]
-fn swings_leave_the_hopf_point_with_the_square_of_their_amplitude_and_its_period() {
+fn swings_leave_the_hopf_point_as_its_normal_form_has_it() {
     let method = Method::Integral(IntegralMethod { nodes: 88, cells: 352 });
     let region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient };
     let droplets = vec![DropletSetup::contractile(-2.55, 10.0)];
@@ -19,6 +19,19 @@ fn swings_leave_the_hopf_point_with_the_square_of_their_amplitude_and_its_period
     });
     let ratio = (large.1 / large.0) / (small.1 / small.0);
     assert!((ratio - 1.0).abs() < 0.1, "{small:?} {large:?}");
+    // Half of what a disturbance of the straight swimmer grows by, in the other direction: the normal form of a Hopf
+    // point.
+    let cycle = LimitCycle::from_hopf(&hopf, Parameter::Activity, 0.2, 5).unwrap();
+    let at = cycle.value(Parameter::Activity);
+    let straight = hopf.state.at(Parameter::Activity, at).unwrap().spectrum().unwrap();
+    let growth = straight.of(Symmetry::Antisymmetric).find(|z| z.im > 0.0).unwrap().re;
+    let multipliers = cycle.multipliers().unwrap();
+    let expected = -2.0 * growth * cycle.period();
+    assert!(multipliers.neutral < 1e-3 && !multipliers.is_stable(), "{}", multipliers.neutral);
+    assert!((multipliers.values[0].re.ln() / expected - 1.0).abs() < 0.1, "{} {expected}", multipliers.values[0]);
+    // The same cycle from another one.
+    let again = cycle.at(Parameter::Activity, start + large.1).unwrap();
+    assert!((again.amplitude().unwrap() / large.0.sqrt() - 1.0).abs() < 1e-4, "{}", again.amplitude().unwrap());
     let period = std::f64::consts::TAU / hopf.mode.value.im;
     let at_rest = small.2 - small.0 * (large.2 - small.2) / (large.0 - small.0);
     assert!((at_rest / period - 1.0).abs() < 2e-3, "{at_rest} {period}");

@@ -144,7 +144,7 @@ fn intervals(points: &[(f64, bool)]) -> String {
 }
 
 /// Instants over half a period.
-const INSTANTS: usize = 11;
+const INSTANTS: usize = 9;
 /// First amplitude of a cycle (R0).
 const AMPLITUDE: f64 = 0.2;
 /// Activity at which the reference has a cycle.
