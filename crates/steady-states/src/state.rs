@@ -21,14 +21,13 @@ const REFINEMENT: usize = 16;
 const LONGEST_TAIL: f64 = 0.01;
 /// Nodes with which a state is looked for first.
 const COARSE: usize = 64;
-/// Nodes on the way at most, or as many as are wanted.
-const MOST_NODES: usize = 160;
 /// Part of the activity with which a state is looked for where it is not found directly, and the least step from
 /// there.
 const WEAKER: f64 = 0.5;
 const LEAST_STEP: f64 = 0.01;
-/// Steps in time that change a state by less than this lead to where Newton's method takes over.
-const STEADY: [f64; 2] = [0.02, 0.003];
+/// Most nodes on the way, and the change by a step in time after which Newton's method takes over: the first attempt is
+/// the quickest one.
+const ATTEMPTS: [(usize, f64); 3] = [(0, 0.02), (160, 0.02), (160, 0.003)];
 /// Largest relative change of the velocity by Newton's method.
 const SAME_SPEED: f64 = 0.3;
 
@@ -100,22 +99,33 @@ impl SteadyState {
         let start = start(setup)?;
         let mirror = is_mirror(&start);
         let part = if mirror { Part::Even } else { Part::Full };
-        let mut coarse = System::new(&with_nodes(setup, COARSE.min(wanted)))?;
-        let profile = centred(start.resampled(coarse.model.nodes(), 0.0)?)?;
-        has_room(setup, &profile)?;
-        let mut point = coarse.point(&profile, [0.0; 3])?;
-        let unit = coarse.model.radius * coarse.model.diffusion_rate();
-        let near = |a: f64, b: f64| (a - b).abs() < SAME_SPEED * (a.abs() + unit);
-        for steady in STEADY {
-            coarse.settle(&mut point, part, wanted.max(MOST_NODES), steady)?;
-            let found = Self::from_profile(setup, &coarse.profile(&point), point.frame, mirror);
-            let same = |found: &Self| found.point.frame.iter().zip(point.frame).take(2).all(|(a, b)| near(*a, b));
-            if let Some(found) = found.ok().filter(same) {
-                return Ok(found);
+        let mut failed = None;
+        for (most_nodes, steady) in ATTEMPTS {
+            let mut system = System::new(&with_nodes(setup, COARSE.min(wanted)))?;
+            let profile = centred(start.resampled(system.model.nodes(), 0.0)?)?;
+            has_room(setup, &profile)?;
+            let mut point = system.point(&profile, [0.0; 3])?;
+            let found = system
+                .settle(&mut point, part, most_nodes, steady)
+                .and_then(|_| Self::from_profile(setup, &system.profile(&point), point.frame, mirror));
+            let unit = system.model.radius * system.model.diffusion_rate();
+            let near = |a: f64, b: f64| (a - b).abs() < SAME_SPEED * (a.abs() + unit);
+            match found {
+                Ok(found) if found.point.frame.iter().zip(point.frame).take(2).all(|(a, b)| near(*a, b)) => {
+                    return Ok(found);
+                }
+                // Another state, far away.
+                Ok(found) => {
+                    failed = Some(SteadyError::NoConvergence {
+                        residual: found.outcome.residual,
+                        iterations: found.outcome.iterations,
+                        remedy: REMEDY,
+                    })
+                }
+                Err(error) => failed = Some(error),
             }
         }
-        let residual = coarse.residual(&point)?.amax();
-        Err(SteadyError::NoConvergence { residual, iterations: STEADY.len(), remedy: REMEDY })
+        Err(failed.unwrap_or(SteadyError::Singular { what: "the start", remedy: REMEDY }))
     }
 
     /// The droplet of a description at rest: a circle with the same concentration everywhere, a steady state wherever
