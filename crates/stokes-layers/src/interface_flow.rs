@@ -7,26 +7,39 @@ use num_complex::Complex64;
 
 use crate::{
     Geometry, LayerError, Settings, Vec2,
+    curve::GivenCurve,
     gmres::{Gmres, Outcome},
     greens::{Flow, Vectors},
-    layer::{Density, Layers},
+    layer::{Density, Kept, Layers},
 };
 
 const FOUR_PI: f64 = 4.0 * PI;
 /// Largest ratio of the periods of a box.
-const LARGEST_RATIO: f64 = 20.0;
+pub(crate) const LARGEST_RATIO: f64 = 20.0;
 /// Largest ratio of viscosities: velocities are then right to some 1e-8.
 const MOST_CONTRAST: f64 = 1e8;
 
-/// A closed interface as points of equally spaced parameters: point k of n belongs to the parameter 2 pi k/n.
+/// An interface as points of equally spaced parameters: point k of n belongs to the parameter 2 pi k/n.
 #[derive(Debug, Clone, Copy)]
 pub struct Interface<'a> {
-    /// Points, counter-clockwise, at least as many as the settings have nodes (length).
+    /// Points, counter-clockwise or with the inside on the left, at least as many as the settings have nodes (length).
     pub positions: &'a [Vec2],
+    /// How far the interface goes on in a turn of the parameter (length): zero for a closed one, plus or minus the
+    /// period of the region along x for an open one.
+    pub period: Vec2,
     /// Force on the fluid at each point (force): the force per length times the length that belongs to the point.
     pub forces: &'a [Vec2],
-    /// Viscosity inside (stress times time).
-    pub viscosity: f64,
+    /// Viscosities inside and outside (stress times time); outside is another fluid than the exterior where the
+    /// interface lies inside another one.
+    pub viscosities: [f64; 2],
+}
+
+impl<'a> Interface<'a> {
+    /// A closed interface.
+    #[must_use]
+    pub fn closed(positions: &'a [Vec2], forces: &'a [Vec2], viscosities: [f64; 2]) -> Self {
+        Self { positions, period: Vec2::ZERO, forces, viscosities }
+    }
 }
 
 /// What a solution needed and found.
@@ -75,7 +88,8 @@ pub struct WarmStart {
 /// (eta_in + eta_out)/2 v(x) = 1/(4 pi) INT G(x, y) F(y) ds - (eta_in - eta_out)/(4 pi) INT v(y) T(x, y) n ds
 /// ```
 ///
-/// with the Green's function G of the region and its stress T; n points outward. The single layer is integrated by the
+/// with the Green's function G of the region and its stress T; n points outward, and eta_out is the viscosity of the
+/// fluid right outside of the interface, so that interfaces may lie inside one another. The single layer is integrated by the
 /// rule of Kress, the double layer by the trapezoidal rule, both on `nodes` equally spaced values of the parameter, so
 /// that errors fall faster than any power of the number of nodes. Where viscosities differ the equation is solved by
 /// GMRES. Nodes close to another interface get a quadrature of their own, so that gaps are limited by what the film
@@ -90,7 +104,7 @@ pub struct InterfaceFlow {
     settings: Settings,
     layers: Layers,
     gmres: Gmres,
-    /// Inside, and inside minus outside, interface by interface.
+    /// Inside, and inside less outside, interface by interface.
     viscosities: Vec<f64>,
     contrasts: Vec<f64>,
     /// 2/(inside + outside).
@@ -122,7 +136,7 @@ impl InterfaceFlow {
             geometry,
             viscosity,
             settings,
-            layers: Layers::new(geometry, settings.nodes, settings.tolerance),
+            layers: Layers::new(geometry, settings.tolerance),
             gmres: Gmres::recycling(),
             viscosities: Vec::new(),
             contrasts: Vec::new(),
@@ -181,19 +195,21 @@ impl InterfaceFlow {
         self.viscosities.clear();
         self.contrasts.clear();
         self.scales.clear();
-        for Interface { viscosity, .. } in interfaces.clone() {
-            positive("the viscosity inside an interface", viscosity)?;
-            within(
-                "the ratio of viscosities inside and outside",
-                viscosity / self.viscosity,
-                1.0 / MOST_CONTRAST,
-                MOST_CONTRAST,
-            )?;
-            self.viscosities.push(viscosity);
-            self.contrasts.push(viscosity - self.viscosity);
-            self.scales.push(2.0 / (viscosity + self.viscosity));
+        for Interface { viscosities: [inside, outside], .. } in interfaces.clone() {
+            positive("the viscosity inside an interface", inside)?;
+            positive("the viscosity outside an interface", outside)?;
+            for viscosity in [inside, outside] {
+                let ratio = viscosity / self.viscosity;
+                within("the ratio of viscosities to the exterior one", ratio, 1.0 / MOST_CONTRAST, MOST_CONTRAST)?;
+            }
+            self.viscosities.push(inside);
+            self.contrasts.push(inside - outside);
+            self.scales.push(2.0 / (inside + outside));
         }
-        self.layers.load(interfaces.map(|Interface { positions, forces, .. }| [positions, forces]))
+        let nodes = self.settings.nodes;
+        let given =
+            |Interface { positions, forces, period, .. }| GivenCurve { positions, forces: Some(forces), period, nodes };
+        self.layers.load(interfaces.map(given), Kept { first: usize::MAX, among: false })
     }
 
     /// Solves for the velocities on the interfaces.
@@ -242,8 +258,10 @@ impl InterfaceFlow {
         self.deflation.clear();
         let mut goal = tolerance;
         for ((curve, viscosity), scale) in self.layers.curves.iter().zip(&self.viscosities).zip(&self.scales) {
-            // A rigid motion is multiplied by eta_out alone, so a residual in it counts that much more.
-            goal = goal.min(tolerance * self.viscosity * scale);
+            // A rigid motion is multiplied by eta_out alone, or with what is around by the exterior viscosity, so a
+            // residual in it counts that much more.
+            let outside = 2.0 / scale - viscosity;
+            goal = goal.min(tolerance * outside.min(self.viscosity) * scale);
             // A uniform expansion is multiplied by eta_in alone. The velocity has none, so the operator may do with it
             // as it likes: what is added makes the factor that of the rest.
             self.deflation.push((1.0 - viscosity * scale).max(0.0) / curve.perimeter());
@@ -276,7 +294,7 @@ impl InterfaceFlow {
         let expected = self.layers.curves.get(interface).map_or(0, |curve| curve.points);
         same_length("the velocities of an interface", expected, out.len())?;
         same_length("the solution", 2 * nodes * self.len(), self.velocities.len())?;
-        self.layers.transforms.at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out);
+        self.layers.plan(interface).transforms.at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out);
         finite_vectors("the velocity", interface, out)
     }
 
@@ -290,7 +308,10 @@ impl InterfaceFlow {
         same_length("the velocities of an interface", expected, values.len())?;
         finite_vectors("the velocity", interface, values)?;
         self.velocities.resize(2 * nodes * self.len(), 0.0);
-        self.layers.transforms.at_nodes(values, &mut self.velocities[2 * nodes * interface..][..2 * nodes]);
+        self.layers
+            .plan(interface)
+            .transforms
+            .at_nodes(values, &mut self.velocities[2 * nodes * interface..][..2 * nodes]);
         Ok(())
     }
 
@@ -305,17 +326,8 @@ impl InterfaceFlow {
         same_length("the solution", 2 * self.settings.nodes * self.len(), self.velocities.len())?;
         let Self { layers, viscosities, contrasts, velocities, .. } = self;
         let density = Density { values: velocities, contrasts };
-        let points = points.iter().map(|point| Complex64::new(point.x, point.y));
-        layers.prepare_points(density, points.clone());
-        for (index, (point, out)) in points.zip(out).enumerate() {
-            let (flow, inside) = layers.flow_at(index, point, density);
-            let viscosity = inside.map_or(self.viscosity, |interface| viscosities[interface]);
-            *out = flow_sample(&flow, viscosity);
-            // The forced flow is a parabola, so this difference is its slope.
-            let forced = |y: f64| layers.forced_flow(y, self.viscosity) * self.viscosity / viscosity;
-            out.velocity.x += forced(point.im);
-            out.gradient[0][1] += 0.5 * (forced(point.im + 1.0) - forced(point.im - 1.0));
-        }
+        let viscosity = |inside: Option<usize>| inside.map_or(self.viscosity, |interface| viscosities[interface]);
+        flow_samples(layers, density, points, out, viscosity);
         Ok(())
     }
 
@@ -368,10 +380,32 @@ impl Operator<'_> {
     }
 }
 
-fn finite_vectors(what: &'static str, curve: usize, values: &[Vec2]) -> Result<(), LayerError> {
+pub(crate) fn finite_vectors(what: &'static str, curve: usize, values: &[Vec2]) -> Result<(), LayerError> {
     match values.iter().position(|value| !(value.x.is_finite() && value.y.is_finite())) {
         Some(point) => Err(LayerError::NonFinite { what, curve, point, x: values[point].x, y: values[point].y }),
         None => Ok(()),
+    }
+}
+
+/// The flow at points, for the viscosity that fluid inside a curve or none has.
+pub(crate) fn flow_samples(
+    layers: &mut Layers,
+    density: Density<'_>,
+    points: &[Vec2],
+    out: &mut [FlowSample],
+    viscosity: impl Fn(Option<usize>) -> f64,
+) {
+    let points = points.iter().map(|point| Complex64::new(point.x, point.y));
+    layers.prepare_points(density, points.clone());
+    let exterior = viscosity(None);
+    for (index, (point, out)) in points.zip(out).enumerate() {
+        let (flow, inside) = layers.flow_at(index, point, density);
+        let viscosity = viscosity(inside);
+        *out = flow_sample(&flow, viscosity);
+        // The forced flow is a parabola, so this difference is its slope.
+        let forced = |y: f64| layers.forced_flow(y, exterior) * exterior / viscosity;
+        out.velocity.x += forced(point.im);
+        out.gradient[0][1] += 0.5 * (forced(point.im + 1.0) - forced(point.im - 1.0));
     }
 }
 
