@@ -116,11 +116,8 @@ impl SteadyState {
                 }
                 // Another state, far away.
                 Ok(found) => {
-                    failed = Some(SteadyError::NoConvergence {
-                        residual: found.outcome.residual,
-                        iterations: found.outcome.iterations,
-                        remedy: REMEDY,
-                    })
+                    let Outcome { residual, iterations, .. } = found.outcome;
+                    failed = Some(SteadyError::NoConvergence { residual, iterations, remedy: REMEDY });
                 }
                 Err(error) => failed = Some(error),
             }

@@ -174,16 +174,11 @@ pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
         push(at, amplitude, cycle.period(), cycle.mean_speed(), told);
         Ok([at, amplitude])
     };
-    let (mut points, mut goal) = (Vec::new(), None);
-    let outcome = LimitCycle::follow(&hopf, parameter, AMPLITUDE, INSTANTS, |cycle| {
-        if cycle.value(parameter) < GOAL {
-            goal = cycle.at(parameter, GOAL).ok();
-            return false;
-        }
-        show(cycle).map(|point| points.push(point)).is_ok()
-    });
-    outcome?;
-    show(goal.as_ref().context("no cycle at the last activity")?)?;
+    let mut points = Vec::new();
+    LimitCycle::follow(&hopf, parameter, AMPLITUDE, INSTANTS, |cycle| {
+        let shown = show(cycle).map(|point| points.push(point)).is_ok();
+        shown && cycle.value(parameter) > GOAL
+    })?;
     // activity - Hopf = b amplitude^p through the first two.
     let [[a, u], [b, v], ..] = points[..] else { anyhow::bail!("no branch") };
     let exponent = ((b - activity(&hopf)) / (a - activity(&hopf))).ln() / (v / u).ln();
