@@ -94,7 +94,8 @@ fn swimmers_across_branch_off_where_those_along_do_and_are_as_fast() {
     let along = SteadyState::find(&setup(Region::Plane, -0.6, 48)).unwrap();
     assert!(!last.is_mirror_symmetric() && last.velocity().x.abs() < 1e-7, "{}", last.velocity());
     let speeds = [last, &along].map(|state| state.measured().unwrap().speed);
-    assert!((speeds[0] / speeds[1] - 1.0).abs() < 1e-7, "{speeds:?}");
+    // The error of 48 nodes, which stand elsewhere.
+    assert!((speeds[0] / speeds[1] - 1.0).abs() < 5e-6, "{speeds:?}");
 }
 
 #[test]
