@@ -195,10 +195,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(false)
     }
 
-    /// Refuses lists of other lengths than the groups', markers that are not finite or too far beyond a wall, and
-    /// forces that are not finite.
+    /// Refuses markers that are not finite or too far beyond a wall, and forces that are not finite.
     pub(crate) fn check(&self, markers: &Markers) -> Result<(), FlowError> {
-        markers.check()?;
         let walls = self.walls();
         let allowed = WALL_TOLERANCE * self.grid().spacing();
         for (body, group) in markers.groups().iter().enumerate() {
