@@ -8,7 +8,8 @@ use motile::ib_core::{
 };
 use motile::stokes_grid::{ChannelStokes, Drive, Grid};
 use motile::{
-    AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, MarkerMotion, Material, Method, Region, Setup, SolidSetup,
+    AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, MarkerMotion, Material, Method, Region,
+    Setup, SolidSetup,
 };
 use motile_tests::validation::order;
 use motile_tests::validation::scene::{on_grid, open_channel, without_grid};
@@ -247,4 +248,19 @@ fn a_bound_on_steps_and_their_number_ends_a_run() {
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(scene.run(10.0).least_step(bad).go(), Err(SceneError::Input(_))), "{bad}");
     }
+}
+
+/// A droplet 300 times as viscous as the exterior fluid changes slowly, but not in a single step.
+#[test]
+fn the_first_step_is_bounded_as_all_are() {
+    let speed = |step| {
+        let droplet = DropletSetup { viscosity: Some(3000.0), ..DropletSetup::active(-4.0) };
+        let method = Method::Integral(IntegralMethod { nodes: 48, cells: 192 });
+        let setup = Setup { viscosity: 10.0, droplets: vec![droplet], method, step, ..Setup::default() };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        scene.run(10.0).go().unwrap();
+        scene.observe(droplets[0]).unwrap().speed()
+    };
+    let (found, expected) = (speed(StepSize::default()), speed(StepSize::Fixed(0.05)));
+    assert!((found / expected - 1.0).abs() < 1e-4, "{found} {expected}");
 }
