@@ -1,7 +1,7 @@
 //! The immersed boundary method: a grid between markers.
 
 mod contrast_flow;
-mod sampling;
+pub(crate) mod sampling;
 mod smeared_contrast;
 
 pub use smeared_contrast::SmearedContrast;

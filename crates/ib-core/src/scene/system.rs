@@ -74,7 +74,7 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     pub(crate) fn push<B: Body>(&mut self, body: B) -> Handle<B> {
-        self.markers.push_group(body.marker_count(), body.kind());
+        self.markers.push_solid(body.marker_count(), body.kind(), body.surfaces());
         self.bodies.push(Box::new(body));
         self.forget_flow();
         self.apart = false;
@@ -262,7 +262,7 @@ impl<H: Hydrodynamics> System<H> {
         if !fits {
             self.markers.clear();
             for body in &self.bodies {
-                self.markers.push_group(body.marker_count(), body.kind());
+                self.markers.push_solid(body.marker_count(), body.kind(), body.surfaces());
             }
         }
     }

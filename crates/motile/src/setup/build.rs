@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use active_interface::{ActiveDroplet, Curve, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::Solid;
-use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
+use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
@@ -74,6 +74,8 @@ impl Setup {
         };
         let curve = placed(curve, turned);
         let count = match &self.method {
+            Method::Grid(GridMethod { layers: Some(IntegralMethod { nodes, cells }), .. })
+            | Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
             Method::Grid(grid) => {
                 let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
                 let wanted = curve.perimeter() / spacing;
@@ -84,7 +86,6 @@ impl Setup {
                 }
                 fast_count(wanted)
             }
-            Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
         };
         let markers = curve.markers(count)?;
         let made = match &droplet.particles {
@@ -164,7 +165,10 @@ impl Setup {
     /// Takes a boxed solver, for which the method is compiled once, not once for each kind.
     fn coupled(&self, grid: &GridMethod, solver: Box<dyn StokesSolver>) -> Result<AnyFlow, SetupError> {
         let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
-        Ok(if differs && grid.contrast == Contrast::Arithmetic {
+        Ok(if let Some(IntegralMethod { nodes, .. }) = grid.layers {
+            let settings = Settings { nodes, ..Settings::default() };
+            Box::new(ImmersedLayers::new(solver, grid.kernel, settings)?)
+        } else if differs && grid.contrast == Contrast::Arithmetic {
             Box::new(SmearedContrast::new(solver, grid.kernel)?)
         } else if grid.corrected {
             Box::new(ImmersedBoundary::new(solver, grid.kernel))

@@ -278,7 +278,8 @@ impl SolidSetup {
     /// # Errors
     /// A spacing that is no length.
     pub fn mesher(&self, grid: &GridMethod) -> Result<Mesher, SetupError> {
-        let mesher = Mesher::new(self.mesh_spacing.unwrap_or(grid.spacing))?;
+        let usual = if grid.layers.is_some() { 2.0 * grid.spacing } else { grid.spacing };
+        let mesher = Mesher::new(self.mesh_spacing.unwrap_or(usual))?;
         Ok(if self.mesh == MeshKind::Unstructured { mesher.turned(TURN)? } else { mesher })
     }
 
@@ -310,7 +311,15 @@ impl SolidSetup {
     pub(super) fn build(&self, setup: &Setup) -> Result<Solid, SetupError> {
         let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
         let enclosed = self.enclosed(&setup.region, self.set_back(grid))?;
-        self.on_mesh(self.mesher(grid)?.mesh(&enclosed)?, &setup.region)
+        let mesh = self.mesher(grid)?.mesh(&enclosed)?;
+        let half = 0.5 * setup.region.lengths()[1];
+        let moves = |s: Vec2| self.hold != Hold::Pinned || s.y.abs() < half * (1.0 - 1e-9);
+        if grid.layers.is_some() {
+            // Layers are exact as they are.
+            let plain = Self { surface: Surface::Plain, ..self.clone() };
+            return plain.on_mesh(mesh.with_finer_boundary(moves)?, &setup.region);
+        }
+        self.on_mesh(mesh, &setup.region)
     }
 
     /// What it fills, a wall set back by that much (length); islands are as they are.

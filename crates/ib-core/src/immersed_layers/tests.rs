@@ -1,0 +1,58 @@
+use std::f64::consts::TAU;
+
+use stokes_grid::{ChannelStokes, Grid};
+
+use super::*;
+use crate::{CubicQuadratic, MarkerKind, hydrodynamics::SurfaceCurve};
+
+const H: f64 = 0.1;
+const NODES: usize = 64;
+
+fn circle(centre: Vec2, radius: f64, count: usize) -> Vec<Vec2> {
+    let at = |k: usize| centre + radius * Vec2::from_angle(TAU * k as f64 / count as f64);
+    (0..count).map(at).collect()
+}
+
+/// A droplet at the origin and a disc of radius 0.7 beside it, whose inner points are `lattice` apart.
+fn droplet_and_disc(gap: f64, count: usize, lattice: f64) -> Markers {
+    let centre = Vec2::new(0.3, 1.7 + gap);
+    let disc = circle(centre, 0.7, count);
+    let rows = (0.7 / lattice) as i32;
+    let places = (-rows..=rows).flat_map(|i| (-rows..=rows).map(move |j| Vec2::new(f64::from(i), f64::from(j)) * lattice));
+    let inner: Vec<Vec2> = places.filter(|x| x.length() < 0.7 - 0.8 * lattice).map(|x| x + centre).collect();
+    let mut markers = Markers::new();
+    let droplet = circle(Vec2::ZERO, 1.0, NODES);
+    markers.push_group(droplet.len(), MarkerKind::Interface { viscosity_inside: None });
+    let surface = SurfaceCurve { markers: (0..count).map(|k| (k, 0)).collect(), periods: 0 };
+    markers.push_solid(count + inner.len(), MarkerKind::Points, vec![surface]);
+    markers.positions = [droplet, disc, inner].concat();
+    markers
+}
+
+/// The mobility, column by column.
+fn mobility(flow: &mut impl Hydrodynamics, markers: &mut Markers) -> Vec<Vec<f64>> {
+    (0..2 * markers.len())
+        .map(|column| {
+            markers.forces.fill(Vec2::ZERO);
+            markers.forces[column / 2][column % 2] = 1.0;
+            flow.velocities(markers).unwrap();
+            markers.velocities.iter().flat_map(|v| v.to_array()).collect()
+        })
+        .collect()
+}
+
+#[test]
+fn dump() {
+    for (gap, lattice) in [(0.3, 0.2), (0.1, 0.2), (0.05, 0.2), (0.05, 0.1)] {
+        let solver = ChannelStokes::new(Grid::channel(60, 60, H).unwrap(), 1.0).unwrap();
+        let settings = Settings { nodes: NODES, ..Settings::default() };
+        let mut flow = ImmersedLayers::new(solver, CubicQuadratic::default(), settings).unwrap();
+        let mut markers = droplet_and_disc(gap, NODES, lattice);
+        let matrix = mobility(&mut flow, &mut markers);
+        let text: Vec<String> = matrix
+            .iter()
+            .map(|row| row.iter().map(|x| format!("{x:e}")).collect::<Vec<_>>().join(" "))
+            .collect();
+        std::fs::write(format!("/tmp/w/H-out/m_{gap}_{lattice}.txt"), text.join("\n")).unwrap();
+    }
+}
