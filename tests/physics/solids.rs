@@ -2,7 +2,7 @@
 
 use motile_tests::validation::order;
 use motile_tests::validation::solids::{
-    Layer, Material, Sample, balance, energies, largest_stress_error, laws, meshes, moduli, patch,
+    Layer, Material, Sample, Surface, balance, energies, largest_stress_error, laws, meshes, moduli, patch,
 };
 
 const SPACINGS: [f64; 3] = [0.2, 0.1, 0.05];
@@ -12,14 +12,14 @@ fn errors(layer: Layer) -> [f64; 3] {
 }
 
 /// Springs and neo-Hookean material on a lattice, neo-Hookean material on an unstructured mesh.
-fn layers(corrected: bool) -> [[f64; 3]; 3] {
+fn layers(surface: Surface) -> [[f64; 3]; 3] {
     [(Material::NeoHookean, false), (Material::NeoHookean, true), (Material::Springs, false)]
-        .map(|(material, unstructured)| errors(Layer { material, unstructured, corrected }))
+        .map(|(material, unstructured)| errors(Layer { material, unstructured, surface }))
 }
 
 #[test]
 fn a_sheared_layer_relaxes_as_kelvin_voigt() {
-    let [structured, unstructured, springs] = layers(false);
+    let [structured, unstructured, springs] = layers(Surface::Plain);
     for errors in [structured, unstructured, springs] {
         assert!(errors[2].abs() < 0.035, "{errors:?}");
         // First order: the stress of the layer is smeared over its surface.
@@ -32,8 +32,19 @@ fn a_sheared_layer_relaxes_as_kelvin_voigt() {
 
 #[test]
 fn the_surface_correction_takes_the_first_order_error_off() {
-    for errors in layers(true) {
+    for errors in layers(Surface::Corrected) {
         assert!(errors[0].abs() < 1e-3 && errors[1].abs() < 2e-4 && errors[2].abs() < 2e-4, "{errors:?}");
+    }
+}
+
+#[test]
+fn a_layer_on_the_surface() {
+    for (material, unstructured) in
+        [(Material::NeoHookean, false), (Material::NeoHookean, true), (Material::Springs, false)]
+    {
+        let layer = Layer { material, unstructured, surface: Surface::Layer };
+        let errors = [0.2, 0.1, 0.05, 0.025].map(|h| layer.error(h).expect("a run"));
+        println!("{material:?} {unstructured} {errors:?}");
     }
 }
 

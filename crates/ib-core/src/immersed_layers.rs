@@ -4,7 +4,7 @@ mod curves;
 
 use input_checks::{all_points_finite, same_length};
 use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
-use stokes_layers::{Forcing, Geometry, Interface, InterfaceFlow, Settings};
+use stokes_layers::{Forcing, Geometry, Reciprocity, Settings, SingleLayer};
 
 use crate::immersed_boundary::sampling;
 use crate::{
@@ -13,7 +13,7 @@ use crate::{
 };
 use curves::LayerCurves;
 
-/// Velocities of markers where interfaces and the surfaces of solids are layers ([`InterfaceFlow`]), exact among each
+/// Velocities of markers where interfaces and the surfaces of solids are layers ([`SingleLayer`]), exact among each
 /// other at any distance, and the inner points of solids are coupled to them and to one another through a grid.
 ///
 /// With L the layers' single layer, G the grid's solution, and S and J = S^T spreading and interpolation of layers (l)
@@ -37,11 +37,12 @@ use curves::LayerCurves;
 #[derive(Debug, Clone)]
 pub struct ImmersedLayers<S, K> {
     solver: S,
-    flow: InterfaceFlow,
+    layer: SingleLayer,
+    settings: Settings,
     curves: LayerCurves,
-    /// For inner points and for layers.
+    /// For inner points and for grid nodes of layers.
     inner: Transfer<K>,
-    layers: Transfer<K>,
+    nodes: Transfer<K>,
     density: StaggeredField,
     velocity: StaggeredField,
     /// Of the inner points.
@@ -76,10 +77,11 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
             Geometry::Box { lengths: [length, width] }
         };
         Ok(Self {
-            flow: InterfaceFlow::new(geometry, solver.viscosity(), settings)?,
-            curves: LayerCurves::new(length, grid.spacing()),
+            layer: SingleLayer::new(geometry, settings.tolerance)?,
+            settings,
+            curves: LayerCurves::new(length, grid.spacing(), settings.nodes),
             inner: Transfer::new(grid, kernel.clone()),
-            layers: Transfer::new(grid, kernel),
+            nodes: Transfer::new(grid, kernel),
             density: StaggeredField::zeros(grid),
             velocity: StaggeredField::zeros(grid),
             positions: Vec::new(),
@@ -99,7 +101,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     /// Resolution and accuracy of the layers.
     #[must_use]
     pub fn settings(&self) -> &Settings {
-        self.flow.settings()
+        &self.settings
     }
 
     fn solve(&mut self) -> Result<SolveReport, FlowError> {
@@ -129,15 +131,16 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
 
     /// The flow on the grid of all forces, after [`ImmersedLayers::solve_inner`].
     fn solve_all(&mut self) -> Result<SolveReport, FlowError> {
-        self.layers.spread(self.curves.forces(), &mut self.density)?;
-        self.work.markers_spread += self.curves.forces().len();
+        let forces = &self.curves.grid[1];
+        self.nodes.spread(forces, &mut self.density)?;
+        self.work.markers_spread += forces.len();
         self.solve()
     }
 
     /// Takes over positions and forces.
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         let viscosity = self.solver.viscosity();
-        self.curves.load(markers, self.flow.settings().nodes)?;
+        self.curves.load(markers)?;
         if markers.groups().iter().any(|group| group.kind.viscosity_inside().is_some_and(|inside| inside != viscosity))
         {
             return Err(FlowError::Unsupported {
@@ -145,9 +148,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
                 remedy: "leave the layers out",
             });
         }
-        let given = self.curves.given();
-        self.flow.load(given.map(|[positions, forces]| Interface { positions, forces, viscosity }))?;
-        self.layers.locate(self.curves.positions());
+        self.nodes.locate(&self.curves.grid[0]);
         Ok(())
     }
 }
@@ -174,14 +175,16 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         self.load(markers)?;
         self.work.evaluations += 1;
-        let perimeters = (0..self.curves.interfaces()).filter_map(|curve| self.flow.perimeter(curve));
-        if let Some(shortest) = perimeters.reduce(f64::min) {
-            self.stiffness = stiffness(self.settings().nodes, shortest);
+        if let Some(shortest) = self.curves.shortest_interface() {
+            self.stiffness = stiffness(self.settings.nodes, shortest);
         }
-        self.flow.solve()?;
+        let curves = &mut self.curves;
+        self.layer.load(curves.layers())?;
+        self.layer.apply(&curves.forces, Reciprocity::Exact, &mut curves.velocities)?;
         self.solve_inner(markers)?;
-        self.layers.interpolate(&self.velocity, self.curves.velocities_mut())?;
-        self.curves.write(&mut self.flow, &mut markers.velocities)?;
+        let curves = &mut self.curves;
+        self.nodes.interpolate(&self.velocity, &mut curves.grid[2])?;
+        curves.write(1.0 / self.solver.viscosity(), &mut markers.velocities)?;
         let report = self.solve_all()?;
         self.inner.interpolate(&self.velocity, &mut self.values)?;
         for (&marker, velocity) in self.curves.inner.iter().zip(&self.values) {

@@ -29,6 +29,30 @@ fn droplet_and_disc(gap: f64, count: usize, lattice: f64) -> Markers {
     markers
 }
 
+/// A droplet between straight walls of lattices, whose surfaces have points half as far apart.
+fn droplet_and_walls(gap: f64, length: f64, lattice: f64) -> Markers {
+    let mut markers = Markers::new();
+    let droplet = circle(Vec2::ZERO, 1.0, NODES);
+    markers.push_group(droplet.len(), MarkerKind::Interface { viscosity_inside: None });
+    let mut positions = droplet;
+    let columns = (length / lattice).round() as usize;
+    for side in [-1.0, 1.0] {
+        let mut points = Vec::new();
+        let count = 2 * columns;
+        points.extend((0..count).map(|k| Vec2::new(0.5 * lattice * k as f64, side * (1.0 + gap))));
+        for row in 1..6 {
+            let y = 1.0 + gap + 0.866 * lattice * f64::from(row);
+            let shift = 0.5 * f64::from(row % 2);
+            points.extend((0..columns).map(|k| Vec2::new(lattice * (k as f64 + shift), side * y)));
+        }
+        let surface = SurfaceCurve { markers: (0..count).map(|k| (k, 0)).collect(), periods: 1 };
+        markers.push_solid(points.len(), MarkerKind::Points, vec![surface]);
+        positions.extend(points);
+    }
+    markers.positions = positions;
+    markers
+}
+
 /// The mobility, column by column.
 fn mobility(flow: &mut impl Hydrodynamics, markers: &mut Markers) -> Vec<Vec<f64>> {
     (0..2 * markers.len())
@@ -43,16 +67,19 @@ fn mobility(flow: &mut impl Hydrodynamics, markers: &mut Markers) -> Vec<Vec<f64
 
 #[test]
 fn dump() {
-    for (gap, lattice) in [(0.3, 0.2), (0.1, 0.2), (0.05, 0.2), (0.05, 0.1)] {
+    let write = |name: String, mut markers: Markers| {
         let solver = ChannelStokes::new(Grid::channel(60, 60, H).unwrap(), 1.0).unwrap();
         let settings = Settings { nodes: NODES, ..Settings::default() };
         let mut flow = ImmersedLayers::new(solver, CubicQuadratic::default(), settings).unwrap();
-        let mut markers = droplet_and_disc(gap, NODES, lattice);
         let matrix = mobility(&mut flow, &mut markers);
         let text: Vec<String> = matrix
             .iter()
             .map(|row| row.iter().map(|x| format!("{x:e}")).collect::<Vec<_>>().join(" "))
             .collect();
-        std::fs::write(format!("/tmp/w/H-out/m_{gap}_{lattice}.txt"), text.join("\n")).unwrap();
+        std::fs::write(format!("/tmp/w/H-out/{name}.txt"), text.join("\n")).unwrap();
+    };
+    for (gap, lattice) in [(0.3, 0.2), (0.1, 0.2), (0.05, 0.2), (0.05, 0.1)] {
+        write(format!("m_{gap}_{lattice}"), droplet_and_disc(gap, if lattice > 0.15 { 44 } else { 88 }, lattice));
+        write(format!("w_{gap}_{lattice}"), droplet_and_walls(gap, 6.0, lattice));
     }
 }
