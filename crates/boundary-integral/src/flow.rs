@@ -68,10 +68,9 @@ impl BoundaryIntegral {
             });
         }
         let viscosity = self.flow.viscosity();
-        let interface = |group: &MarkerGroup| Interface {
-            positions: &markers.positions[group.range.clone()],
-            forces: &markers.forces[group.range.clone()],
-            viscosity: group.kind.viscosity_inside().unwrap_or(viscosity),
+        let interface = |group: &MarkerGroup| {
+            let inside = group.kind.viscosity_inside().unwrap_or(viscosity);
+            Interface::closed(&markers.positions[group.range.clone()], &markers.forces[group.range.clone()], inside)
         };
         Ok(self.flow.load(markers.groups().iter().map(interface))?)
     }

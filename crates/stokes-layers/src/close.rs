@@ -4,7 +4,8 @@
 //! complex parameter alpha_0 with z(alpha_0) = t locates the peak: with u = exp(i alpha) and u_0 = exp(i alpha_0),
 //! `f/(z - t)^k = h/(u - u_0)^k` with a smooth h, whose Fourier series is integrated term by term (singularity swap,
 //! af Klinteberg and Barnett, BIT 61, 2021). For equally spaced nodes the result is the trapezoidal rule with a factor
-//! at each node, in closed form.
+//! at each node, in closed form. An open curve has the kernels of a row of images, `ln|2 sin(k d/2)|` and the sums of
+//! 1/d^k, which are periodic in alpha and singular at one alpha_0 as well.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +14,7 @@ use num_complex::Complex64;
 
 use crate::{
     curve::{Curve, REFINEMENT, Transforms},
-    greens::{Kernels, weighted},
+    greens::{GreensFunction, Kernels, row_singularities, row_weighted, weighted},
 };
 
 mod correction;
@@ -44,10 +45,14 @@ pub(crate) struct CloseWeights {
     series: Vec<Complex64>,
     /// Source minus target at the fine nodes (length).
     distance: Vec<Complex64>,
-    /// Stands for ln|d|.
+    /// Stands for ln|d|, or that of a row of images.
     log: Vec<f64>,
-    /// Stands for 1/d^k, k = 1, 2, 3.
+    /// Stands for 1/d^k, k = 1, 2, 3, or those of a row of images.
     powers: [Vec<Complex64>; 3],
+    /// The Green's function of the curve.
+    greens: GreensFunction,
+    /// The fine node nearest to the point.
+    nearest: usize,
 }
 
 impl CloseWeights {
@@ -64,19 +69,24 @@ impl CloseWeights {
             distance: zeros.clone(),
             log: vec![0.0; len],
             powers: [zeros.clone(), zeros.clone(), zeros],
+            greens: GreensFunction::Free,
+            nearest: 0,
         }
     }
 
     /// The kernels at fine node j.
     pub(crate) fn kernels(&self, j: usize) -> Kernels {
-        let [first, second, third] = &self.powers;
-        weighted(self.log[j] - 0.5, [first[j], second[j], third[j]], self.distance[j].conj())
+        let c = [0, 1, 2].map(|k| self.powers[k][j]);
+        let d = self.distance[j];
+        match self.greens {
+            GreensFunction::Row { .. } => row_weighted(self.log[j], c, d.im),
+            _ => weighted(self.log[j] - 0.5, c, d.conj()),
+        }
     }
 
     /// The fine node nearest to the point.
     pub(crate) fn nearest(&self) -> usize {
-        let distances = self.distance.iter().map(Complex64::norm_sqr).enumerate();
-        distances.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(j, _)| j)
+        self.nearest
     }
 
     /// Finds the weights for `point`, relative to the centre of a curve whose fine nodes are ready, and says on
@@ -92,48 +102,55 @@ impl CloseWeights {
         let mut point = point;
         let (mut nearest, mut least) = (0, f64::INFINITY);
         for (j, z) in curve.fine.position.iter().enumerate() {
-            let square = (z - point).norm_sqr();
+            let square = curve.wrap(z - point).norm_sqr();
             if square < least {
                 (nearest, least) = (j, square);
             }
+        }
+        self.nearest = nearest;
+        self.greens = curve.greens();
+        if curve.is_open() {
+            // It is seen from the image of the point beside the node.
+            point = curve.fine.position[nearest] - curve.wrap(curve.fine.position[nearest] - point);
         }
         let weight = TAU / self.units.len() as f64;
         let tangent = curve.fine.tangent[nearest];
         let spacing = weight * tangent.norm();
         let preimage = if least.sqrt() < reach * spacing {
             let start = Complex64::new(weight * nearest as f64, 0.0) + (point - curve.fine.position[nearest]) / tangent;
-            let found = preimage(&curve.shape, point, start);
+            let found = refine(curve, point, (Complex64::new(0.0, 1.0) * start).exp());
             if let Some(found) = found
                 && (found.unit.norm() - 1.0).abs() < LEAST_DISTANCE * weight
             {
                 // On the curve to round-off: the kernels are taken just inside.
                 point += Complex64::new(0.0, LEAST_DISTANCE) * tangent * weight;
                 let unit = found.unit / found.unit.norm() * (1.0 - LEAST_DISTANCE * weight);
-                refine(&curve.shape, point, unit)
+                refine(curve, point, unit)
             } else {
                 found
             }
         } else {
             None
         };
-        for ((d, log), z) in self.distance.iter_mut().zip(&mut self.log).zip(&curve.fine.position) {
-            *d = z - point;
-            *log = 0.5 * d.norm_sqr().ln();
-        }
         let [first, second, third] = &mut self.powers;
-        for (j, d) in self.distance.iter().enumerate() {
-            let inverse = d.inv();
-            first[j] = inverse;
-            second[j] = inverse * inverse;
-            third[j] = inverse * second[j];
+        for (j, z) in curve.fine.position.iter().enumerate() {
+            let d = z - point;
+            self.distance[j] = d;
+            (self.log[j], [first[j], second[j], third[j]]) = if let GreensFunction::Row { k } = self.greens {
+                row_singularities(d, k)
+            } else {
+                let inverse = d.inv();
+                let square = inverse * inverse;
+                (0.5 * d.norm_sqr().ln(), [inverse, square, inverse * square])
+            };
         }
         let preimage = preimage?;
-        self.swap(&curve.shape, transforms, preimage);
+        self.swap(curve, transforms, preimage);
         Some(preimage.inside)
     }
 
     /// Turns plain weights into those for a pole at the preimage.
-    fn swap(&mut self, shape: &[Complex64], transforms: &mut Transforms, preimage: Preimage) {
+    fn swap(&mut self, curve: &Curve, transforms: &mut Transforms, preimage: Preimage) {
         let n = self.terms as f64;
         let unit = preimage.unit;
         // Ratio of the two units that is below one, by its value at u = 1.
@@ -161,14 +178,21 @@ impl CloseWeights {
                 let turn = Complex64::new(0.0, if preimage.inside { 1.0 } else { -1.0 });
                 let parameter = p.ln() / turn;
                 let gap = -growth(turn * parameter);
-                let d = difference(shape, self.units[j], parameter);
+                let d = difference(curve, self.units[j], parameter);
                 self.distance[j] = d;
-                self.log[j] = (d / gap).norm().ln() - self.series[j].re;
+                // In a row d becomes 2 sin(k d/2)/k, and its odd powers get the factor of the cotangent.
+                let (scale, sine, cosine) = if let GreensFunction::Row { k } = self.greens {
+                    let half = 0.5 * k * d;
+                    (k, half.sin() / (0.5 * k), half.cos())
+                } else {
+                    (1.0, d, Complex64::new(1.0, 0.0))
+                };
+                self.log[j] = (sine / gap * scale).norm().ln() - self.series[j].re;
                 let [first, second, third] = direct_factors(p, self.terms);
-                let ratio = gap / d;
-                self.powers[0][j] = ratio * first;
+                let ratio = gap / sine;
+                self.powers[0][j] = ratio * cosine * first;
                 self.powers[1][j] = ratio * ratio * second;
-                self.powers[2][j] = ratio * ratio * ratio * third;
+                self.powers[2][j] = ratio * ratio * ratio * cosine * third;
                 continue;
             }
             self.log[j] -= 0.5 * gap.norm_sqr().ln() + self.series[j].re;
@@ -205,9 +229,10 @@ fn growth(x: Complex64) -> Complex64 {
 }
 
 /// Position at a node less that at a parameter `offset` further on.
-fn difference(shape: &[Complex64], unit: Complex64, offset: Complex64) -> Complex64 {
+fn difference(curve: &Curve, unit: Complex64, offset: Complex64) -> Complex64 {
+    let shape = &curve.shape;
     let len = shape.len();
-    let mut sum = Complex64::default();
+    let mut sum = -curve.period * offset / TAU;
     let mut power = Complex64::new(1.0, 0.0);
     for m in 1..=largest_wave(len) {
         power *= unit;
@@ -217,17 +242,13 @@ fn difference(shape: &[Complex64], unit: Complex64, offset: Complex64) -> Comple
     sum
 }
 
-/// The complex parameter that a curve takes a point to, from a first guess of it.
-fn preimage(shape: &[Complex64], point: Complex64, start: Complex64) -> Option<Preimage> {
-    refine(shape, point, (Complex64::new(0.0, 1.0) * start).exp())
-}
-
-fn refine(shape: &[Complex64], point: Complex64, start: Complex64) -> Option<Preimage> {
+/// The complex parameter, as exp(i alpha), that a curve takes a point to, from a first guess of it.
+fn refine(curve: &Curve, point: Complex64, start: Complex64) -> Option<Preimage> {
     let mut unit = start;
-    let scale: f64 = shape.iter().map(|c| c.norm()).fold(0.0, f64::max);
+    let scale: f64 = curve.shape.iter().map(|c| c.norm()).fold(curve.period.norm(), f64::max);
     for _ in 0..MOST_ITERATIONS {
-        let (value, derivative) = evaluate(shape, unit);
-        let step = (value - point) / derivative;
+        let (value, derivative) = evaluate(curve, unit);
+        let step = curve.wrap(value - point) / derivative;
         if !step.is_finite() || step.norm() > 2.0 {
             return None;
         }
@@ -240,7 +261,8 @@ fn refine(shape: &[Complex64], point: Complex64, start: Complex64) -> Option<Pre
 }
 
 /// Position and its derivative by the parameter at u = exp(i alpha) for complex alpha.
-fn evaluate(shape: &[Complex64], unit: Complex64) -> (Complex64, Complex64) {
+fn evaluate(curve: &Curve, unit: Complex64) -> (Complex64, Complex64) {
+    let shape = &curve.shape;
     let len = shape.len();
     let largest = largest_wave(len);
     let inverse = unit.inv();
@@ -252,5 +274,11 @@ fn evaluate(shape: &[Complex64], unit: Complex64) -> (Complex64, Complex64) {
         down = (down + shape[len - m]) * inverse;
         down_slope = (down_slope + shape[len - m] * m as f64) * inverse;
     }
-    (shape[0] + up + down, Complex64::new(0.0, 1.0) * (up_slope - down_slope))
+    let i = Complex64::new(0.0, 1.0);
+    let (mut value, mut slope) = (shape[0] + up + down, i * (up_slope - down_slope));
+    if curve.is_open() {
+        value += curve.period * (-i * unit.ln() / TAU - 0.5);
+        slope += curve.period / TAU;
+    }
+    (value, slope)
 }

@@ -26,6 +26,21 @@ pub enum LayerError {
         /// y component.
         y: f64,
     },
+    /// A curve that goes on by something else than the period of the region along x.
+    #[error(
+        "curve {curve} goes on by ({x}, {y}) in a turn: give (0, 0) for a closed curve, ({expected}, 0) or \
+         (-{expected}, 0) for an open one in a region with that period along x"
+    )]
+    Period {
+        /// Number of the curve.
+        curve: usize,
+        /// What it advances by in x.
+        x: f64,
+        /// What it advances by in y.
+        y: f64,
+        /// The period of the region along x (length), 0 if it has none.
+        expected: f64,
+    },
     /// A curve runs clockwise or crosses itself.
     #[error("curve {curve} runs clockwise or crosses itself: give its points in counter-clockwise order")]
     Clockwise {

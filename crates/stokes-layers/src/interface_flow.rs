@@ -7,26 +7,38 @@ use num_complex::Complex64;
 
 use crate::{
     Geometry, LayerError, Settings, Vec2,
+    curve::GivenCurve,
     gmres::{Gmres, Outcome},
     greens::{Flow, Vectors},
-    layer::{Density, Layers},
+    layer::{Density, Kept, Layers},
 };
 
 const FOUR_PI: f64 = 4.0 * PI;
 /// Largest ratio of the periods of a box.
-const LARGEST_RATIO: f64 = 20.0;
+pub(crate) const LARGEST_RATIO: f64 = 20.0;
 /// Largest ratio of viscosities: velocities are then right to some 1e-8.
 const MOST_CONTRAST: f64 = 1e8;
 
-/// A closed interface as points of equally spaced parameters: point k of n belongs to the parameter 2 pi k/n.
+/// An interface as points of equally spaced parameters: point k of n belongs to the parameter 2 pi k/n.
 #[derive(Debug, Clone, Copy)]
 pub struct Interface<'a> {
-    /// Points, counter-clockwise, at least as many as the settings have nodes (length).
+    /// Points, counter-clockwise or with the inside on the left, at least as many as the settings have nodes (length).
     pub positions: &'a [Vec2],
+    /// How far the interface goes on in a turn of the parameter (length): zero for a closed one, plus or minus the
+    /// period of the region along x for an open one.
+    pub period: Vec2,
     /// Force on the fluid at each point (force): the force per length times the length that belongs to the point.
     pub forces: &'a [Vec2],
     /// Viscosity inside (stress times time).
     pub viscosity: f64,
+}
+
+impl<'a> Interface<'a> {
+    /// A closed interface.
+    #[must_use]
+    pub fn closed(positions: &'a [Vec2], forces: &'a [Vec2], viscosity: f64) -> Self {
+        Self { positions, period: Vec2::ZERO, forces, viscosity }
+    }
 }
 
 /// What a solution needed and found.
@@ -122,7 +134,7 @@ impl InterfaceFlow {
             geometry,
             viscosity,
             settings,
-            layers: Layers::new(geometry, settings.nodes, settings.tolerance),
+            layers: Layers::new(geometry, settings.tolerance),
             gmres: Gmres::recycling(),
             viscosities: Vec::new(),
             contrasts: Vec::new(),
@@ -193,7 +205,10 @@ impl InterfaceFlow {
             self.contrasts.push(viscosity - self.viscosity);
             self.scales.push(2.0 / (viscosity + self.viscosity));
         }
-        self.layers.load(interfaces.map(|Interface { positions, forces, .. }| [positions, forces]))
+        let nodes = self.settings.nodes;
+        let given =
+            |Interface { positions, forces, period, .. }| GivenCurve { positions, forces: Some(forces), period, nodes };
+        self.layers.load(interfaces.map(given), Kept { first: usize::MAX, among: false })
     }
 
     /// Solves for the velocities on the interfaces.
@@ -276,7 +291,7 @@ impl InterfaceFlow {
         let expected = self.layers.curves.get(interface).map_or(0, |curve| curve.points);
         same_length("the velocities of an interface", expected, out.len())?;
         same_length("the solution", 2 * nodes * self.len(), self.velocities.len())?;
-        self.layers.transforms.at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out);
+        self.layers.plan(interface).transforms.at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out);
         finite_vectors("the velocity", interface, out)
     }
 
@@ -290,7 +305,10 @@ impl InterfaceFlow {
         same_length("the velocities of an interface", expected, values.len())?;
         finite_vectors("the velocity", interface, values)?;
         self.velocities.resize(2 * nodes * self.len(), 0.0);
-        self.layers.transforms.at_nodes(values, &mut self.velocities[2 * nodes * interface..][..2 * nodes]);
+        self.layers
+            .plan(interface)
+            .transforms
+            .at_nodes(values, &mut self.velocities[2 * nodes * interface..][..2 * nodes]);
         Ok(())
     }
 
@@ -305,17 +323,8 @@ impl InterfaceFlow {
         same_length("the solution", 2 * self.settings.nodes * self.len(), self.velocities.len())?;
         let Self { layers, viscosities, contrasts, velocities, .. } = self;
         let density = Density { values: velocities, contrasts };
-        let points = points.iter().map(|point| Complex64::new(point.x, point.y));
-        layers.prepare_points(density, points.clone());
-        for (index, (point, out)) in points.zip(out).enumerate() {
-            let (flow, inside) = layers.flow_at(index, point, density);
-            let viscosity = inside.map_or(self.viscosity, |interface| viscosities[interface]);
-            *out = flow_sample(&flow, viscosity);
-            // The forced flow is a parabola, so this difference is its slope.
-            let forced = |y: f64| layers.forced_flow(y, self.viscosity) * self.viscosity / viscosity;
-            out.velocity.x += forced(point.im);
-            out.gradient[0][1] += 0.5 * (forced(point.im + 1.0) - forced(point.im - 1.0));
-        }
+        let viscosity = |inside: Option<usize>| inside.map_or(self.viscosity, |interface| viscosities[interface]);
+        flow_samples(layers, density, points, out, viscosity);
         Ok(())
     }
 
@@ -368,10 +377,32 @@ impl Operator<'_> {
     }
 }
 
-fn finite_vectors(what: &'static str, curve: usize, values: &[Vec2]) -> Result<(), LayerError> {
+pub(crate) fn finite_vectors(what: &'static str, curve: usize, values: &[Vec2]) -> Result<(), LayerError> {
     match values.iter().position(|value| !(value.x.is_finite() && value.y.is_finite())) {
         Some(point) => Err(LayerError::NonFinite { what, curve, point, x: values[point].x, y: values[point].y }),
         None => Ok(()),
+    }
+}
+
+/// The flow at points, for the viscosity that fluid inside a curve or none has.
+pub(crate) fn flow_samples(
+    layers: &mut Layers,
+    density: Density<'_>,
+    points: &[Vec2],
+    out: &mut [FlowSample],
+    viscosity: impl Fn(Option<usize>) -> f64,
+) {
+    let points = points.iter().map(|point| Complex64::new(point.x, point.y));
+    layers.prepare_points(density, points.clone());
+    let exterior = viscosity(None);
+    for (index, (point, out)) in points.zip(out).enumerate() {
+        let (flow, inside) = layers.flow_at(index, point, density);
+        let viscosity = viscosity(inside);
+        *out = flow_sample(&flow, viscosity);
+        // The forced flow is a parabola, so this difference is its slope.
+        let forced = |y: f64| layers.forced_flow(y, exterior) * exterior / viscosity;
+        out.velocity.x += forced(point.im);
+        out.gradient[0][1] += 0.5 * (forced(point.im + 1.0) - forced(point.im - 1.0));
     }
 }
 

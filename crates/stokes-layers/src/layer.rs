@@ -1,4 +1,4 @@
-//! Single and double layers on closed curves, at their nodes and at points anywhere.
+//! Single and double layers on curves, at their nodes and at points anywhere.
 //!
 //! A layer is the sum of four contributions: of the nodes of curves that are close to each other, summed directly; of
 //! all other curves and images, by multipoles; of what the region adds (walls, a mean flow); and of a correction at
@@ -6,28 +6,34 @@
 
 mod dipoles;
 mod direct;
+mod plan;
 mod points;
+mod stokeslets;
 mod sums;
 mod walls;
 
-use std::f64::consts::{PI, TAU};
+use std::{
+    f64::consts::{PI, TAU},
+    ops::Range,
+};
 
 use num_complex::Complex64;
 
 use crate::{
-    Geometry, LayerError, Vec2,
-    close::{CloseCorrection, CloseWeights},
-    curve::{Curve, REFINEMENT, Transforms},
+    Geometry, LayerError,
+    close::CloseCorrection,
+    curve::{Curve, GivenCurve, REFINEMENT},
     greens::{GreensFunction, Vectors},
     multipole::Multipoles,
 };
 pub(crate) use dipoles::Dipoles;
 use direct::DirectSums;
 pub(crate) use direct::{DirectPair, Pair};
+pub(crate) use plan::{Kept, Plan};
 use walls::Walls;
 
 /// Velocities at the nodes, x then y, curve after curve, and what each curve's are multiplied by in a double layer (the
-/// viscosity inside less that outside).
+/// viscosity inside less that outside); curves behind these have no double layer.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Density<'a> {
     pub(crate) values: &'a [f64],
@@ -46,32 +52,40 @@ impl<'a> Density<'a> {
         self.values[2 * nodes * curve..2 * nodes * (curve + 1)].split_at(nodes)
     }
 
+    /// What the velocities of a curve are multiplied by.
+    pub(crate) fn contrast(&self, curve: usize) -> f64 {
+        self.contrasts.get(curve).copied().unwrap_or(0.0)
+    }
+
     fn vanishes(&self) -> bool {
         self.contrasts.iter().all(|contrast| *contrast == 0.0)
     }
 }
 
-/// Layers on closed curves in a region. Flows are 4 pi times velocity times viscosity.
+/// Layers on curves in a region. Flows are 4 pi times velocity times viscosity.
 #[derive(Debug, Clone)]
 pub(crate) struct Layers {
-    geometry: Geometry,
+    pub(crate) geometry: Geometry,
     greens: GreensFunction,
-    pub(crate) transforms: Transforms,
+    pub(crate) plans: Vec<Plan>,
     pub(crate) curves: Vec<Curve>,
+    /// The first node of each curve among those of all, and their number.
+    pub(crate) starts: Vec<usize>,
+    /// Curves whose forces come later.
+    kept: Kept,
     direct: DirectSums,
     multipoles: Multipoles,
     walls: Option<Walls>,
     close: CloseCorrection,
     /// The flow at the nodes.
-    out: Vec<Vectors>,
-    nodes: usize,
+    pub(crate) out: Vec<Vectors>,
     /// Velocities at the fine nodes, curve after curve.
     fine: Vec<Complex64>,
     points: points::PointSums,
 }
 
 impl Layers {
-    pub(crate) fn new(geometry: Geometry, nodes: usize, tolerance: f64) -> Self {
+    pub(crate) fn new(geometry: Geometry, tolerance: f64) -> Self {
         let walls = if let Geometry::Channel { length, width, forcing } = geometry {
             Some(Walls::new(length, width, forcing, tolerance))
         } else {
@@ -80,39 +94,63 @@ impl Layers {
         Self {
             geometry,
             greens: GreensFunction::new(&geometry, tolerance),
-            transforms: Transforms::new(nodes),
+            plans: Vec::new(),
             curves: Vec::new(),
-            direct: DirectSums::new(nodes),
+            starts: vec![0],
+            kept: Kept { first: 0, among: false },
+            direct: DirectSums::default(),
             multipoles: Multipoles::new(geometry, tolerance),
             walls,
-            close: CloseCorrection::new(nodes, tolerance),
+            close: CloseCorrection::new(tolerance),
             out: Vec::new(),
-            nodes,
             fine: Vec::new(),
-            points: points::PointSums::new(CloseWeights::new(nodes), tolerance),
+            points: points::PointSums::new(tolerance),
         }
     }
 
-    /// Takes over curves, each given by positions and forces.
+    /// Takes over curves; the single layers of those of `kept` come later.
     ///
     /// # Errors
-    /// Numbers that are not finite, too few or too many points, a clockwise curve, a node beyond a wall.
-    pub(crate) fn load<'a>(&mut self, curves: impl Iterator<Item = [&'a [Vec2]; 2]>) -> Result<(), LayerError> {
+    /// Numbers that are not finite, too few or too many points, a clockwise curve, a curve that goes on by something
+    /// else than the period, a node beyond a wall.
+    pub(crate) fn load<'a>(
+        &mut self,
+        curves: impl Iterator<Item = GivenCurve<'a>>,
+        kept: Kept,
+    ) -> Result<(), LayerError> {
         let mut count = 0;
+        self.starts.truncate(1);
         for (index, given) in curves.enumerate() {
+            let plan = Plan::find(&mut self.plans, given.nodes);
             if index == self.curves.len() {
-                self.curves.push(Curve::new(self.nodes));
+                self.curves.push(Curve::new(given.nodes));
                 self.out.push(Vectors::default());
+            } else if self.curves[index].len() != given.nodes {
+                self.curves[index] = Curve::new(given.nodes);
             }
-            self.curves[index].load(&mut self.transforms, given, index)?;
+            let curve = &mut self.curves[index];
+            curve.plan = plan;
+            curve.load(&mut self.plans[plan].transforms, given, &self.geometry, index)?;
+            self.starts.push(self.starts[index] + given.nodes);
             count += 1;
         }
         self.curves.truncate(count);
         self.out.truncate(count);
+        self.kept = Kept { first: kept.first.min(count), ..kept };
         match &mut self.walls {
-            Some(walls) => walls.load(&mut self.curves, &mut self.transforms),
+            Some(walls) => walls.load(&mut self.curves, &mut self.plans),
             None => Ok(()),
         }
+    }
+
+    /// The entries of a curve in vectors over all nodes, x then y, curve after curve.
+    pub(crate) fn entries(&self, curve: usize) -> Range<usize> {
+        2 * self.starts[curve]..2 * self.starts[curve + 1]
+    }
+
+    /// The plan of a curve.
+    pub(crate) fn plan(&mut self, curve: usize) -> &mut Plan {
+        &mut self.plans[self.curves[curve].plan]
     }
 
     /// The flow of the last layer at the nodes.
@@ -120,23 +158,60 @@ impl Layers {
         &self.out
     }
 
-    /// Computes the single layer of the forces at the nodes. With `double`, prepares for [`Layers::double_layer`].
-    pub(crate) fn single_layer(&mut self, double: bool) {
-        let Self { direct, multipoles, walls, close, curves, transforms, out, .. } = self;
-        let wave = if let Geometry::Channel { length, .. } = self.geometry { Some(TAU / length) } else { None };
-        direct.load(curves, wave);
-        multipoles.divide(curves, &mut direct.pairs);
-        close.find(curves, transforms, &self.geometry.images());
-        out.iter_mut().for_each(|out| out.clear(self.nodes));
-
-        direct.add_forces(out);
-        multipoles.add_forces(curves, out);
-        if let Some(walls) = walls {
-            walls.add_forces(curves, out);
+    fn clear(&mut self) {
+        for (out, curve) in self.out.iter_mut().zip(&self.curves) {
+            out.clear(curve.len());
         }
-        close.add_forces(curves, transforms, double, out);
+    }
+
+    /// Computes the single layer of the forces at the nodes, but for those that come later, which it prepares for. With
+    /// `double`, prepares for [`Layers::double_layer`].
+    pub(crate) fn single_layer(&mut self, double: bool) {
+        self.clear();
+        let Self { direct, multipoles, walls, close, curves, plans, out, kept, .. } = self;
+        let kept = *kept;
+        let wave = match self.geometry {
+            Geometry::Channel { length, .. } => Some(TAU / length),
+            Geometry::Box { lengths } if kept.first < curves.len() || curves.iter().any(Curve::is_open) => {
+                Some(TAU / lengths[0])
+            }
+            _ => None,
+        };
+        direct.load(curves, kept, wave);
+        multipoles.divide(curves, kept, &mut direct.pairs);
+        close.find(curves, plans, &self.geometry.images(), kept);
+
+        direct.add_forces(plans, kept, out);
+        multipoles.add_forces(&curves[..kept.first], out);
+        if let Some(walls) = walls {
+            walls.add_forces(curves, 0..kept.first, out);
+        }
+        close.add_forces(curves, plans, kept, double, out);
         if double {
             direct.prepare_stress();
+        }
+    }
+
+    /// Computes the single layer of forces that came later, at the nodes of their curves, x then y, curve after curve.
+    /// Where `symmetric`, the corrections for close nodes are the same in both directions.
+    pub(crate) fn kept_layer(&mut self, forces: &[f64], symmetric: bool) {
+        self.set_kept(forces);
+        self.clear();
+        let Self { direct, walls, close, curves, plans, out, kept, .. } = self;
+        direct.add_kept(curves, plans, *kept, out);
+        if let Some(walls) = walls {
+            walls.add_forces(curves, kept.first..curves.len(), out);
+        }
+        close.add_kept(curves, symmetric, out);
+    }
+
+    /// Takes over forces that come later.
+    pub(crate) fn set_kept(&mut self, forces: &[f64]) {
+        let mut first = 0;
+        for curve in &mut self.curves[self.kept.first..] {
+            let values = &forces[first..first + 2 * curve.len()];
+            curve.set_forces(&mut self.plans[curve.plan].transforms, values);
+            first += values.len();
         }
     }
 
@@ -146,15 +221,16 @@ impl Layers {
             self.refine(density);
         }
         let mean = self.mean_flow(density);
-        let Self { direct, multipoles, walls, close, curves, fine, out, .. } = self;
-        for (index, (arrays, curve)) in direct.curves.iter_mut().zip(&*curves).enumerate() {
+        self.clear();
+        let Self { direct, multipoles, walls, close, curves, fine, out, kept, .. } = self;
+        for (index, (arrays, curve)) in direct.curves.iter_mut().zip(&curves[..kept.first]).enumerate() {
             let weight = density.contrasts[index] * curve.weight();
             arrays.dipoles.fill(density.of(index), &curve.nodes.tangent, weight);
         }
-        out.iter_mut().for_each(|out| out.clear(self.nodes));
 
         direct.add_dipoles(curves, out);
-        multipoles.add_dipoles(curves, direct.curves.iter().map(|arrays| &arrays.dipoles), accuracy, out);
+        let dipoles = direct.curves.iter().map(|arrays| &arrays.dipoles);
+        multipoles.add_dipoles(&curves[..kept.first], dipoles, accuracy, out);
         if let Some(walls) = walls {
             walls.add_dipoles(curves, density, fine, accuracy, out);
         }
@@ -179,10 +255,12 @@ impl Layers {
 
     /// Interpolates velocities to the fine nodes.
     fn refine(&mut self, density: Density<'_>) {
-        let (len, nodes) = (REFINEMENT * self.nodes, self.nodes);
-        self.fine.resize(len * self.curves.len(), Complex64::default());
-        for (fine, values) in self.fine.chunks_exact_mut(len).zip(density.values.chunks_exact(2 * nodes)) {
-            self.transforms.at_fine(values, fine);
+        let nodes = density.nodes();
+        let len = REFINEMENT * nodes;
+        self.fine.resize(len * density.contrasts.len(), Complex64::default());
+        let values = density.values.chunks_exact((2 * nodes).max(1));
+        for ((fine, values), curve) in self.fine.chunks_exact_mut(len.max(1)).zip(values).zip(&self.curves) {
+            self.plans[curve.plan].transforms.at_fine(values, fine);
         }
     }
 

@@ -18,7 +18,7 @@
 //! PeriodicCalculus::new(count)?.tension_forces(&positions, &[1.0; 128], TensionPlacement::Points, &mut forces)?;
 //!
 //! let mut flow = InterfaceFlow::new(Geometry::Plane, 1.0, Settings::default())?;
-//! flow.load([Interface { positions: &positions, forces: &forces, viscosity: 10.0 }].into_iter())?;
+//! flow.load([Interface::closed(&positions, &forces, 10.0)].into_iter())?;
 //! let solution = flow.solve()?;
 //! let mut velocities = vec![Vec2::ZERO; count];
 //! flow.velocities(0, &mut velocities)?;
@@ -36,7 +36,7 @@
 //! # Method
 //!
 //! With the Green's function G of a region and its stress T, `lap G - grad p = -4 pi delta`, forces F per length on
-//! closed curves and velocities v on them have the flows
+//! curves and velocities v on them have the flows
 //!
 //! ```text
 //! single layer  1/(4 pi eta) INT G(x, y) F(y) ds(y)        double layer  1/(4 pi) INT v(y) T(x, y) n(y) ds(y)
@@ -44,7 +44,8 @@
 //!
 //! and with fluid of another viscosity inside the two together give an integral equation for v ([`InterfaceFlow`]).
 //!
-//! * Curves are truncated Fourier series on equally spaced values of their parameter.
+//! * Curves are truncated Fourier series on equally spaced values of their parameter, plus a straight line for those that
+//!   are open and go on periodically along x. These have the Green's function of a row of images, all else is the same.
 //! * The logarithm of the single layer is integrated by the weights of Kress (Linear Integral Equations, 2014, section
 //!   12.3), the rest by the trapezoidal rule.
 //! * Curves that are close are summed node by node, in the plane or with a row of images in closed form in a channel.
@@ -54,7 +55,8 @@
 //!   beyond a ratio of about ten, on the ratio.
 //! * Points and nodes close to a curve use the preimage of the point under the complex parametrisation.
 //!
-//! Where the single layer comes from elsewhere, such as a grid, [`dense`] has the double layer as a matrix. The cost of
+//! [`SingleLayer`] is the operator alone, for forces that follow from the velocities. Where the single layer comes from
+//! elsewhere, such as a grid, [`dense`] has the double layer as a matrix. The cost of
 //! a solution grows with the square of the number of nodes of a curve and of its close neighbours, and for pairs
 //! farther apart by some microseconds each; it suits some tens of curves.
 
@@ -69,6 +71,7 @@ mod interface_flow;
 mod layer;
 mod multipole;
 mod settings;
+mod single_layer;
 
 pub use curve::{PeriodicCalculus, TensionPlacement};
 pub use error::LayerError;
@@ -78,3 +81,4 @@ pub use glam::DVec2 as Vec2;
 pub use input_checks::InputError;
 pub use interface_flow::{FlowSample, Interface, InterfaceFlow, Solution, WarmStart};
 pub use settings::Settings;
+pub use single_layer::{LayerCurve, Reciprocity, SingleLayer};

@@ -11,8 +11,8 @@ use num_complex::Complex64;
 use crate::{
     Geometry,
     curve::Curve,
-    greens::{FreePair, RowPair, Vectors},
-    layer::{Dipoles, DirectPair, Pair},
+    greens::{FreePair, LatticePair, RowPair, Vectors},
+    layer::{Dipoles, DirectPair, Kept, Pair},
 };
 use expansion::{Expansion, Moments};
 use series::{Extent, LARGEST_RATIO, MOST_DEGREES, Series, SeriesFinder};
@@ -81,17 +81,40 @@ impl Multipoles {
     }
 
     /// Divides the Green's function between all curves into sums over nodes, which are added to `pairs`, and series.
-    pub(crate) fn divide(&mut self, curves: &[Curve], pairs: &mut Vec<DirectPair>) {
+    pub(crate) fn divide(&mut self, curves: &[Curve], kept: Kept, pairs: &mut Vec<DirectPair>) {
         self.used = 0;
         self.degree = 0;
         // Lengths are in units of the largest radius.
-        self.unit = curves.iter().map(|curve| curve.radius).fold(0.0, f64::max);
+        let closed = curves.iter().filter(|curve| !curve.is_open());
+        self.unit = closed.map(|curve| curve.radius).fold(0.0, f64::max);
         self.moments.resize_with(curves.len(), Moments::default);
         for target in 0..curves.len() {
             for source in target..curves.len() {
-                self.divide_pair(curves, [target, source], pairs);
+                if kept.is_kept(target) || kept.is_kept(source) || curves[target].is_open() || curves[source].is_open()
+                {
+                    if kept.pair(target, source) {
+                        pairs.push(self.whole_pair(curves, [target, source]));
+                    }
+                } else {
+                    self.divide_pair(curves, [target, source], pairs);
+                }
             }
         }
+    }
+
+    /// All images summed node by node: for curves that no series reaches around, and where the sums are kept.
+    fn whole_pair(&self, curves: &[Curve], [target, source]: [usize; 2]) -> DirectPair {
+        let own = target == source;
+        let swap = curves[target].len() > curves[source].len();
+        let [target, source] = if swap { [source, target] } else { [target, source] };
+        let offset = self.geometry.images().wrap(curves[source].centre - curves[target].centre);
+        let offset = [offset.re, offset.im];
+        let kernel = match self.geometry {
+            Geometry::Plane => Pair::Free(FreePair { offset }),
+            Geometry::Channel { length, .. } => Pair::Row(RowPair::new(std::f64::consts::TAU / length, offset)),
+            Geometry::Box { lengths } => Pair::Lattice(LatticePair::new(lengths, offset, self.tolerance)),
+        };
+        DirectPair { target, source, own, kernel }
     }
 
     fn divide_pair(&mut self, curves: &[Curve], [target, source]: [usize; 2], pairs: &mut Vec<DirectPair>) {
@@ -101,13 +124,17 @@ impl Multipoles {
         let distance = self.geometry.images().wrap(curves[target].centre - curves[source].centre);
         self.direct.clear();
         let (mut nearest, mut direct) = (distance.norm(), own || too_close(distance));
-        let mut sum_over_nodes = |kernel, own| pairs.push(DirectPair { target, source, own, kernel });
-        let free = |e: Complex64| Pair::Free(FreePair { offset: [-e.re, -e.im] });
+        // The one with fewer nodes is the target of the sums.
+        let swap = curves[target].len() > curves[source].len();
+        let ends = if swap { [source, target] } else { [target, source] };
+        let mut sum_over_nodes = |kernel, own| pairs.push(DirectPair { target: ends[0], source: ends[1], own, kernel });
+        let to_source = |e: Complex64| if swap { [e.re, e.im] } else { [-e.re, -e.im] };
+        let free = |e: Complex64| Pair::Free(FreePair { offset: to_source(e) });
         match self.geometry {
             Geometry::Plane if direct => sum_over_nodes(free(distance), own),
             Geometry::Channel { length, .. } if direct => {
                 let k = std::f64::consts::TAU / length;
-                sum_over_nodes(Pair::Row(RowPair::new(k, [-distance.re, -distance.im])), own);
+                sum_over_nodes(Pair::Row(RowPair::new(k, to_source(distance))), own);
             }
             Geometry::Plane | Geometry::Channel { .. } => {}
             Geometry::Box { lengths: [lx, ly] } => {
@@ -164,13 +191,16 @@ impl Multipoles {
         self.used - 1
     }
 
-    /// Adds the flow of the forces.
+    /// Adds the flow of the forces; `curves` are those whose sums are not kept.
     pub(crate) fn add_forces(&mut self, curves: &[Curve], out: &mut [Vectors]) {
         if self.used == 0 {
             return;
         }
         for (curve, moments) in curves.iter().zip(&mut self.moments) {
             moments.clear(self.degree);
+            if curve.is_open() {
+                continue;
+            }
             self.expansion.forces(self.unit, &curve.nodes.position, &curve.nodes.force, moments);
         }
         self.add_flow(curves, self.degree, out);
@@ -192,6 +222,9 @@ impl Multipoles {
         let degree = ((part * self.degree as f64).ceil() as usize).max(LEAST_DEGREE);
         for ((curve, dipoles), moments) in curves.iter().zip(dipoles).zip(&mut self.moments) {
             moments.clear(degree);
+            if curve.is_open() {
+                continue;
+            }
             self.products.clear();
             self.fluxes.clear();
             for i in 0..curve.len() {

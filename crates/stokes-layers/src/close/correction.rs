@@ -8,13 +8,11 @@ use fourier::spectrum::{copy_band, largest_wave};
 use num_complex::Complex64;
 
 use crate::{
-    curve::{Curve, REFINEMENT, Transforms},
+    curve::{Curve, REFINEMENT},
     geometry::Images,
-    greens::{Flow, Vectors, free},
-    layer::Density,
+    greens::{Flow, Vectors},
+    layer::{Density, Kept, Plan},
 };
-
-use super::CloseWeights;
 
 /// A node close to a curve.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +22,9 @@ struct CloseNode {
     source: usize,
     /// Position of the node relative to the centre of the source or its image (length).
     point: Complex64,
+    /// Where its rows start, if they are kept.
+    force_row: Option<usize>,
+    stress_row: Option<usize>,
 }
 
 /// The corrections for the present positions.
@@ -32,126 +33,208 @@ pub(crate) struct CloseCorrection {
     /// Distance in spacings below which a node is close.
     reach: f64,
     close: Vec<CloseNode>,
-    /// Factors of v and conj v at the nodes of the source, for each close node.
+    /// Factors of v and conj v, v a force or a velocity, at the nodes of the source, for each close node.
     rows: Vec<(f64, Complex64)>,
-    weights: CloseWeights,
     fine: [Vec<Complex64>; 2],
     coarse: [Vec<Complex64>; 2],
 }
 
 impl CloseCorrection {
-    pub(crate) fn new(nodes: usize, tolerance: f64) -> Self {
-        let fine = vec![Complex64::default(); REFINEMENT * nodes];
-        let coarse = vec![Complex64::default(); nodes];
-        Self {
-            reach: reach(tolerance),
-            close: Vec::new(),
-            rows: Vec::new(),
-            weights: CloseWeights::new(nodes),
-            fine: [fine.clone(), fine],
-            coarse: [coarse.clone(), coarse],
-        }
+    pub(crate) fn new(tolerance: f64) -> Self {
+        let (fine, coarse) = Default::default();
+        Self { reach: reach(tolerance), close: Vec::new(), rows: Vec::new(), fine, coarse }
     }
 
     /// Looks for close nodes and prepares the fine nodes of the curves that have some.
-    pub(crate) fn find(&mut self, curves: &mut [Curve], transforms: &mut Transforms, images: &Images) {
+    pub(crate) fn find(&mut self, curves: &mut [Curve], plans: &mut [Plan], images: &Images, kept: Kept) {
         self.close.clear();
         for source in 0..curves.len() {
             let curve = &curves[source];
             let reach = self.reach * curve.spacing();
             let first = self.close.len();
             for (target, other) in curves.iter().enumerate() {
+                if !kept.pair(target, source) {
+                    continue;
+                }
                 let apart = images.wrap(other.centre - curve.centre);
-                for shift in images.shifts() {
+                // An open curve goes on in x by itself.
+                for shift in images.shifts().filter(|shift| !curve.is_open() || shift.re == 0.0) {
                     let own = target == source && shift == Complex64::default();
                     let offset = apart + shift;
-                    if own || offset.norm() >= curve.radius + other.radius + reach {
+                    let far = |distance: f64, radii: f64| !curve.is_open() && distance >= radii + reach;
+                    if own || far(offset.norm(), curve.radius + other.radius) {
                         continue;
                     }
                     for (node, z) in other.nodes.position.iter().enumerate() {
                         let point = z + offset;
-                        if point.norm() < curve.radius + reach
-                            && curve.nodes.position.iter().any(|z| (z - point).norm_sqr() < reach * reach)
+                        if !far(point.norm(), curve.radius)
+                            && curve.nodes.position.iter().any(|z| curve.wrap(z - point).norm_sqr() < reach * reach)
                         {
-                            self.close.push(CloseNode { target, node, source, point });
+                            let (force_row, stress_row) = (None, None);
+                            self.close.push(CloseNode { target, node, source, point, force_row, stress_row });
                         }
                     }
                 }
             }
             if self.close.len() > first {
-                curves[source].refine(transforms);
+                let plan = &mut plans[curves[source].plan];
+                curves[source].refine(&mut plan.transforms);
             }
         }
     }
 
-    /// Adds the corrections of the single layer and, where `rows` is asked for, keeps those of the double layer.
+    /// Adds the corrections of the single layer, or keeps them for [`CloseCorrection::add_kept`], and keeps those of
+    /// the double layer if `stress` is asked for.
     pub(crate) fn add_forces(
         &mut self,
         curves: &[Curve],
-        transforms: &mut Transforms,
-        rows: bool,
+        plans: &mut [Plan],
+        kept: Kept,
+        stress: bool,
         out: &mut [Vectors],
     ) {
         self.rows.clear();
         for index in 0..self.close.len() {
-            let CloseNode { target, node, source, point } = self.close[index];
+            let CloseNode { target, node, source, point, .. } = self.close[index];
             let curve = &curves[source];
-            self.weights.find(curve, transforms, point, self.reach);
+            let plan = &mut plans[curve.plan];
+            plan.weights.find(curve, &mut plan.transforms, point, self.reach);
+            if kept.is_kept(source) {
+                self.close[index].force_row = Some(self.push_force_row(curve, plan, point));
+                continue;
+            }
             let mut flow = Flow::default();
             for (j, force) in curve.fine.force.iter().enumerate() {
-                flow.add_force(&self.weights.kernels(j), *force, 1.0);
+                flow.add_force(&plan.weights.kernels(j), *force, 1.0);
             }
+            let greens = curve.greens();
             for (z, force) in curve.nodes.position.iter().zip(&curve.nodes.force) {
-                flow.add_force(&free(z - point), *force, -1.0);
+                flow.add_force(&greens.at(z - point), *force, -1.0);
             }
             out[target].x[node] += flow.velocity.re;
             out[target].y[node] += flow.velocity.im;
-            if rows {
-                self.push_row(curve, transforms, point);
+            if stress {
+                self.close[index].stress_row = Some(self.push_stress_row(curve, plan, point));
             }
         }
     }
 
-    /// The double layer at the point of the present weights as factors of the velocities at the nodes: the factors at
-    /// the fine nodes go through the transpose of the interpolation.
-    fn push_row(&mut self, curve: &Curve, transforms: &mut Transforms, point: Complex64) {
+    /// The single layer at the point of the present weights as factors of the forces at the nodes.
+    fn push_force_row(&mut self, curve: &Curve, plan: &mut Plan, point: Complex64) -> usize {
+        let factors = |log: f64, e: Complex64| (-log, 0.5 * e.conj());
+        let greens = curve.greens();
+        let fine = |plan: &Plan, j: usize| {
+            let kernels = plan.weights.kernels(j);
+            factors(kernels.log, kernels.e[0])
+        };
+        let node = |j: usize| {
+            let kernels = greens.at(curve.nodes.position[j] - point);
+            factors(kernels.log, kernels.e[0])
+        };
+        // Forces at the nodes are shared among the fine nodes.
+        self.push_row(curve, plan, 1.0 / REFINEMENT as f64, fine, node)
+    }
+
+    /// The double layer at the point of the present weights as factors of the velocities at the nodes.
+    fn push_stress_row(&mut self, curve: &Curve, plan: &mut Plan, point: Complex64) -> usize {
+        let weight = curve.weight();
+        let greens = curve.greens();
+        let fine = |plan: &Plan, j: usize| {
+            let kernels = plan.weights.kernels(j);
+            factors(kernels.c[0], kernels.e[1], curve.fine.tangent[j] * (weight / REFINEMENT as f64))
+        };
+        let node = |j: usize| {
+            let kernels = greens.at(curve.nodes.position[j] - point);
+            factors(kernels.c[0], kernels.e[1], curve.nodes.tangent[j] * weight)
+        };
+        self.push_row(curve, plan, 1.0, fine, node)
+    }
+
+    /// Keeps the factors at the fine nodes, which go through the transpose of the interpolation times `share`, less
+    /// those at the nodes.
+    fn push_row(
+        &mut self,
+        curve: &Curve,
+        plan: &mut Plan,
+        share: f64,
+        fine_factors: impl Fn(&Plan, usize) -> (f64, Complex64),
+        node_factors: impl Fn(usize) -> (f64, Complex64),
+    ) -> usize {
         let nodes = curve.len();
-        let fine_weight = curve.weight() / REFINEMENT as f64;
+        for (array, len) in self.fine.iter_mut().map(|array| (array, REFINEMENT * nodes)) {
+            array.resize(len, Complex64::default());
+        }
+        self.coarse.iter_mut().for_each(|array| array.resize(nodes, Complex64::default()));
         let [own, conjugate] = &mut self.fine;
-        let [first, second, _] = &self.weights.powers;
-        for (j, tangent) in curve.fine.tangent.iter().enumerate() {
-            let (c, d) = factors(first[j], second[j], self.weights.distance[j], tangent * fine_weight);
+        for j in 0..own.len() {
+            let (c, d) = fine_factors(plan, j);
             own[j] = Complex64::new(c, 0.0);
             conjugate[j] = d;
         }
         for (fine, coarse) in self.fine.iter_mut().zip(&mut self.coarse) {
-            transforms.fine.inverse(fine);
+            plan.transforms.fine.inverse(fine);
             copy_band(fine, coarse, largest_wave(nodes));
-            transforms.nodes.forward(coarse);
+            plan.transforms.nodes.forward(coarse);
         }
-        let weight = curve.weight();
-        for (j, (z, tangent)) in curve.nodes.position.iter().zip(&curve.nodes.tangent).enumerate() {
-            let d = z - point;
-            let inverse = d.inv();
-            let (c, e) = factors(inverse, inverse * inverse, d, tangent * weight);
-            self.rows.push((self.coarse[0][j].re - c, self.coarse[1][j] - e));
+        let first = self.rows.len();
+        for j in 0..nodes {
+            let (c, d) = node_factors(j);
+            self.rows.push((share * self.coarse[0][j].re - c, share * self.coarse[1][j] - d));
         }
+        first
     }
 
     /// Adds the corrections of the double layer.
     pub(crate) fn add_dipoles(&self, density: Density<'_>, out: &mut [Vectors]) {
-        let nodes = density.nodes();
-        for (close, row) in self.close.iter().zip(self.rows.chunks_exact(nodes)) {
+        for close in &self.close {
+            let Some(row) = close.stress_row else { continue };
             let (vx, vy) = density.of(close.source);
-            let mut sum = Complex64::default();
-            for (j, (c, d)) in row.iter().enumerate() {
-                let v = Complex64::new(vx[j], vy[j]);
-                sum += v * *c + v.conj() * d;
-            }
-            out[close.target].x[close.node] += density.contrasts[close.source] * sum.re;
-            out[close.target].y[close.node] += density.contrasts[close.source] * sum.im;
+            let sum = act(&self.rows[row..row + vx.len()], vx, vy) * density.contrasts[close.source];
+            out[close.target].x[close.node] += sum.re;
+            out[close.target].y[close.node] += sum.im;
         }
     }
+
+    /// Adds the corrections of the single layer that were kept, for forces at the nodes. Where `symmetric`, those of
+    /// two curves are found on the one with fewer nodes, or else the first one, and the other one gets their transpose.
+    pub(crate) fn add_kept(&self, curves: &[Curve], symmetric: bool, out: &mut [Vectors]) {
+        for close in &self.close {
+            let Some(row) = close.force_row else { continue };
+            let (target, source) = (&curves[close.target], &curves[close.source]);
+            let row = &self.rows[row..row + source.len()];
+            let rank = |index: usize| (curves[index].len(), index);
+            // Each of two images of the same curve gives half.
+            let share = if symmetric && close.target == close.source { 0.5 } else { 1.0 };
+            if symmetric && rank(close.target) > rank(close.source) {
+                continue;
+            }
+            let mut sum = Complex64::default();
+            for ((c, d), force) in row.iter().zip(&source.nodes.force) {
+                sum += force * *c + force.conj() * d;
+            }
+            out[close.target].x[close.node] += share * sum.re;
+            out[close.target].y[close.node] += share * sum.im;
+            if symmetric {
+                let force = share * target.nodes.force[close.node];
+                for (j, (c, d)) in row.iter().enumerate() {
+                    // The factors act on the components of a force by a symmetric matrix.
+                    let flow = force * *c + force.conj() * d;
+                    out[close.source].x[j] += flow.re;
+                    out[close.source].y[j] += flow.im;
+                }
+            }
+        }
+    }
+}
+
+/// The product of a row with vectors at the nodes.
+fn act(row: &[(f64, Complex64)], vx: &[f64], vy: &[f64]) -> Complex64 {
+    let mut sum = Complex64::default();
+    for (j, (c, d)) in row.iter().enumerate() {
+        let v = Complex64::new(vx[j], vy[j]);
+        sum += v * *c + v.conj() * d;
+    }
+    sum
 }
 
 /// Distance in spacings beyond which the trapezoidal rule is exact to a tolerance: its error falls like
@@ -160,9 +243,8 @@ pub(crate) fn reach(tolerance: f64) -> f64 {
     1.0 - tolerance.ln() / std::f64::consts::TAU
 }
 
-/// Factors of v and conj v in the double layer of an element.
-fn factors(first: Complex64, second: Complex64, d: Complex64, tangent: Complex64) -> (f64, Complex64) {
+/// Factors of v and conj v in the double layer of an element, from the kernels c_1 and e_2.
+fn factors(c: Complex64, e: Complex64, tangent: Complex64) -> (f64, Complex64) {
     let i = Complex64::new(0.0, 1.0);
-    let c = -2.0 * (tangent * first).im;
-    (c, i * (tangent * first.conj() - d * (tangent * second).conj()))
+    (-2.0 * (tangent * c).im, i * (tangent * c.conj() - (tangent * e).conj()))
 }

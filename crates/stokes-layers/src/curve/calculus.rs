@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use fourier::PeriodicSeries;
 use input_checks::{InputError, same_length, within};
+use num_complex::Complex64;
 
 use super::MOST_POINTS;
 use crate::{LayerError, Vec2};
@@ -17,7 +18,7 @@ pub enum TensionPlacement {
     Segments,
 }
 
-/// Derivatives and the forces of a surface tension, for closed curves of a fixed number of points.
+/// Derivatives and the forces of a surface tension, for curves of a fixed number of points.
 ///
 /// Samples k = 0 .. len - 1 belong to the parameter alpha = 2 pi k / len. Everything is spectrally accurate: the error
 /// falls faster than any power of len for smooth curves. Nothing is allocated after construction.
@@ -25,6 +26,7 @@ pub enum TensionPlacement {
 pub struct PeriodicCalculus {
     curve: PeriodicSeries,
     forces: PeriodicSeries,
+    period: Vec2,
 }
 
 impl PeriodicCalculus {
@@ -35,7 +37,13 @@ impl PeriodicCalculus {
     pub fn new(len: usize) -> Result<Self, LayerError> {
         within("the number of samples", len as f64, 4.0, MOST_POINTS)?;
         let series = PeriodicSeries::new(len);
-        Ok(Self { curve: series.clone(), forces: series })
+        Ok(Self { curve: series.clone(), forces: series, period: Vec2::ZERO })
+    }
+
+    /// The same for open curves that go on by this much in a turn of the parameter (length).
+    #[must_use]
+    pub fn with_period(self, period: Vec2) -> Self {
+        Self { period, ..self }
     }
 
     /// Number of samples.
@@ -61,7 +69,7 @@ impl PeriodicCalculus {
         Ok(self.curve.write_vectors(out)?)
     }
 
-    /// Forces on the fluid (force) at the points of a closed interface with the given surface tension (force):
+    /// Forces on the fluid (force) at the points of an interface with the given surface tension (force):
     /// `F_k = (2 pi / len) d(gamma tau)/dalpha` at point k, the force per length F = d(gamma tau)/ds times the length
     /// that belongs to the point. Their sum is zero to round-off.
     ///
@@ -84,11 +92,16 @@ impl PeriodicCalculus {
             TensionPlacement::Points => 0.0,
             TensionPlacement::Segments => std::f64::consts::PI / len as f64,
         };
-        self.curve.analyse_vectors(positions)?;
+        let step = self.period / len as f64;
+        self.curve.analyse(positions.iter().enumerate().map(|(k, x)| {
+            let x = *x - step * k as f64;
+            Complex64::new(x.x, x.y)
+        }))?;
         self.curve.differentiate();
         self.curve.shift(shift);
         let weight = TAU / len as f64;
-        let tangents = self.curve.values().iter().zip(tension);
+        let gain = Complex64::new(self.period.x, self.period.y) / TAU;
+        let tangents = self.curve.values().iter().map(|tangent| tangent + gain).zip(tension);
         self.forces.analyse(tangents.map(|(tangent, tension)| tangent * (weight * tension / tangent.norm())))?;
         self.forces.differentiate();
         self.forces.shift(-shift);

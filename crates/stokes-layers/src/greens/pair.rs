@@ -155,3 +155,94 @@ impl PairKernel for RowPair {
         [log + tx * tx / square, tx * ty / square, log + ty * ty / square]
     }
 }
+
+/// All images of a periodic box: rows along x, those beside the first one as functions that fall off across.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LatticePair {
+    row: RowPair,
+    /// Period across the rows (length).
+    across: f64,
+    rows: usize,
+    decay: f64,
+}
+
+impl LatticePair {
+    /// For a source whose centre lies `offset` from that of the target; rows of images are as many as bring the rest
+    /// below `tolerance`.
+    pub(crate) fn new([lx, ly]: [f64; 2], offset: [f64; 2], tolerance: f64) -> Self {
+        let k = std::f64::consts::TAU / lx;
+        let rows = (1.0 - tolerance.ln() / (k * ly)).ceil() as usize;
+        Self { row: RowPair::new(k, offset), across: ly, rows, decay: (-k * ly).exp() }
+    }
+
+    /// Calls `take` for each row beside the first one, with b = exp(-k |y|), y and the side.
+    #[inline(always)]
+    fn beside(&self, terms: &RowTerms, mut take: impl FnMut(f64, f64, f64)) {
+        let (up, down) = (terms.ch + terms.sh, terms.ch - terms.sh);
+        let mut shrink = 1.0;
+        for m in 1..=self.rows {
+            shrink *= self.decay;
+            let height = self.across * m as f64;
+            take(down * down * shrink, terms.dy + height, 1.0);
+            take(up * up * shrink, terms.dy - height, -1.0);
+        }
+    }
+
+    /// What the mean flow of a box adds to xx.
+    fn mean(&self, dy: f64) -> f64 {
+        self.row.k * (dy * dy / self.across + self.across / 6.0) - 1.0
+    }
+}
+
+impl PairKernel for LatticePair {
+    #[inline(always)]
+    fn stokeslet(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> Stokeslet {
+        let k = self.row.k;
+        let terms = self.row.terms(t, s, i);
+        let Stokeslet { mut q, mut xx, mut xy, mut yy } = self.row.stokeslet(t, s, i);
+        let (sin, cos) = (2.0 * terms.s * terms.c, 1.0 - 2.0 * terms.s * terms.s);
+        self.beside(&terms, |b, y, side| {
+            let e = 1.0 - 2.0 * b * cos + b * b;
+            let factor = k * y * b / e;
+            let bend = side * factor * (cos - b);
+            q *= e;
+            xx -= bend;
+            yy += bend;
+            xy += factor * sin;
+        });
+        Stokeslet { q, xx: xx + self.mean(terms.dy), xy, yy }
+    }
+
+    #[inline(always)]
+    fn stress(&self, t: &Window<'_>, s: &Window<'_>, i: usize) -> [f64; 4] {
+        let k = self.row.k;
+        let terms = self.row.terms(t, s, i);
+        let [mut xxx, mut xxy, mut xyy, mut yyy] = self.row.stress(t, s, i);
+        let (sin, cos) = (2.0 * terms.s * terms.c, 1.0 - 2.0 * terms.s * terms.s);
+        self.beside(&terms, |b, y, side| {
+            let inverse = 1.0 / (1.0 - 2.0 * b * cos + b * b);
+            let factor = k * b * inverse;
+            let square = 2.0 * y * k * factor * inverse;
+            let (ax, ay) = (factor * sin, side * factor * (cos - b));
+            let axx = square * (cos * (1.0 + b * b) - 2.0 * b);
+            let axy = -side * square * sin * (1.0 - b * b);
+            xxx -= 4.0 * ax + axy;
+            xxy += axx - 2.0 * ay;
+            xyy += axy;
+            yyy -= 2.0 * ay + axx;
+        });
+        let mean = 2.0 * k * terms.dy / self.across;
+        [xxx, xxy + mean, xyy, yyy + mean]
+    }
+
+    fn diagonal(&self, tx: f64, ty: f64) -> [f64; 3] {
+        let [mut xx, xy, mut yy] = self.row.diagonal(tx, ty);
+        let terms = RowTerms { s: 0.0, c: 1.0, sh: 0.0, ch: 1.0, dy: 0.0 };
+        self.beside(&terms, |b, y, side| {
+            let (log, bend) = ((1.0 - b).ln(), side * self.row.k * y * b / (1.0 - b));
+            xx -= log + bend;
+            yy -= log - bend;
+        });
+        [xx + self.mean(0.0), xy, yy]
+    }
+}

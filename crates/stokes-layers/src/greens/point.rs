@@ -199,6 +199,17 @@ pub(crate) fn weighted(log: f64, c: [Complex64; 3], conjugate: Complex64) -> Ker
     Kernels { log, c, e: c.map(|c| c * conjugate), background: 0.0 }
 }
 
+/// The singular functions of a row of images: `ln|2 sin(k d/2)|` and the sums of 1/d, 1/d^2, 1/d^3.
+pub(crate) fn row_singularities(d: Complex64, k: f64) -> (f64, [Complex64; 3]) {
+    singular_row(d, k, &HalfAngle::new(d * (0.5 * k)), false)
+}
+
+/// Kernels of a row of images from functions that stand for its singular ones.
+pub(crate) fn row_weighted(log: f64, c: [Complex64; 3], dy: f64) -> Kernels {
+    let y = Complex64::new(0.0, -2.0 * dy);
+    Kernels { log: log - 0.5, c, e: [1.0 + y * c[0], c[0] + y * c[1], c[1] + y * c[2]], background: 0.0 }
+}
+
 /// conj(d) becomes d - 2 i dy, and the sum over images of 1/d^k is a derivative of the cotangent.
 fn row(d: Complex64, k: f64, regular: bool) -> Kernels {
     let (log, c) = singular_row(d, k, &HalfAngle::new(d * (0.5 * k)), regular);

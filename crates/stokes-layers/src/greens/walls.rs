@@ -123,6 +123,9 @@ impl WallModes {
                 let needed = exponent / (k * (powers.distance + target_gap).max(1e-300));
                 let chunks = (needed.min(modes as f64) as usize / LANES + 1).min(sums.len());
                 let (q, p) = source(j);
+                if p == 0.0 && q == Complex64::default() {
+                    continue;
+                }
                 let (q_re, q_im) = (q.re, sign * q.im);
                 let mut powers = *powers;
                 let first = k * powers.distance;

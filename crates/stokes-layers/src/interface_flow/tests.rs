@@ -16,7 +16,7 @@ fn errors(geometry: Geometry, second: Complex64, viscosities: [f64; 2]) -> [f64;
     });
     let forces = vec![Vec2::ZERO; NODES];
     let interfaces = curves.iter().zip(viscosities);
-    let given = interfaces.map(|(positions, viscosity)| Interface { positions, forces: &forces, viscosity });
+    let given = interfaces.map(|(positions, viscosity)| Interface::closed(positions, &forces, viscosity));
     flow.load(given).unwrap();
     let InterfaceFlow { layers, contrasts, scales, .. } = &mut flow;
     layers.single_layer(true);
@@ -79,5 +79,96 @@ fn rigid_motions_and_flux() {
             let channel = errors(channel, Complex64::new(3.5, -0.4), viscosities);
             assert!(channel[0] < 1e-11, "{channel:?}");
         }
+    }
+}
+
+/// An open interface in a channel, fluid of a viscosity above or below it, with a pressure gradient.
+fn two_fluids(shape: impl Fn(f64) -> Vec2, direction: f64, inside: f64, nodes: usize) -> InterfaceFlow {
+    let forcing = Forcing::Gradient(-1.0);
+    let geometry = Geometry::Channel { length: 3.0, width: 2.0, forcing };
+    let settings = Settings { nodes, tolerance: 1e-13, ..Settings::default() };
+    let mut flow = InterfaceFlow::new(geometry, 1.0, settings).unwrap();
+    let angle = |k: usize| std::f64::consts::TAU * k as f64 / nodes as f64;
+    let positions: Vec<Vec2> = (0..nodes).map(|k| shape(direction * angle(k))).collect();
+    let forces = vec![Vec2::ZERO; nodes];
+    let period = Vec2::new(direction * 3.0, 0.0);
+    flow.load([Interface { positions: &positions, period, forces: &forces, viscosity: inside }].into_iter()).unwrap();
+    flow.solve().unwrap();
+    flow
+}
+
+fn sampled(flow: &mut InterfaceFlow, points: &[Vec2]) -> Vec<FlowSample> {
+    let mut samples = vec![FlowSample::default(); points.len()];
+    flow.sample(points, &mut samples).unwrap();
+    samples
+}
+
+/// Two fluids on top of each other flow in parabolas whose velocity and shear stress are continuous.
+#[test]
+fn layers_of_two_fluids_flow_in_two_parabolas() {
+    let y0 = 0.2;
+    for (direction, inside) in [(1.0, 5.0), (-1.0, 0.1), (1.0, 1.0), (-1.0, 100.0)] {
+        let shape = |t: f64| Vec2::new(3.0 * t / std::f64::consts::TAU, y0);
+        let mut flow = two_fluids(shape, direction, inside, 32);
+        let [below, above] = if direction > 0.0 { [1.0, inside] } else { [inside, 1.0] };
+        // eta u = a (y -+ 1) + (1 - y^2)/2 on either side.
+        let parabola = 0.5 * (1.0 - y0 * y0);
+        let a = parabola * (1.0 / above - 1.0 / below) / ((y0 + 1.0) / below - (y0 - 1.0) / above);
+        let expected = |y: f64| {
+            let (eta, wall) = if y > y0 { (above, 1.0) } else { (below, -1.0) };
+            (a * (y - wall) + 0.5 * (1.0 - y * y)) / eta
+        };
+        let heights = [-0.9, -0.3, 0.19, 0.199, 0.201, 0.21, 0.5, 0.95];
+        let points: Vec<Vec2> = heights.iter().map(|&y| Vec2::new(0.3, y)).collect();
+        for (point, sample) in points.iter().zip(sampled(&mut flow, &points)) {
+            let error = (sample.velocity - Vec2::new(expected(point.y), 0.0)).length();
+            assert!(error < 1e-11, "{direction} {inside} {point}: {error:e}");
+        }
+    }
+}
+
+/// The flux through every section and the velocity on the two sides of a wavy interface close to a wall; and what
+/// coarser nodes give.
+#[test]
+fn flux_along_a_wavy_interface_is_the_same_everywhere() {
+    let shape = |t: f64| Vec2::new(3.0 * t / std::f64::consts::TAU + 0.1 * t.sin(), -0.6 + 0.3 * t.cos());
+    for (direction, inside) in [(1.0, 8.0), (-1.0, 0.125)] {
+        let mut flow = two_fluids(shape, direction, inside, 128);
+        let beside: Vec<Vec2> =
+            (0..5).flat_map(|k| [1e-7, -1e-7].map(|d| shape(1.1 * f64::from(k)) + Vec2::new(0.0, d))).collect();
+        for pair in sampled(&mut flow, &beside).chunks(2) {
+            assert!((pair[0].velocity - pair[1].velocity).length() < 1e-6, "{pair:?}");
+        }
+        // Gauss-Legendre points of each fluid in two sections, where the interface is highest and lowest.
+        let gauss = [(0.0, 128.0 / 225.0), (0.538_469_310_105_683, 0.478_628_670_499_366_5)];
+        let gauss = [gauss[0], gauss[1], (0.906_179_845_938_664, 0.236_926_885_056_189)];
+        let mut fluxes = [0.0, PI].map(|t| {
+            let Vec2 { x, y: height } = shape(t);
+            let mut flux = 0.0;
+            for (from, to, pieces) in [(-1.0, height, 24), (height, 1.0, 24)] {
+                let step = (to - from) / f64::from(pieces);
+                for piece in 0..pieces {
+                    let middle = from + (f64::from(piece) + 0.5) * step;
+                    for (s, w) in gauss {
+                        let signs: &[f64] = if s == 0.0 { &[1.0] } else { &[1.0, -1.0] };
+                        for sign in signs {
+                            let point = Vec2::new(x, middle + sign * 0.5 * s * step);
+                            flux += 0.5 * step * w * sampled(&mut flow, &[point])[0].velocity.x;
+                        }
+                    }
+                }
+            }
+            flux
+        });
+        fluxes[1] -= fluxes[0];
+        assert!(fluxes[1].abs() < 1e-9 * fluxes[0], "{fluxes:?}");
+        let errors = [32, 48, 64].map(|nodes| {
+            let point = [Vec2::new(0.0, -0.2)];
+            let [a, b] =
+                [two_fluids(shape, direction, inside, nodes), flow.clone()].map(|mut f| sampled(&mut f, &point)[0]);
+            (a.velocity - b.velocity).length() / b.velocity.length()
+        });
+        println!("{errors:?}");
+        assert!(errors[2] < 1e-8 && errors[2] < 0.05 * errors[0], "{errors:?}");
     }
 }

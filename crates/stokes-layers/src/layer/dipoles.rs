@@ -19,6 +19,14 @@ pub(crate) struct Dipoles {
 }
 
 impl Dipoles {
+    /// None at any of so many nodes.
+    pub(crate) fn clear(&mut self, nodes: usize) {
+        for array in [&mut self.xx, &mut self.s, &mut self.yy] {
+            array.clear();
+            array.resize(2 * nodes, 0.0);
+        }
+    }
+
     /// From velocities and derivatives of the position by the parameter; `n ds = -i (dX/dalpha) dalpha`.
     pub(crate) fn fill(&mut self, (vx, vy): (&[f64], &[f64]), tangents: &[Complex64], weight: f64) {
         let n = tangents.len();
@@ -48,11 +56,12 @@ impl StoredStress {
     pub(crate) fn fill<K: PairKernel>(&mut self, kernel: &K, [target, source]: [&Nodes; 2], same: bool) {
         let nodes = target.len();
         self.nodes = nodes;
-        let len = nodes * shifts(nodes, same).count();
+        let both = [nodes, source.len()];
+        let len = nodes * shifts(both, same).count();
         for component in &mut self.components {
             component.resize(len, 0.0);
         }
-        for Shift { index, d, count } in shifts(nodes, same) {
+        for Shift { index, d, count } in shifts(both, same) {
             let (t, s) = (target.window(0, count), source.window(d, count));
             let range = index * nodes..index * nodes + count;
             let [a, b, c, e] = &mut self.components;

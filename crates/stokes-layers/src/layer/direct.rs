@@ -2,11 +2,13 @@
 
 use crate::{
     curve::Curve,
-    greens::{FreePair, Nodes, PairKernel, RowPair, Vectors},
+    greens::{FreePair, LatticePair, Nodes, PairKernel, RowPair, Vectors},
 };
 
 use super::{
+    Kept, Plan,
     dipoles::{Dipoles, StoredStress, double_layer},
+    stokeslets::StoredStokeslets,
     sums::{PairSums, single_layer},
 };
 
@@ -20,6 +22,7 @@ const MOST_STORED_STRESSES: usize = 1 << 23;
 pub(crate) enum Pair {
     Free(FreePair),
     Row(RowPair),
+    Lattice(LatticePair),
 }
 
 /// Evaluates an expression with the kernel of a [`Pair`].
@@ -28,6 +31,7 @@ macro_rules! with_kernel {
         match $pair {
             Pair::Free($kernel) => $body,
             Pair::Row($kernel) => $body,
+            Pair::Lattice($kernel) => $body,
         }
     };
 }
@@ -35,6 +39,7 @@ macro_rules! with_kernel {
 /// Two curves and a Green's function between them.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DirectPair {
+    /// The one with fewer nodes.
     pub(crate) target: usize,
     pub(crate) source: usize,
     /// A curve with itself, not with an image of its own.
@@ -49,57 +54,99 @@ pub(crate) struct NodeArrays {
     tangent: Vectors,
     pub(crate) force: Vectors,
     pub(crate) dipoles: Dipoles,
+    plan: usize,
 }
 
 /// Sums over pairs of curves.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct DirectSums {
     sums: PairSums,
     pub(crate) curves: Vec<NodeArrays>,
     pub(crate) pairs: Vec<DirectPair>,
+    /// Stokeslets of the pairs with a curve whose forces come later.
+    stokeslets: Vec<StoredStokeslets>,
     stresses: Vec<StoredStress>,
     stored: bool,
 }
 
 impl DirectSums {
-    pub(crate) fn new(nodes: usize) -> Self {
-        let (curves, pairs, stresses) = (Vec::new(), Vec::new(), Vec::new());
-        Self { sums: PairSums::new(nodes), curves, pairs, stresses, stored: false }
-    }
-
-    /// Takes over the present shapes and forces; `wave` as in [`Nodes::fill`].
-    pub(crate) fn load(&mut self, curves: &[Curve], wave: Option<f64>) {
+    /// Takes over the present shapes and forces, none on the curves whose forces come later; `wave` as in
+    /// [`Nodes::fill`].
+    pub(crate) fn load(&mut self, curves: &[Curve], kept: Kept, wave: Option<f64>) {
         self.curves.resize_with(curves.len(), NodeArrays::default);
-        for (arrays, curve) in self.curves.iter_mut().zip(curves) {
+        for (index, (arrays, curve)) in self.curves.iter_mut().zip(curves).enumerate() {
             arrays.nodes.fill(&curve.nodes.position, wave);
             arrays.tangent.fill(&curve.nodes.tangent);
-            arrays.force.fill(&curve.nodes.force);
+            arrays.plan = curve.plan;
+            if kept.is_kept(index) {
+                arrays.force.clear(2 * curve.len());
+                arrays.dipoles.clear(curve.len());
+            } else {
+                arrays.force.fill(&curve.nodes.force);
+            }
         }
         self.pairs.clear();
         self.stored = false;
     }
 
     /// Adds the single layers of all pairs, that of a curve on itself by the rule of Kress.
-    pub(crate) fn add_forces(&mut self, out: &mut [Vectors]) {
-        let Self { sums, curves, pairs, .. } = self;
-        for &DirectPair { target, source, own, kernel } in &*pairs {
+    pub(crate) fn add_forces(&mut self, plans: &[Plan], kept: Kept, out: &mut [Vectors]) {
+        let Self { sums, curves, pairs, stokeslets, .. } = self;
+        stokeslets.resize_with(pairs.len().max(stokeslets.len()), StoredStokeslets::default);
+        for (&DirectPair { target, source, own, kernel }, stored) in pairs.iter().zip(stokeslets) {
             let both = [&curves[target], &curves[source]];
+            let kress = &plans[both[0].plan].kress;
             with_kernel!(&kernel, kernel => {
-                if own {
-                    add_force_at_node(kernel, sums.own_weight(), both[0], &mut out[target]);
+                if kept.is_kept(target) || kept.is_kept(source) {
+                    stored.fill(kernel, if own { Some(kress) } else { None }, both.map(|arrays| &arrays.nodes));
+                    if !(kept.is_kept(target) && kept.is_kept(source)) {
+                        let forces = both.map(|arrays| &arrays.force);
+                        sums.visit(false, [target, source], out, |shift, near, far| {
+                            stored.apply(shift, forces, near, far);
+                        });
+                    }
+                    continue;
                 }
-                sums.visit(own, [target, source], out, |shift, weight, near, far| {
+                if own {
+                    add_force_at_node(kernel, kress[0], both[0], &mut out[target]);
+                }
+                sums.visit(own, [target, source], out, |shift, near, far| {
+                    let weight = if own { kress[shift.d] } else { 0.0 };
                     single_layer(kernel, weight, shift, both, near, far);
                 });
             });
         }
     }
 
+    /// Adds the single layers of the forces that came later, those of all other curves being left out.
+    pub(crate) fn add_kept(&mut self, on: &[Curve], plans: &[Plan], kept: Kept, out: &mut [Vectors]) {
+        let Self { sums, curves, pairs, stokeslets, .. } = self;
+        for (index, (arrays, curve)) in curves.iter_mut().zip(on).enumerate() {
+            if kept.is_kept(index) {
+                arrays.force.fill(&curve.nodes.force);
+            } else {
+                arrays.force.clear(2 * curve.len());
+            }
+        }
+        for (&DirectPair { target, source, own, kernel }, stored) in pairs.iter().zip(stokeslets) {
+            if !(kept.is_kept(target) || kept.is_kept(source)) {
+                continue;
+            }
+            let both = [&curves[target], &curves[source]];
+            if own {
+                let kress = &plans[both[0].plan].kress;
+                with_kernel!(&kernel, kernel => add_force_at_node(kernel, kress[0], both[0], &mut out[target]));
+            }
+            let forces = both.map(|arrays| &arrays.force);
+            sums.visit(own, [target, source], out, |shift, near, far| stored.apply(shift, forces, near, far));
+        }
+    }
+
     /// Stores the stress between all pairs, unless there are too many.
     pub(crate) fn prepare_stress(&mut self) {
         let Self { curves, pairs, stresses, stored, .. } = self;
-        let nodes = curves.first().map_or(0, |arrays| arrays.nodes.len());
-        *stored = pairs.len() <= MOST_STORED_PAIRS && pairs.len() * nodes * nodes <= MOST_STORED_STRESSES;
+        let size = |pair: &DirectPair| curves[pair.target].nodes.len() * curves[pair.source].nodes.len();
+        *stored = pairs.len() <= MOST_STORED_PAIRS && pairs.iter().map(size).sum::<usize>() <= MOST_STORED_STRESSES;
         if !*stored {
             return;
         }
@@ -112,14 +159,14 @@ impl DirectSums {
 
     /// Adds the double layers of all pairs for the present dipoles.
     pub(crate) fn add_dipoles(&mut self, on: &[Curve], out: &mut [Vectors]) {
-        let Self { sums, curves, pairs, stresses, stored } = self;
+        let Self { sums, curves, pairs, stresses, stored, .. } = self;
         for (index, &DirectPair { target, source, own, kernel }) in pairs.iter().enumerate() {
             let both = [&curves[target], &curves[source]];
             if *stored {
                 let (stress, dipoles) = (&stresses[index], both.map(|arrays| &arrays.dipoles));
-                sums.visit(own, [target, source], out, |shift, _, near, far| stress.apply(shift, dipoles, near, far));
+                sums.visit(own, [target, source], out, |shift, near, far| stress.apply(shift, dipoles, near, far));
             } else {
-                with_kernel!(&kernel, kernel => sums.visit(own, [target, source], out, |shift, _, near, far| {
+                with_kernel!(&kernel, kernel => sums.visit(own, [target, source], out, |shift, near, far| {
                     double_layer(kernel, shift, both, near, far);
                 }));
             }

@@ -21,11 +21,11 @@ pub(crate) struct Shift {
     pub(crate) count: usize,
 }
 
-/// The shifts that visit every pair once.
-pub(crate) fn shifts(nodes: usize, same: bool) -> impl Iterator<Item = Shift> {
+/// The shifts that visit every pair of nodes of a target and a source once; the target has no more nodes.
+pub(crate) fn shifts([target, source]: [usize; 2], same: bool) -> impl Iterator<Item = Shift> {
     let first = usize::from(same);
-    let last = if same { nodes / 2 + 1 } else { nodes };
-    (first..last).map(move |d| Shift { index: d - first, d, count: if same && 2 * d == nodes { d } else { nodes } })
+    let last = if same { source / 2 + 1 } else { source };
+    (first..last).map(move |d| Shift { index: d - first, d, count: if same && 2 * d == source { d } else { target } })
 }
 
 /// The weights of the Kress quadrature by shift: `1/2 ln(4 sin^2(pi d/n)) + K_d n/(2 pi)` with
@@ -46,37 +46,25 @@ pub(crate) fn kress_weights(nodes: usize) -> Vec<f64> {
 }
 
 /// Sums over all pairs, with room to work in.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct PairSums {
-    kress: Vec<f64>,
     sources: Vectors,
 }
 
 impl PairSums {
-    pub(crate) fn new(nodes: usize) -> Self {
-        Self { kress: kress_weights(nodes), sources: Vectors::default() }
-    }
-
-    /// The weight of Kress of a node itself.
-    pub(crate) fn own_weight(&self) -> f64 {
-        self.kress[0]
-    }
-
-    /// Visits all pairs of nodes of a target and a source curve, the `same` one or not: `apply` adds the flow of a
-    /// shift at the targets and at the sources, the latter in an array twice as long. On the same curve the kernel is
-    /// to be added the weight of Kress that `apply` is given.
+    /// Visits all pairs of nodes of a target and a source curve, which has no fewer nodes, the `same` one or not:
+    /// `apply` adds the flow of a shift at the targets and at the sources, the latter in an array twice as long.
     pub(crate) fn visit(
         &mut self,
         same: bool,
         [target, source]: [usize; 2],
         out: &mut [Vectors],
-        mut apply: impl FnMut(Shift, f64, &mut Vectors, &mut Vectors),
+        mut apply: impl FnMut(Shift, &mut Vectors, &mut Vectors),
     ) {
-        let n = self.kress.len();
+        let n = out[source].x.len();
         self.sources.clear(2 * n);
-        for shift in shifts(n, same) {
-            let weight = if same { self.kress[shift.d] } else { 0.0 };
-            apply(shift, weight, &mut out[target], &mut self.sources);
+        for shift in shifts([out[target].x.len(), n], same) {
+            apply(shift, &mut out[target], &mut self.sources);
         }
         // The doubled array is folded into the cyclic one.
         let out = &mut out[source];

@@ -1,20 +1,23 @@
 //! What the walls of a channel add to layers, and the flow that its forcing drives.
 
-use std::f64::consts::{PI, TAU};
+use std::{
+    f64::consts::{PI, TAU},
+    ops::Range,
+};
 
 use num_complex::Complex64;
 
 use crate::{
     Forcing, LayerError,
     close::reach,
-    curve::{Curve, Transforms},
+    curve::{Curve, REFINEMENT},
     greens::{
         Flow, Vectors,
         walls::{WallModes, WallPoints},
     },
 };
 
-use super::Density;
+use super::{Density, Plan};
 
 /// Beyond a wall by less than this fraction of the width is taken for touching it.
 const ROUND_OFF: f64 = 1e-12;
@@ -31,6 +34,8 @@ pub(crate) struct Walls {
     modes: WallModes,
     nodes: WallPoints,
     fine: WallPoints,
+    /// Curve and number of each node.
+    owners: Vec<[usize; 2]>,
     /// Whether the walls see the fine nodes: those of the nodes would be too coarse for their gap.
     refined: bool,
     gap: f64,
@@ -48,6 +53,7 @@ impl Walls {
             modes: WallModes::new(length, half, matches!(forcing, Forcing::Flux(_))),
             nodes: WallPoints::default(),
             fine: WallPoints::default(),
+            owners: Vec::new(),
             refined: false,
             gap: 0.0,
             points: WallPoints::default(),
@@ -60,8 +66,9 @@ impl Walls {
     }
 
     /// Takes over the present shapes.
-    pub(crate) fn load(&mut self, curves: &mut [Curve], transforms: &mut Transforms) -> Result<(), LayerError> {
+    pub(crate) fn load(&mut self, curves: &mut [Curve], plans: &mut [Plan]) -> Result<(), LayerError> {
         self.nodes.clear();
+        self.owners.clear();
         let mut spacing = 0.0f64;
         for (number, curve) in curves.iter().enumerate() {
             spacing = spacing.max(curve.spacing());
@@ -72,6 +79,7 @@ impl Walls {
                 if depth > allowed {
                     return Err(LayerError::BeyondWall { curve: number, node, x: z.re, y: z.im, depth, allowed });
                 }
+                self.owners.push([number, node]);
                 self.nodes.push(&self.modes, z.re, z.im.clamp(-self.half, self.half));
             }
         }
@@ -79,7 +87,7 @@ impl Walls {
         // The wall's image of a node is two gaps away from the node.
         self.refined = 2.0 * self.gap < reach(self.tolerance) * spacing;
         if self.refined {
-            curves.iter_mut().for_each(|curve| curve.refine(transforms));
+            curves.iter_mut().for_each(|curve| curve.refine(&mut plans[curve.plan].transforms));
             self.load_fine(curves);
             self.gap = self.gap.min(self.fine.gap()).max(LEAST_GAP * spacing);
         }
@@ -96,11 +104,15 @@ impl Walls {
         }
     }
 
-    /// Adds the forces at the nodes or fine nodes to the modes.
-    fn put_forces(&mut self, curves: &[Curve], fine: bool, target_gap: f64) {
+    /// Adds the forces at the nodes or fine nodes of some curves to the modes.
+    fn put_forces(&mut self, curves: &[Curve], from: Range<usize>, fine: bool, target_gap: f64) {
+        let owners = &self.owners;
+        let force = |j: usize| {
+            let [curve, i] = owner(owners, j, fine);
+            if from.contains(&curve) { curves[curve].samples(fine).force[i] } else { Complex64::default() }
+        };
         let points = if fine { &self.fine } else { &self.nodes };
-        let count = curves[0].samples(fine).force.len();
-        self.modes.add_forces(points, target_gap, |j| curves[j / count].samples(fine).force[j % count]);
+        self.modes.add_forces(points, target_gap, force);
     }
 
     /// Adds the dipoles at the nodes or, where there are velocities of those, at the fine nodes to the modes, times
@@ -114,10 +126,13 @@ impl Walls {
         sign: f64,
     ) {
         let points = if fine.is_some() { &self.fine } else { &self.nodes };
-        let count = curves[0].samples(fine.is_some()).position.len();
-        let weight = sign * TAU / count as f64;
+        let owners = &self.owners;
         let dipole = |j: usize| {
-            let (curve, i) = (j / count, j % count);
+            let [curve, i] = owner(owners, j, fine.is_some());
+            let contrast = density.contrast(curve);
+            if contrast == 0.0 {
+                return [0.0; 3];
+            }
             let v = fine.map_or_else(
                 || {
                     let (x, y) = density.of(curve);
@@ -125,29 +140,33 @@ impl Walls {
                 },
                 |values| values[j],
             );
-            let t = curves[curve].samples(fine.is_some()).tangent[i] * (density.contrasts[curve] * weight);
+            let samples = curves[curve].samples(fine.is_some());
+            let weight = sign * TAU / samples.position.len() as f64;
+            let t = samples.tangent[i] * (contrast * weight);
             [v.re * t.im, v.im * t.im - v.re * t.re, -v.im * t.re]
         };
-        let x = |j: usize| curves[j / count].samples(fine.is_some()).position[j % count].re;
+        let x = |j: usize| {
+            let [curve, i] = owner(owners, j, fine.is_some());
+            curves[curve].samples(fine.is_some()).position[i].re
+        };
         self.modes.add_dipoles(points, target_gap, dipole, x);
     }
 
     /// Adds what the modes give at the nodes.
     fn add_modes(&mut self, out: &mut [Vectors]) {
         self.modes.solve();
-        let nodes = out[0].x.len();
         self.modes.velocities(&self.nodes, self.gap, |i, u, v| {
-            let out = &mut out[i / nodes];
-            out.x[i % nodes] += u;
-            out.y[i % nodes] += v;
+            let [curve, i] = self.owners[i];
+            out[curve].x[i] += u;
+            out[curve].y[i] += v;
         });
     }
 
-    /// Adds what the walls add to the single layer.
-    pub(crate) fn add_forces(&mut self, curves: &[Curve], out: &mut [Vectors]) {
+    /// Adds what the walls add to the single layer of some curves.
+    pub(crate) fn add_forces(&mut self, curves: &[Curve], from: Range<usize>, out: &mut [Vectors]) {
         if !curves.is_empty() {
             self.modes.begin(self.gap, self.gap, self.tolerance);
-            self.put_forces(curves, self.refined, self.gap);
+            self.put_forces(curves, from, self.refined, self.gap);
             self.add_modes(out);
         }
     }
@@ -185,6 +204,11 @@ impl Walls {
         };
         let mut sum = 0.0;
         for (index, curve) in curves.iter().enumerate() {
+            let heights = curve.nodes.position.iter().map(|z| z.im + curve.centre.im);
+            sum += heights.zip(&curve.nodes.force).map(|(y, force)| (h * h - y * y) * force.re).sum::<f64>();
+            if density.contrast(index) == 0.0 {
+                continue;
+            }
             let (vx, vy) = density.of(index);
             let contrast = density.contrasts[index] * curve.weight();
             for (i, (z, t)) in curve.nodes.position.iter().zip(&curve.nodes.tangent).enumerate() {
@@ -192,7 +216,7 @@ impl Walls {
                 let (nx, ny) = (t.im * contrast, -t.re * contrast);
                 let shear = vx[i] * ny + vy[i] * nx;
                 let flux = vx[i] * nx + vy[i] * ny;
-                sum += (h * h - y * y) * curve.nodes.force[i].re + 2.0 * (y * shear - z.re * flux);
+                sum += 2.0 * (y * shear - z.re * flux);
             }
         }
         1.5 / (h * h * h) * (TAU / self.length / (4.0 * PI) * sum - viscosity * flux)
@@ -214,10 +238,11 @@ impl Walls {
         if curves.is_empty() {
             self.modes.begin(self.half, self.half, self.tolerance);
         } else {
-            let source_gap = self.fine.gap().max(LEAST_GAP * curves[0].spacing());
+            let spacing = curves.iter().map(Curve::spacing).fold(0.0, f64::max);
+            let source_gap = self.fine.gap().max(LEAST_GAP * spacing);
             let target_gap = self.points.gap().min(self.half);
             self.modes.begin(source_gap, target_gap, self.tolerance);
-            self.put_forces(curves, true, target_gap);
+            self.put_forces(curves, 0..curves.len(), true, target_gap);
             if !density.vanishes() {
                 self.put_dipoles(curves, density, Some(fine), target_gap, -1.0);
             }
@@ -228,5 +253,15 @@ impl Walls {
     /// Adds the flow at the point of that number.
     pub(crate) fn add_flow(&self, index: usize, flow: &mut Flow) {
         *flow += self.modes.flow(&self.points, index);
+    }
+}
+
+/// Curve and number of a node or fine node from those of the nodes.
+fn owner(owners: &[[usize; 2]], j: usize, fine: bool) -> [usize; 2] {
+    if fine {
+        let [curve, node] = owners[j / REFINEMENT];
+        [curve, REFINEMENT * node + j % REFINEMENT]
+    } else {
+        owners[j]
     }
 }

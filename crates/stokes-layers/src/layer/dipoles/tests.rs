@@ -27,15 +27,15 @@ fn compare<K: PairKernel>(kernel: &K) {
     let both = [&target, &source];
     let mut stored = StoredStress::default();
     stored.fill(kernel, both.map(|arrays| &arrays.nodes), false);
-    let mut sums = PairSums::new(NODES);
+    let mut sums = PairSums::default();
     let [mut a, mut b] = [0, 1].map(|_| {
         let mut out = [Vectors::default(), Vectors::default()];
         out.iter_mut().for_each(|out| out.clear(NODES));
         out
     });
     let dipoles = both.map(|arrays| &arrays.dipoles);
-    sums.visit(false, [0, 1], &mut a, |shift, _, near, far| stored.apply(shift, dipoles, near, far));
-    sums.visit(false, [0, 1], &mut b, |shift, _, near, far| double_layer(kernel, shift, both, near, far));
+    sums.visit(false, [0, 1], &mut a, |shift, near, far| stored.apply(shift, dipoles, near, far));
+    sums.visit(false, [0, 1], &mut b, |shift, near, far| double_layer(kernel, shift, both, near, far));
     for (a, b) in a.iter().zip(&b) {
         let differences = a.x.iter().zip(&b.x).chain(a.y.iter().zip(&b.y)).map(|(a, b)| (a - b).abs());
         assert!(differences.fold(0.0, f64::max) < 1e-13);

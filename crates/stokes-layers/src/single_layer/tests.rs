@@ -1,0 +1,205 @@
+use super::*;
+use crate::{Forcing, PeriodicCalculus, TensionPlacement};
+use std::f64::consts::TAU;
+
+const LENGTH: f64 = 5.0;
+
+fn channel() -> Geometry {
+    Geometry::Channel { length: LENGTH, width: 4.0, forcing: Forcing::default() }
+}
+
+fn regions() -> [Geometry; 3] {
+    [channel(), Geometry::Box { lengths: [LENGTH, 6.0] }, Geometry::Box { lengths: [LENGTH, 3.4] }]
+}
+
+/// A wavy curve to the right or left at a height, `count` points.
+fn wave(height: f64, direction: f64, count: usize) -> Vec<Vec2> {
+    let at = |k: usize| TAU * k as f64 / count as f64;
+    let place = |t: f64| {
+        Vec2::new(direction * LENGTH * t / TAU + 0.1 * t.sin() + 0.2, height + 0.15 * t.cos() - 0.05 * (2.0 * t).sin())
+    };
+    (0..count).map(at).map(place).collect()
+}
+
+fn ellipse(centre: Vec2, count: usize) -> Vec<Vec2> {
+    let at = |k: usize| TAU * k as f64 / count as f64;
+    (0..count).map(at).map(|t| centre + Vec2::new(0.6 * t.cos(), 0.4 * t.sin())).collect()
+}
+
+/// Forces at the nodes from smooth densities per parameter, different for each curve.
+fn forces(nodes: &[usize]) -> Vec<f64> {
+    let mut all = Vec::new();
+    for (curve, &n) in nodes.iter().enumerate() {
+        let phase = 0.4 + curve as f64;
+        for component in [0.0, 1.3] {
+            let at = |k: usize| TAU * k as f64 / n as f64;
+            all.extend(
+                (0..n).map(|k| ((at(k) + phase).cos() + (2.0 * at(k) + component).sin() + 0.3) * TAU / n as f64),
+            );
+        }
+    }
+    all
+}
+
+/// Two open curves and a closed one with a film of `gap` (roughly) between all of them, at `n` nodes a curve and half
+/// as many on the closed one.
+fn loaded(geometry: Geometry, gap: f64, n: usize) -> (SingleLayer, Vec<Vec<Vec2>>) {
+    let mut layer = SingleLayer::new(geometry, 1e-13).unwrap();
+    let curves = vec![wave(-0.8, 1.0, n), wave(0.8 + gap, -1.0, n), ellipse(Vec2::new(0.4, -0.25 + gap), n / 2)];
+    let open = |sign: f64| Vec2::new(sign * LENGTH, 0.0);
+    let given = [
+        LayerCurve { positions: &curves[0], period: open(1.0), nodes: n },
+        LayerCurve { positions: &curves[1], period: open(-1.0), nodes: n },
+        LayerCurve { positions: &curves[2], period: Vec2::ZERO, nodes: n / 2 },
+    ];
+    layer.load(given.into_iter()).unwrap();
+    (layer, curves)
+}
+
+/// Velocities at the nodes and at points.
+fn flow(geometry: Geometry, gap: f64, n: usize, points: &[Vec2]) -> (Vec<f64>, Vec<FlowSample>) {
+    let (mut layer, _) = loaded(geometry, gap, n);
+    let mut out = vec![0.0; layer.entry_count()];
+    layer.apply(&forces(&[n, n, n / 2]), Reciprocity::Accurate, &mut out).unwrap();
+    let mut samples = vec![FlowSample::default(); points.len()];
+    layer.sample(1.0, points, &mut samples).unwrap();
+    (out, samples)
+}
+
+/// Every `step`-th node of all curves.
+fn every(values: &[f64], nodes: &[usize], step: usize) -> Vec<f64> {
+    let mut first = 0;
+    let mut kept = Vec::new();
+    for &n in nodes {
+        for _ in 0..2 {
+            kept.extend(values[first..first + n].iter().step_by(step));
+            first += n;
+        }
+    }
+    kept
+}
+
+#[test]
+fn coarse_and_fine_nodes_agree_at_nodes_and_close_points() {
+    for geometry in regions() {
+        for gap in [0.2, 0.02] {
+            let on_curve = wave(-0.8, 1.0, 7);
+            let mut points = vec![Vec2::new(0.4, -0.25 + gap), Vec2::new(-1.9, 0.1), Vec2::new(2.4, -1.2)];
+            points.extend(on_curve.iter().flat_map(|x| [0.01, -0.01, 1e-4].map(|d| *x + Vec2::new(0.0, d))));
+            points.extend(on_curve);
+            let (coarse, at_coarse) = flow(geometry, gap, 96, &points);
+            // Ten times as many: the plain sums are exact to round-off at most of these points.
+            let (fine, at_fine) = flow(geometry, gap, 960, &points);
+            let kept = every(&fine, &[960, 960, 480], 10);
+            let error = coarse.iter().zip(&kept).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let between = at_coarse.iter().zip(&at_fine).map(|(a, b)| (a.velocity - b.velocity).length());
+            let between = between.fold(0.0, f64::max);
+            println!("{geometry:?} {gap}: {error:.1e} {between:.1e}");
+            assert!(error < 1e-10 && between < 1e-10, "{geometry:?} {gap}: {error:e} {between:e}");
+        }
+    }
+}
+
+#[test]
+fn the_operator_is_symmetric() {
+    for geometry in regions() {
+        for (gap, n) in [(0.1, 96), (0.02, 96), (0.02, 48)] {
+            let nodes = [n, n, n / 2];
+            let (mut layer, _) = loaded(geometry, gap, n);
+            let count = layer.entry_count();
+            let (a, mut b) = (forces(&nodes), forces(&nodes));
+            b.rotate_left(n / 3);
+            let mut power = |f: &[f64], g: &[f64], reciprocity| {
+                let mut out = vec![0.0; count];
+                layer.apply(f, reciprocity, &mut out).unwrap();
+                out.iter().zip(g).map(|(u, g)| u * g).sum::<f64>()
+            };
+            let exact = power(&a, &b, Reciprocity::Exact) - power(&b, &a, Reciprocity::Exact);
+            assert!(exact.abs() < 1e-10, "{exact:e}");
+            // Any forces lose power, resolved or not.
+            let rough: Vec<f64> = (0..count).map(|k| ((k * k) as f64).sin()).collect();
+            assert!(power(&rough, &rough, Reciprocity::Exact) > 0.0);
+            let smooth = forces(&nodes);
+            let [accurate, exact] = [Reciprocity::Accurate, Reciprocity::Exact].map(|r| power(&smooth, &smooth, r));
+            println!("{gap} {n}: {:.1e}", accurate / exact - 1.0);
+            assert!(n < 96 || (accurate / exact - 1.0).abs() < 1e-9, "{accurate} {exact}");
+        }
+    }
+}
+
+#[test]
+fn a_pressure_behind_a_curve_moves_nothing() {
+    for geometry in regions() {
+        let (mut layer, _) = loaded(geometry, 0.05, 96);
+        let mut out = vec![0.0; layer.entry_count()];
+        for curve in 0..3 {
+            let mut forces = vec![0.0; layer.entry_count()];
+            let range = layer.entries(curve);
+            layer.normals(curve, &mut forces[range]).unwrap();
+            layer.apply(&forces, Reciprocity::Accurate, &mut out).unwrap();
+            let largest = out.iter().map(|u| u.abs()).fold(0.0, f64::max);
+            assert!(largest < 1e-11, "{geometry:?} {curve}: {largest:e}");
+        }
+    }
+}
+
+#[test]
+fn curves_that_do_not_go_on_with_the_region_are_refused() {
+    let positions = wave(0.0, 1.0, 32);
+    let load = |geometry, period| {
+        let mut layer = SingleLayer::new(geometry, 1e-8).unwrap();
+        layer.load([LayerCurve { positions: &positions, period, nodes: 32 }].into_iter())
+    };
+    assert_eq!(load(channel(), Vec2::new(LENGTH, 0.0)), Ok(()));
+    for (geometry, period) in [
+        (channel(), Vec2::new(4.9, 0.0)),
+        (channel(), Vec2::new(LENGTH, 0.1)),
+        (channel(), Vec2::new(f64::NAN, 0.0)),
+        (Geometry::Plane, Vec2::new(LENGTH, 0.0)),
+    ] {
+        assert!(matches!(load(geometry, period), Err(LayerError::Period { curve: 0, .. })));
+    }
+}
+
+/// A wave of small amplitude on an interface with tension relaxes at the rate tension k/(4 eta).
+#[test]
+fn waves_relax_at_their_rate() {
+    let (nodes, amplitude) = (48, 1e-3);
+    let geometry = Geometry::Channel { length: TAU, width: 40.0, forcing: Forcing::default() };
+    let period = Vec2::new(TAU, 0.0);
+    let at = |k: usize| TAU * k as f64 / nodes as f64;
+    let positions: Vec<Vec2> = (0..nodes).map(|k| Vec2::new(at(k), amplitude * (2.0 * at(k)).cos())).collect();
+    let mut forces = vec![Vec2::ZERO; nodes];
+    let mut calculus = PeriodicCalculus::new(nodes).unwrap().with_period(period);
+    calculus.tension_forces(&positions, &vec![3.0; nodes], TensionPlacement::Points, &mut forces).unwrap();
+    let mut layer = SingleLayer::new(geometry, 1e-12).unwrap();
+    layer.load([LayerCurve { positions: &positions, period, nodes }].into_iter()).unwrap();
+    let forces: Vec<f64> = forces.iter().map(|f| f.x).chain(forces.iter().map(|f| f.y)).collect();
+    let mut out = vec![0.0; 2 * nodes];
+    layer.apply(&forces, Reciprocity::Accurate, &mut out).unwrap();
+    for k in 0..nodes {
+        let expected = -3.0 * 2.0 / 4.0 * positions[k].y;
+        // The next term is of the third power of the amplitude.
+        assert!((out[nodes + k] - expected).abs() < 10.0 * amplitude.powi(3), "{} {expected}", out[nodes + k]);
+    }
+}
+
+#[test]
+fn steady_state_allocates_nothing() {
+    for geometry in regions() {
+        let (mut layer, curves) = loaded(geometry, 0.05, 64);
+        let forces = forces(&[64, 64, 32]);
+        let mut out = vec![0.0; layer.entry_count()];
+        let mut go = |layer: &mut SingleLayer| {
+            let open = |sign: f64| Vec2::new(sign * LENGTH, 0.0);
+            let periods = [open(1.0), open(-1.0), Vec2::ZERO];
+            let given = curves.iter().zip(periods).zip([64, 64, 32]);
+            layer.load(given.map(|((positions, period), nodes)| LayerCurve { positions, period, nodes })).unwrap();
+            for reciprocity in [Reciprocity::Accurate, Reciprocity::Exact] {
+                layer.apply(&forces, reciprocity, &mut out).unwrap();
+            }
+        };
+        go(&mut layer);
+        assert_eq!(allocation_counter::measure(|| go(&mut layer)).count_total, 0);
+    }
+}
