@@ -32,8 +32,8 @@ pub enum Reciprocity {
     /// In each direction by itself: velocities are spectrally accurate at every node. The operator is symmetric to the
     /// accuracy to which the nodes resolve the forces.
     Accurate,
-    /// At the nodes of the curve that has fewer of them, of two with as many those of the first one; the other curve
-    /// gets the transpose. The operator is symmetric to round-off and accurate for what moves with the nodes' smooth
+    /// At the nodes of the curve whose nodes are closer together, of two with the same spacing those of the first one;
+    /// the other curve gets the transpose. The operator is symmetric to round-off and accurate for what moves with the nodes' smooth
     /// fields, such as power.
     Exact,
 }

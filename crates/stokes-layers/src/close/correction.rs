@@ -196,16 +196,17 @@ impl CloseCorrection {
     }
 
     /// Adds the corrections of the single layer that were kept, for forces at the nodes. Where `symmetric`, those of
-    /// two curves are found on the one with fewer nodes, or else the first one, and the other one gets their transpose.
+    /// two curves are found at the nodes that are closer together, which resolve what is between them best, of two curves
+    /// with the same spacing at those of the first one, and the other one gets their transpose.
     pub(crate) fn add_kept(&self, curves: &[Curve], symmetric: bool, out: &mut [Vectors]) {
         for close in &self.close {
             let Some(row) = close.force_row else { continue };
             let (target, source) = (&curves[close.target], &curves[close.source]);
             let row = &self.rows[row..row + source.len()];
-            let rank = |index: usize| (curves[index].len(), index);
+            let finer = |a: usize, b: usize| curves[a].spacing().total_cmp(&curves[b].spacing()).then(a.cmp(&b)).is_le();
             // Each of two images of the same curve gives half.
             let share = if symmetric && close.target == close.source { 0.5 } else { 1.0 };
-            if symmetric && rank(close.target) > rank(close.source) {
+            if symmetric && !finer(close.target, close.source) {
                 continue;
             }
             let mut sum = Complex64::default();
