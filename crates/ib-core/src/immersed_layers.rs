@@ -77,7 +77,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
             Geometry::Box { lengths: [length, width] }
         };
         Ok(Self {
-            layer: SingleLayer::new(geometry, settings.tolerance)?,
+            layer: SingleLayer::new(geometry, settings.tolerance, Reciprocity::Exact)?,
             settings,
             curves: LayerCurves::new(length, grid.spacing(), settings.nodes),
             inner: Transfer::new(grid, kernel.clone()),
@@ -180,7 +180,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
         }
         let curves = &mut self.curves;
         self.layer.load(curves.layers())?;
-        self.layer.apply(&curves.forces, Reciprocity::Exact, &mut curves.velocities)?;
+        self.layer.apply(&curves.forces, &mut curves.velocities)?;
         self.solve_inner(markers)?;
         let curves = &mut self.curves;
         self.nodes.interpolate(&self.velocity, &mut curves.grid[2])?;

@@ -134,7 +134,7 @@ impl InterfaceFlow {
             geometry,
             viscosity,
             settings,
-            layers: Layers::new(geometry, settings.tolerance),
+            layers: Layers::new(geometry, settings.tolerance, false),
             gmres: Gmres::recycling(),
             viscosities: Vec::new(),
             contrasts: Vec::new(),

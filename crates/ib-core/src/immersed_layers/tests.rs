@@ -6,7 +6,7 @@ use super::*;
 use crate::{CubicQuadratic, MarkerKind, hydrodynamics::SurfaceCurve};
 
 const H: f64 = 0.1;
-const NODES: usize = 64;
+const NODES: usize = 72;
 
 fn circle(centre: Vec2, radius: f64, count: usize) -> Vec<Vec2> {
     let at = |k: usize| centre + radius * Vec2::from_angle(TAU * k as f64 / count as f64);
@@ -81,5 +81,41 @@ fn dump() {
     for (gap, lattice) in [(0.3, 0.2), (0.1, 0.2), (0.05, 0.2), (0.05, 0.1)] {
         write(format!("m_{gap}_{lattice}"), droplet_and_disc(gap, if lattice > 0.15 { 44 } else { 88 }, lattice));
         write(format!("w_{gap}_{lattice}"), droplet_and_walls(gap, 6.0, lattice));
+    }
+}
+
+#[test]
+fn timing() {
+    let solver = ChannelStokes::new(Grid::channel(120, 50, H).unwrap(), 1.0).unwrap();
+    for tolerance in [1e-8, 1e-6, 1e-4] {
+        let settings = Settings { nodes: 72, tolerance, ..Settings::default() };
+        let mut flow = ImmersedLayers::new(solver.clone(), CubicQuadratic::default(), settings).unwrap();
+        let mut markers = droplet_and_walls(0.07, 12.0, 0.2);
+        markers.forces.fill(Vec2::new(1.0, 0.3));
+        flow.velocities(&mut markers).unwrap();
+        let n = 50;
+        let mut times = [0.0; 6];
+        for _ in 0..n {
+            let mut t = std::time::Instant::now();
+            let mut lap = |k: usize| {
+                times[k] += t.elapsed().as_secs_f64() * 1e3 / f64::from(n);
+                t = std::time::Instant::now();
+            };
+            flow.load(&markers).unwrap();
+            lap(0);
+            flow.layer.load(flow.curves.layers()).unwrap();
+            lap(1);
+            flow.layer.apply(&flow.curves.forces, &mut flow.curves.velocities).unwrap();
+            lap(2);
+            flow.solve_inner(&markers).unwrap();
+            flow.nodes.interpolate(&flow.velocity, &mut flow.curves.grid[2]).unwrap();
+            lap(3);
+            flow.curves.write(1.0, &mut markers.velocities).unwrap();
+            lap(4);
+            flow.solve_all().unwrap();
+            flow.inner.interpolate(&flow.velocity, &mut flow.values).unwrap();
+            lap(5);
+        }
+        println!("{tolerance:e} {} {times:?}", markers.len());
     }
 }

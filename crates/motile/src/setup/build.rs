@@ -28,6 +28,8 @@ pub struct Built {
     pub solids: Vec<Handle<Solid>>,
 }
 
+/// Accuracy of layers beside solids, whose inner points see them through a grid.
+const LAYER_TOLERANCE: f64 = 1e-6;
 /// Film that is left beside a droplet squeezed to fit, over its radius.
 const FILM: f64 = 0.05;
 /// A squeezed droplet's least half height, over its radius.
@@ -166,7 +168,7 @@ impl Setup {
     fn coupled(&self, grid: &GridMethod, solver: Box<dyn StokesSolver>) -> Result<AnyFlow, SetupError> {
         let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
         Ok(if let Some(IntegralMethod { nodes, .. }) = grid.layers {
-            let settings = Settings { nodes, ..Settings::default() };
+            let settings = Settings { nodes, tolerance: LAYER_TOLERANCE, ..Settings::default() };
             Box::new(ImmersedLayers::new(solver, grid.kernel, settings)?)
         } else if differs && grid.contrast == Contrast::Arithmetic {
             Box::new(SmearedContrast::new(solver, grid.kernel)?)
