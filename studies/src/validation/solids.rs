@@ -1,7 +1,7 @@
 //! Elastic solids against exact results.
 
 use motile_tests::validation::solids::{
-    Layer, Material, Sample, balance, energies, largest_stress_error, laws, meshes, moduli, patch,
+    Layer, Material, Sample, Surface, balance, energies, largest_stress_error, laws, meshes, moduli, patch,
 };
 use motile_tests::validation::{StudyError, Table, order};
 

@@ -1,5 +1,6 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
+use motile::boundary_integral::Settings;
 use motile::elastic_solids::{
     ElasticForces, EnergyDensity, Interior, Mesher, NeoHookean, Outline, Solid, SolidError, TriangleMesh,
     check::{ForceBalance, InnerPoints, MeasuredModuli, force_balance, measured_moduli, patch_residual, stress_error},
@@ -7,7 +8,6 @@ use motile::elastic_solids::{
     material::{DeformationGradient, Mat2, MooneyRivlin, SaintVenantKirchhoff},
     mesh::{equilateral_block, equilateral_strip, fitted_strip},
 };
-use motile::boundary_integral::Settings;
 use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid};
 

@@ -73,10 +73,11 @@ impl Springs {
             .map(|triangle| {
                 let [a, b, c] = mesh.raw_corners(triangle, mesh.points());
                 let mut sides = [b - a, c - b, a - c];
-                let (longest, shortest) = sides.iter().fold((Vec2::ZERO, f64::INFINITY), |(longest, shortest), side| {
-                    let further = side.length() > longest.length();
-                    (if further { *side } else { longest }, shortest.min(side.length()))
-                });
+                let (longest, shortest) =
+                    sides.iter().fold((Vec2::ZERO, f64::INFINITY), |(longest, shortest), side| {
+                        let further = side.length() > longest.length();
+                        (if further { *side } else { longest }, shortest.min(side.length()))
+                    });
                 if longest.length() > UNEVEN * shortest {
                     uneven.push((triangle, Element::of(mesh, triangle)));
                     sides = [0.0, 1.0, 2.0].map(|k| Vec2::from_angle(k * std::f64::consts::FRAC_PI_3).rotate(longest));

@@ -45,8 +45,12 @@ impl TriangleMesh {
         for &[a, b, c] in &self.triangles {
             let sides = [[a, b], [b, c], [c, a]].map(|side| middles.get(&side).copied());
             // All corners and new points in order; a fan about a new point covers them.
-            let ring: Vec<usize> =
-                [a, b, c].into_iter().zip(sides).flat_map(|(corner, middle)| [Some(corner), middle]).flatten().collect();
+            let ring: Vec<usize> = [a, b, c]
+                .into_iter()
+                .zip(sides)
+                .flat_map(|(corner, middle)| [Some(corner), middle])
+                .flatten()
+                .collect();
             let start = ring.iter().position(|point| *point >= self.points.len()).unwrap_or(0);
             let fan = |k: usize| ring[(start + k) % ring.len()];
             triangles.extend((1..ring.len() - 1).map(|k| [fan(0), fan(k), fan(k + 1)]));

@@ -109,7 +109,8 @@ fn the_operator_is_symmetric() {
     for geometry in regions() {
         for (gap, n) in [(0.1, 96), (0.02, 96), (0.02, 48)] {
             let nodes = [n, n, n / 2];
-            let mut layers = [Reciprocity::Accurate, Reciprocity::Exact].map(|kind| reciprocal(geometry, gap, n, kind).0);
+            let mut layers =
+                [Reciprocity::Accurate, Reciprocity::Exact].map(|kind| reciprocal(geometry, gap, n, kind).0);
             let count = layers[0].entry_count();
             let (a, mut b) = (forces(&nodes), forces(&nodes));
             b.rotate_left(n / 3);
