@@ -42,7 +42,7 @@ pub struct SolidSetup {
     /// How its points are arranged.
     #[serde(default)]
     pub mesh: MeshKind,
-    /// Spacing of its points (length); `None` for that of the grid.
+    /// Spacing of its points (length); `None` for that of the grid, twice that where its surface is a layer.
     #[serde(default)]
     pub mesh_spacing: Option<f64>,
     /// What is done about the smearing of its surface over the grid.
@@ -182,7 +182,8 @@ pub enum MeshKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Surface {
-    /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order. A round droplet that
+    /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order, and none where it is a
+    /// layer ([`GridMethod::layers`]), which needs none. A round droplet that
     /// would start in contact with the walls starts squeezed a little, beside a film.
     #[default]
     Corrected,
