@@ -141,7 +141,9 @@ fn meet(flags: &Flags) -> Result<()> {
             let raster = Raster::of(scene.system(), flags.method.spacing(&setup))?;
             let seen = Snapshot::take(scene.system_mut(), raster)?;
             let concentration = setup.droplets[0].particles.map(|particles| particles.concentration);
-            Look { concentration, ..Look::default() }.write_picture(&seen, &[], picture)?;
+            let [first, second] = [0, 1].map(|index| setup.droplets[index].activity());
+            let caption = format!("activities {first} and {second}, viscosity outside {}", setup.viscosity);
+            Look { caption, concentration, ..Look::default() }.write_picture(&seen, &[], picture)?;
         }
         Ok(())
     })

@@ -70,10 +70,15 @@ fn git(arguments: &[&str]) -> Result<String> {
 /// The commit that last changed `inputs`.
 ///
 /// # Errors
-/// Changes of them that are not committed.
+/// Changes of them that are not committed, or that this program was built before.
 pub(crate) fn commit(inputs: &[&str]) -> Result<String> {
     let changed = git(&[&["status", "--porcelain", "--"], inputs].concat())?;
     ensure!(changed.is_empty(), "commit first, so that tables can tell what made them:\n{changed}");
+    let built = fs::metadata(std::env::current_exe()?)?.modified()?;
+    for path in git(&[&["ls-files", "--"], inputs].concat())?.lines() {
+        let changed = fs::metadata(root().join(path))?.modified()?;
+        ensure!(changed <= built, "build again: {path} was changed after this program was built");
+    }
     git(&[&["log", "-1", "--format=%h", "--"], inputs].concat())
 }
 

@@ -3,8 +3,8 @@
 //!
 //! `cargo run --release -p studies -- viscosity_contrast` makes the runs, some minutes on two cores; `--full` makes
 //! more of them, longer and finer, an hour or so. Each finished run leaves a file in `out/viscosity_contrast/runs/` and
-//! is not made again. From all runs come `points.csv`, the figures (SVG and PNG) and `statements.md`, Cowley's
-//! statements beside what the runs say.
+//! is not made again. From all runs come `points.csv`, the figures (SVG and PNG) and a table, Cowley's statements beside
+//! what the runs say, which `--write` keeps in `docs/tables/viscosity-contrast.csv`.
 
 mod figures;
 mod run;
@@ -12,6 +12,7 @@ mod statements;
 
 use crate::results::write_results;
 use crate::run_pool::RunPool;
+use crate::tables;
 use anyhow::Result;
 use clap::Args;
 use motile_examples::{OutputFlags, Summary, positive, say};
@@ -33,6 +34,9 @@ pub(crate) struct Flags {
     /// Runs at a time; without it as many as there are processors
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Write the table to docs/tables
+    #[arg(long)]
+    write: bool,
     #[command(flatten)]
     output: OutputFlags,
 }
@@ -50,7 +54,10 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     write_results(&directory.join("points.csv"), &rows)?;
     let table = statements::table(&points);
     say(&table);
-    std::fs::write(directory.join("statements.md"), &table)?;
+    if flags.write {
+        let inputs = [&tables::RUNS[..], &["studies/src/viscosity_contrast"]].concat();
+        tables::write("viscosity-contrast", "viscosity_contrast --write", &inputs, &[table])?;
+    }
     if !flags.output.no_pictures {
         for (name, figure) in figures::all(&points) {
             figure.write(&directory, name)?;

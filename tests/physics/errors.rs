@@ -6,9 +6,7 @@ use motile::ib_core::{
     Warnings,
 };
 use motile::stokes_grid::InputError;
-use motile::{
-    AnyFlow, Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Region, Setup, SetupError,
-};
+use motile::{AnyFlow, Built, DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 #[test]
@@ -162,32 +160,5 @@ fn markers_beyond_a_wall_are_named() {
             assert!((allowed - 0.025).abs() < 1e-12 && depth > allowed && depth < 0.06);
         }
         other => panic!("{other}"),
-    }
-}
-
-/// Every jump of viscosity is taken against the exterior's, which is wrong inside a droplet of another viscosity.
-#[test]
-fn droplets_in_droplets_of_another_viscosity_are_refused() {
-    for method in [
-        Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
-        Method::Grid(GridMethod { spacing: 0.1, ..GridMethod::default() }),
-    ] {
-        let scene = |outer: f64, inner: f64| {
-            let inside = |radius, viscosity| DropletSetup {
-                viscosity: Some(viscosity),
-                shape: DropletShape::Round { radius },
-                ..DropletSetup::passive(1.0)
-            };
-            let setup = Setup {
-                method,
-                viscosity: 100.0,
-                droplets: vec![inside(1.0, outer), inside(0.3, inner)],
-                ..Setup::default()
-            };
-            setup.build().map(|built| built.scene)
-        };
-        let error = scene(10.0, 100.0).unwrap_err();
-        assert!(matches!(error, SetupError::Nested { interior: 10.0, exterior: 100.0, .. }), "{error}");
-        scene(100.0, 10.0).unwrap().run(0.1).go().unwrap();
     }
 }

@@ -10,6 +10,7 @@ mod headings;
 mod interfaces;
 mod linear_theory;
 mod near_walls;
+mod nested;
 mod net_forces;
 mod recommended;
 mod relaxation;

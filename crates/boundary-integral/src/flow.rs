@@ -69,8 +69,8 @@ impl BoundaryIntegral {
         }
         let viscosity = self.flow.viscosity();
         let interface = |group: &MarkerGroup| {
-            let inside = group.kind.viscosity_inside().unwrap_or(viscosity);
-            Interface::closed(&markers.positions[group.range.clone()], &markers.forces[group.range.clone()], inside)
+            let (positions, forces) = (&markers.positions[group.range.clone()], &markers.forces[group.range.clone()]);
+            Interface::closed(positions, forces, group.viscosities(viscosity))
         };
         Ok(self.flow.load(markers.groups().iter().map(interface))?)
     }
@@ -108,7 +108,8 @@ impl Hydrodynamics for BoundaryIntegral {
         let (nodes, viscosity) = (self.settings().nodes, self.flow.viscosity());
         let rates = markers.groups().iter().enumerate().filter_map(|(index, group)| {
             let rate = stiffness(nodes, self.flow.perimeter(index)?);
-            Some(rate * 2.0 * viscosity / (viscosity + group.kind.viscosity_inside().unwrap_or(viscosity)))
+            let [inside, outside] = group.viscosities(viscosity);
+            Some(rate * 2.0 * outside / (outside + inside))
         });
         self.stiffness = rates.fold(0.0, f64::max);
         let Solution { iterations, residual, pressure_gradient } = self.flow.solve()?;

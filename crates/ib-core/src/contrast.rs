@@ -18,7 +18,7 @@ pub(crate) use equivalent::EquivalentForces;
 pub(crate) use field::Nearby;
 use rigid::{RIGID, RigidModes};
 
-use crate::{FlowError, MarkerKind, Markers, Vec2, checkpoint::SavedState};
+use crate::{FlowError, MarkerKind, Markers, Vec2, checkpoint::SavedState, hydrodynamics::MarkerGroup};
 
 /// Residual of the iterations relative to the right-hand side.
 const TOLERANCE: f64 = 1e-6;
@@ -50,6 +50,10 @@ pub(crate) struct Effort {
 /// droplet. What the flow of F - R F has there is the grid's error; it is divided by the mean viscosity, as the rest of
 /// that flow is, where that is the larger one. So errors do not grow with the ratio and are continuous where it passes
 /// through one.
+///
+/// A droplet inside another one moves with all that is inside of it, and answers with the viscosity of the fluid right
+/// outside. The forces phi of its rigid motions are then on it and on the interface around it, so that nothing moves
+/// outside of that one.
 #[derive(Debug, Clone)]
 pub(crate) struct Contrast {
     matrix: DoubleLayerMatrix,
@@ -57,12 +61,16 @@ pub(crate) struct Contrast {
     droplets: Vec<Droplet>,
     /// The curves of the droplets.
     curves: Vec<NodeCurve>,
+    /// For each the innermost other one that it lies in.
+    around: Vec<Option<usize>>,
     nodes: usize,
     rigid: RigidModes,
     /// Droplets and nodes of the last solutions.
     solved: [usize; 2],
     /// Left eigenvectors, dual to the rigid motions.
     left: Vec<f64>,
+    /// Contrasts of the curves, while others take their places.
+    contrasts: Vec<f64>,
     gmres: Gmres,
     own: Vec<f64>,
     other: Vec<f64>,
@@ -82,13 +90,18 @@ pub(crate) struct Droplet {
     pub(crate) even: bool,
 }
 
-/// The viscosity inside a group if it is an interface to another viscosity than that of the exterior fluid.
+/// The viscosities inside and outside of a group if it is an interface and one of them is not that of the exterior
+/// fluid.
 ///
 /// # Errors
 /// A viscosity that is not positive and finite.
-pub(crate) fn other_viscosity(kind: &MarkerKind, exterior: f64) -> Result<Option<f64>, InputError> {
-    let Some(value) = kind.viscosity_inside() else { return Ok(None) };
-    Ok((positive("the viscosity inside an interface", value)? != exterior).then_some(value))
+pub(crate) fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 2]>, InputError> {
+    if !group.kind.is_interface() {
+        return Ok(None);
+    }
+    let [inside, outside] = group.viscosities(exterior);
+    let inside = positive("the viscosity inside an interface", inside)?;
+    Ok((inside != exterior || outside != exterior).then_some([inside, outside]))
 }
 
 impl Contrast {
@@ -96,14 +109,16 @@ impl Contrast {
     /// to a wall than `least_gap` count as that far away.
     pub(crate) fn new(geometry: Geometry, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, FlowError> {
         Ok(Self {
-            matrix: DoubleLayerMatrix::new(geometry, middle, viscosity, least_gap)?,
+            matrix: DoubleLayerMatrix::new(geometry, middle, least_gap)?,
             viscosity,
             droplets: Vec::new(),
             curves: Vec::new(),
+            around: Vec::new(),
             nodes: 0,
             rigid: RigidModes::default(),
             solved: [0; 2],
             left: Vec::new(),
+            contrasts: Vec::new(),
             gmres: Gmres::default(),
             own: Vec::new(),
             other: Vec::new(),
@@ -121,6 +136,11 @@ impl Contrast {
     /// Their curves.
     pub(crate) fn curves(&self) -> &[NodeCurve] {
         &self.curves
+    }
+
+    /// Whether one of them lies inside another one.
+    pub(crate) fn is_nested(&self) -> bool {
+        self.around.iter().any(Option::is_some)
     }
 
     /// The markers that are not on them.
@@ -155,7 +175,13 @@ impl Contrast {
         self.droplets.clear();
         self.nodes = 0;
         for (number, group) in markers.groups().iter().enumerate() {
-            let Some(viscosity) = other_viscosity(&group.kind, self.viscosity)? else {
+            if group.kind == MarkerKind::Points && group.viscosities(self.viscosity)[1] != self.viscosity {
+                return Err(FlowError::Unsupported {
+                    what: "a body of points inside a droplet of another viscosity",
+                    remedy: "give the droplet the viscosity of the exterior fluid",
+                });
+            }
+            let Some(viscosities) = other_viscosities(group, self.viscosity)? else {
                 self.targets.extend(group.range.clone());
                 continue;
             };
@@ -165,12 +191,20 @@ impl Contrast {
             }
             let curve = &mut self.curves[index];
             let positions = &markers.positions[group.range.clone()];
-            curve.load(&self.matrix, self.nodes, viscosity - self.viscosity, positions)?;
+            curve.load(&self.matrix, self.nodes, viscosities, positions)?;
             self.nodes += curve.len();
             let even = matches!(group.kind, MarkerKind::Interface { .. });
             self.droplets.push(Droplet { group: number, markers: group.range.clone(), even });
         }
         self.curves.truncate(self.droplets.len());
+        self.around.clear();
+        for (index, curve) in self.curves.iter().enumerate() {
+            // Only fluid of another viscosity than the exterior can be that of another droplet here.
+            let nested = curve.outside != self.viscosity
+                || markers.groups()[self.droplets[index].group].viscosity_outside.is_some();
+            let around = nested.then(|| self.innermost(curve.centre + curve.positions[0], Some(index))).flatten();
+            self.around.push(around);
+        }
         let now = [self.curves.len(), self.nodes];
         if now != self.solved {
             // The last solutions are no guesses for other nodes.
@@ -184,7 +218,7 @@ impl Contrast {
     /// Computes the matrix and the left eigenvectors for the loaded droplets; returns the number of iterations.
     pub(crate) fn prepare(&mut self) -> Result<usize, FlowError> {
         self.matrix.build(&self.curves)?;
-        self.rigid.fill(&self.curves, self.nodes);
+        self.rigid.fill(&self.matrix, &self.curves, &self.around);
         let outcome = self.find_left();
         if outcome.is_err() {
             self.left.clear();
@@ -193,29 +227,62 @@ impl Contrast {
     }
 
     fn find_left(&mut self) -> Result<usize, FlowError> {
-        let Self { matrix, curves, nodes, rigid, left, gmres, right, .. } = self;
-        let (curves, nodes) = (curves.as_slice(), *nodes);
+        let Self { matrix, curves, around, nodes, rigid, left, gmres, right, contrasts: given, .. } = self;
+        let nodes = *nodes;
         let len = 2 * nodes;
         right.resize(len, 0.0);
         let mut iterations = 0;
         if left.is_empty() {
             rigid.weighted(nodes).for_each(|motion| left.extend_from_slice(motion));
         }
-        for (column, weighted) in left.chunks_exact_mut(len).zip(rigid.weighted(nodes)) {
-            right.copy_from_slice(weighted);
-            // The other eigenvalues of K are about one half.
-            let product = |q: &[f64], out: &mut [f64], _: f64| {
-                matrix.transposed_product(curves, q, out);
-                out.iter_mut().for_each(|out| *out *= 2.0);
-                for (motion, weighted) in rigid.motions(nodes).zip(rigid.weighted(nodes)) {
-                    let amount = dot(motion, q);
-                    for (out, weighted) in out.iter_mut().zip(weighted) {
-                        *out += amount * weighted;
-                    }
-                }
+        for index in 0..curves.len() {
+            // Any viscosities have these left eigenvectors: here those of exterior fluid of 1.
+            let outer = around[index];
+            let eigenvalue = if outer.is_some() { 0.5 } else { 1.0 };
+            let beside = |other: usize| around[other] == outer;
+            let contrasts = |other: usize| match outer {
+                _ if beside(other) => 1.0,
+                Some(outer) if outer == other => -0.5,
+                _ => 0.0,
             };
-            let outcome = gmres.solve(product, right, column, TOLERANCE, MOST_ITERATIONS);
-            iterations += check("the rigid motions of droplets of another viscosity", outcome)?.iterations;
+            given.clear();
+            given.extend(curves.iter().map(|curve| curve.contrast));
+            for (other, curve) in curves.iter_mut().enumerate() {
+                curve.contrast = contrasts(other);
+            }
+            let outside = |other: usize| {
+                1.0 + std::iter::successors(around[other], |&outer| around[outer]).map(contrasts).sum::<f64>()
+            };
+            let mut failure = None;
+            for motion in RIGID * index..RIGID * (index + 1) {
+                let Some(weighted) = rigid.weighted(nodes).nth(motion) else { continue };
+                right.copy_from_slice(weighted);
+                // Other eigenvalues of K are about one half.
+                let product = |q: &[f64], out: &mut [f64], _: f64| {
+                    matrix.transposed_product(curves, q, out);
+                    for (other, curve) in curves.iter().enumerate() {
+                        let (shift, contrast) = (2.0 * (outside(other) - eigenvalue), 2.0 * curve.contrast);
+                        curve.entries(nodes).for_each(|i| out[i] = shift * q[i] + contrast * out[i]);
+                    }
+                    let modes = rigid.motions(nodes).zip(rigid.weighted(nodes)).enumerate();
+                    for (_, (motion, weighted)) in modes.filter(|(number, _)| beside(number / RIGID)) {
+                        let amount = dot(motion, q);
+                        for (out, weighted) in out.iter_mut().zip(weighted) {
+                            *out += amount * weighted;
+                        }
+                    }
+                };
+                let column = &mut left[len * motion..len * (motion + 1)];
+                let outcome = gmres.solve(product, right, column, TOLERANCE, MOST_ITERATIONS);
+                match check("the rigid motions of droplets of another viscosity", outcome) {
+                    Ok(outcome) => iterations += outcome.iterations,
+                    Err(error) => failure = Some(error),
+                }
+            }
+            for (curve, contrast) in curves.iter_mut().zip(&*given) {
+                curve.contrast = *contrast;
+            }
+            failure.map_or(Ok(()), Err)?;
         }
         Ok(iterations)
     }
@@ -270,7 +337,7 @@ impl Contrast {
 
     fn solve_nodes(&mut self) -> Result<Outcome, FlowError> {
         let Self { matrix, curves, nodes, rigid, left, gmres, own, other, right, velocities, .. } = self;
-        let (curves, nodes, viscosity) = (curves.as_slice(), *nodes, self.viscosity);
+        let (curves, nodes) = (curves.as_slice(), *nodes);
         let len = 2 * nodes;
 
         // Splits off the rigid part, which the exterior viscosity alone resists.
@@ -289,7 +356,7 @@ impl Contrast {
         // Rows in units of the mean viscosity, so that thick and thin droplets count alike.
         let divide = |values: &mut [f64]| {
             for curve in curves {
-                let scale = 1.0 / (viscosity + 0.5 * curve.contrast);
+                let scale = 1.0 / (curve.outside + 0.5 * curve.contrast);
                 curve.entries(nodes).for_each(|i| values[i] *= scale);
             }
         };
@@ -307,8 +374,8 @@ impl Contrast {
         let outcome = check("the velocities of droplets of another viscosity", outcome)?;
         project(velocities);
         for (index, (motion, left)) in rigid.motions(nodes).zip(left.chunks_exact(len)).enumerate() {
-            let mean = viscosity + 0.5 * curves[index / RIGID].contrast;
-            let amount = dot(left, other) / viscosity + dot(left, own) / viscosity.max(mean);
+            let NodeCurve { outside, contrast, .. } = curves[index / RIGID];
+            let amount = dot(left, other) / outside + dot(left, own) / outside.max(outside + 0.5 * contrast);
             for (value, motion) in velocities.iter_mut().zip(motion) {
                 *value += amount * motion;
             }

@@ -185,23 +185,17 @@ pub enum SceneError {
         /// What is allowed (length).
         allowed: f64,
     },
-    /// An interface inside another one whose fluid has another viscosity than the exterior: not solved yet.
-    #[error(
-        "at time {time} {inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has \
-         {exterior}: interfaces inside one another are possible only where the outer one has the exterior's viscosity \
-         inside"
-    )]
-    NestedInterfaces {
-        /// Time of the state.
+    /// A body has come into an interface or out of it in a step.
+    #[error("at time {time} {body}, which was {before}, has come to lie {now}: use a smaller time step")]
+    Containment {
+        /// Time at the start of the step.
         time: f64,
-        /// The interface inside.
-        inner: String,
-        /// The one around it.
-        outer: String,
-        /// Viscosity of the fluid inside the outer one (stress times time).
-        interior: f64,
-        /// Viscosity of the exterior fluid (stress times time).
-        exterior: f64,
+        /// The body.
+        body: String,
+        /// What it was inside of.
+        before: String,
+        /// What it is inside of.
+        now: String,
     },
     /// An interface and another body, or its own image in a periodic domain, have come to overlap.
     #[error(

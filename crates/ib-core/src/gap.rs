@@ -2,14 +2,14 @@
 
 mod between;
 mod boundary;
-mod conflict;
+mod overlap;
 mod repulsion;
 mod solid_gap;
 mod wall_gap;
 
 pub(crate) use between::Outline;
 pub use boundary::Boundary;
-pub use conflict::Conflict;
+pub use overlap::Overlap;
 pub use repulsion::Repulsion;
 pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
 pub use wall_gap::wall_gap;

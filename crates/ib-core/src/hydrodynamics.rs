@@ -4,7 +4,7 @@ mod markers;
 
 pub use markers::{MarkerGroup, MarkerKind, Markers, SurfaceCurve};
 
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 
 use serde::{Deserialize, Serialize};
 use stokes_grid::Drive;
@@ -29,7 +29,8 @@ pub struct Domain {
 pub struct Discretisation {
     /// The region.
     pub domain: Domain,
-    /// Viscosity of the exterior fluid (stress times time).
+    /// Viscosity of the exterior fluid, or, for a body inside an interface, that of the fluid around it (stress times
+    /// time).
     pub viscosity: f64,
     /// Grid spacing (length); `None` where there is no grid.
     pub spacing: Option<f64>,
@@ -42,6 +43,16 @@ pub struct Discretisation {
     /// The mobility that an interface loses to the kernel and the grid, uncorrected; `None` where there is no grid. A
     /// body that corrects its own surface takes it from here, so that it cannot be that of another kernel.
     pub mobility_deficit: Option<Arc<MobilityDeficit>>,
+}
+
+impl Discretisation {
+    /// The same for a body that lies in fluid of that viscosity (stress times time), if it is not the exterior fluid.
+    pub(crate) fn in_fluid(&self, viscosity: Option<f64>) -> Cow<'_, Self> {
+        match viscosity {
+            Some(viscosity) => Cow::Owned(Self { viscosity, ..self.clone() }),
+            None => Cow::Borrowed(self),
+        }
+    }
 }
 
 /// Work done since the start, for reports and for tests that pin it.

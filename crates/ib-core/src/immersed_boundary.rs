@@ -11,7 +11,7 @@ use std::sync::Arc;
 use input_checks::{all_points_finite, same_length};
 use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
 
-use crate::contrast::other_viscosity;
+use crate::contrast::other_viscosities;
 use crate::mobility::{Clearance, MobilityCorrection};
 use crate::{
     Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, MobilityDeficit,
@@ -185,10 +185,10 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(())
     }
 
-    /// Whether the viscosity inside any group differs from that of the exterior fluid.
+    /// Whether the viscosity inside or around any group differs from that of the exterior fluid.
     fn has_contrast(&self, markers: &Markers) -> Result<bool, FlowError> {
         for group in markers.groups() {
-            if other_viscosity(&group.kind, self.solver.viscosity())?.is_some() {
+            if other_viscosities(group, self.solver.viscosity())?.is_some() {
                 return Ok(!self.varying);
             }
         }

@@ -141,8 +141,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         let viscosity = self.solver.viscosity();
         self.curves.load(markers)?;
-        if markers.groups().iter().any(|group| group.kind.viscosity_inside().is_some_and(|inside| inside != viscosity))
-        {
+        if markers.groups().iter().any(|group| group.viscosities(viscosity).iter().any(|value| *value != viscosity)) {
             return Err(FlowError::Unsupported {
                 what: "fluid of another viscosity beside solids whose surfaces are layers",
                 remedy: "leave the layers out",

@@ -91,21 +91,6 @@ pub enum SetupError {
         /// Where, in y.
         y: f64,
     },
-    /// A droplet inside another one whose fluid has a viscosity of its own.
-    #[error(
-        "{inner} lies inside {outer}, whose fluid has the viscosity {interior} where the exterior has {exterior}: move \
-         it out, or give the outer droplet no viscosity of its own"
-    )]
-    Nested {
-        /// The droplet inside, where it stands in the description.
-        inner: String,
-        /// The same of the one around it.
-        outer: String,
-        /// Viscosity of the fluid inside the outer one (stress times time).
-        interior: f64,
-        /// Viscosity of the exterior fluid (stress times time).
-        exterior: f64,
-    },
     /// An error that no settings were measured for.
     #[error("no settings are known for an error of {target:e}: ask for one from {smallest:e} to {largest}")]
     TargetError {

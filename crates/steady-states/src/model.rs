@@ -164,7 +164,8 @@ impl Model {
         let Self { calculus, positions, tensions, forces, .. } = self;
         calculus.tension_forces(positions, tensions, TensionPlacement::Points, forces)?;
         let viscosity = self.viscosities[0];
-        self.flow.load(std::iter::once(Interface::closed(positions, forces, viscosity)))?;
+        let viscosities = [viscosity, self.flow.viscosity()];
+        self.flow.load(std::iter::once(Interface::closed(positions, forces, viscosities)))?;
         self.flow.solve()?;
         self.evaluations += 1;
         Ok(self.flow.velocities(0, &mut self.velocities)?)

@@ -23,10 +23,10 @@ const MOST_NODES: usize = 10_000;
 /// that all forces have in a fluid of one viscosity:
 ///
 /// ```text
-/// A = eta + K D,    K_(ia),(jb) = (1/4 pi) T_ab(X_j - X_i; n_j) w_j  -  (1/V) (X_j)_a (n_j)_b w_j
+/// A = H + K D,    K_(ia),(jb) = (1/4 pi) T_ab(X_j - X_i; n_j) w_j  -  (1/V) (X_j)_a (n_j)_b w_j
 /// ```
 ///
-/// D the viscosity inside the curve of the node less that of the exterior fluid, eta, and V the area of a periodic box
+/// H the viscosity outside of the curve of the node, D that inside less H, and V the area of a periodic box
 /// (no such term in a channel, which has the stress of its walls instead). The diagonal blocks of K follow from the
 /// exact identity that it takes a uniform velocity of a curve to zero, without curvatures. K is kept, not A, so that
 /// nothing cancels where D is small.
@@ -41,7 +41,6 @@ pub struct DoubleLayerMatrix {
     images: Images,
     area: f64,
     walls: Option<DenseWalls>,
-    viscosity: f64,
     nodes: usize,
     /// Symmetric blocks of K, row after row.
     blocks: [Vec<f64>; 3],
@@ -57,12 +56,12 @@ fn contract([xxx, xxy, xyy, yyy]: &[f64; 4], n: Vec2) -> [f64; 3] {
 }
 
 impl DoubleLayerMatrix {
-    /// For exterior fluid of the given viscosity (stress times time) in a box or a channel, whose `middle` is at that
-    /// height (length). Nodes closer to a wall than `least_gap` (length) count as that far away.
+    /// For a box or a channel, whose `middle` is at that height (length). Nodes closer to a wall than `least_gap`
+    /// (length) count as that far away.
     ///
     /// # Errors
     /// The plane, for which there is no such matrix, or a region out of its range.
-    pub fn new(geometry: Geometry, middle: f64, viscosity: f64, least_gap: f64) -> Result<Self, LayerError> {
+    pub fn new(geometry: Geometry, middle: f64, least_gap: f64) -> Result<Self, LayerError> {
         geometry.check()?;
         let walls = match geometry {
             Geometry::Plane => return Err(LayerError::NoPeriod),
@@ -74,7 +73,7 @@ impl DoubleLayerMatrix {
         let (images, area) = (geometry.images(), geometry.area());
         let kernel = StressKernel::new(&images, TOLERANCE);
         let (blocks, scaled, dipoles) = Default::default();
-        Ok(Self { kernel, images, area, walls, viscosity, nodes: 0, blocks, scaled, dipoles })
+        Ok(Self { kernel, images, area, walls, nodes: 0, blocks, scaled, dipoles })
     }
 
     /// The shortest of the periodically equivalent distances.
@@ -156,11 +155,13 @@ impl DoubleLayerMatrix {
         let mean = self.mean(curves);
         let [xx, xy, yy] = &self.blocks;
         let (ux, uy) = out.split_at_mut(n);
-        for i in 0..n {
-            let row = i * n..(i + 1) * n;
-            let mixed = &xy[row.clone()];
-            ux[i] = self.viscosity * v[i] + dot(&xx[row.clone()], vx) + dot(mixed, vy) + mean.x;
-            uy[i] = self.viscosity * v[n + i] + dot(mixed, vx) + dot(&yy[row], vy) + mean.y;
+        for curve in curves {
+            for i in curve.first..curve.first + curve.len() {
+                let row = i * n..(i + 1) * n;
+                let mixed = &xy[row.clone()];
+                ux[i] = curve.outside * v[i] + dot(&xx[row.clone()], vx) + dot(mixed, vy) + mean.x;
+                uy[i] = curve.outside * v[n + i] + dot(mixed, vx) + dot(&yy[row], vy) + mean.y;
+            }
         }
         for curve in curves.iter().filter(|curve| curve.contrast < 0.0) {
             let nodes = curve.first..curve.first + curve.len();
@@ -179,7 +180,7 @@ impl DoubleLayerMatrix {
         }
     }
 
-    /// `out = K^T q`, so that `A^T q` is eta q plus D times this.
+    /// `out = K^T q`, so that `A^T q` is H q plus D times this.
     pub fn transposed_product(&mut self, curves: &[NodeCurve], q: &[f64], out: &mut [f64]) {
         let n = self.nodes;
         out.fill(0.0);

@@ -29,15 +29,16 @@ pub struct Interface<'a> {
     pub period: Vec2,
     /// Force on the fluid at each point (force): the force per length times the length that belongs to the point.
     pub forces: &'a [Vec2],
-    /// Viscosity inside (stress times time).
-    pub viscosity: f64,
+    /// Viscosities inside and outside (stress times time); outside is another fluid than the exterior where the
+    /// interface lies inside another one.
+    pub viscosities: [f64; 2],
 }
 
 impl<'a> Interface<'a> {
     /// A closed interface.
     #[must_use]
-    pub fn closed(positions: &'a [Vec2], forces: &'a [Vec2], viscosity: f64) -> Self {
-        Self { positions, period: Vec2::ZERO, forces, viscosity }
+    pub fn closed(positions: &'a [Vec2], forces: &'a [Vec2], viscosities: [f64; 2]) -> Self {
+        Self { positions, period: Vec2::ZERO, forces, viscosities }
     }
 }
 
@@ -87,7 +88,8 @@ pub struct WarmStart {
 /// (eta_in + eta_out)/2 v(x) = 1/(4 pi) INT G(x, y) F(y) ds - (eta_in - eta_out)/(4 pi) INT v(y) T(x, y) n ds
 /// ```
 ///
-/// with the Green's function G of the region and its stress T; n points outward. The single layer is integrated by the
+/// with the Green's function G of the region and its stress T; n points outward, and eta_out is the viscosity of the
+/// fluid right outside of the interface, so that interfaces may lie inside one another. The single layer is integrated by the
 /// rule of Kress, the double layer by the trapezoidal rule, both on `nodes` equally spaced values of the parameter, so
 /// that errors fall faster than any power of the number of nodes. Where viscosities differ the equation is solved by
 /// GMRES. Nodes close to another interface get a quadrature of their own, so that gaps are limited by what the film
@@ -102,7 +104,7 @@ pub struct InterfaceFlow {
     settings: Settings,
     layers: Layers,
     gmres: Gmres,
-    /// Inside, and inside minus outside, interface by interface.
+    /// Inside, and inside less outside, interface by interface.
     viscosities: Vec<f64>,
     contrasts: Vec<f64>,
     /// 2/(inside + outside).
@@ -193,17 +195,16 @@ impl InterfaceFlow {
         self.viscosities.clear();
         self.contrasts.clear();
         self.scales.clear();
-        for Interface { viscosity, .. } in interfaces.clone() {
-            positive("the viscosity inside an interface", viscosity)?;
-            within(
-                "the ratio of viscosities inside and outside",
-                viscosity / self.viscosity,
-                1.0 / MOST_CONTRAST,
-                MOST_CONTRAST,
-            )?;
-            self.viscosities.push(viscosity);
-            self.contrasts.push(viscosity - self.viscosity);
-            self.scales.push(2.0 / (viscosity + self.viscosity));
+        for Interface { viscosities: [inside, outside], .. } in interfaces.clone() {
+            positive("the viscosity inside an interface", inside)?;
+            positive("the viscosity outside an interface", outside)?;
+            for viscosity in [inside, outside] {
+                let ratio = viscosity / self.viscosity;
+                within("the ratio of viscosities to the exterior one", ratio, 1.0 / MOST_CONTRAST, MOST_CONTRAST)?;
+            }
+            self.viscosities.push(inside);
+            self.contrasts.push(inside - outside);
+            self.scales.push(2.0 / (inside + outside));
         }
         let nodes = self.settings.nodes;
         let given =
@@ -257,8 +258,10 @@ impl InterfaceFlow {
         self.deflation.clear();
         let mut goal = tolerance;
         for ((curve, viscosity), scale) in self.layers.curves.iter().zip(&self.viscosities).zip(&self.scales) {
-            // A rigid motion is multiplied by eta_out alone, so a residual in it counts that much more.
-            goal = goal.min(tolerance * self.viscosity * scale);
+            // A rigid motion is multiplied by eta_out alone, or with what is around by the exterior viscosity, so a
+            // residual in it counts that much more.
+            let outside = 2.0 / scale - viscosity;
+            goal = goal.min(tolerance * outside.min(self.viscosity) * scale);
             // A uniform expansion is multiplied by eta_in alone. The velocity has none, so the operator may do with it
             // as it likes: what is added makes the factor that of the rest.
             self.deflation.push((1.0 - viscosity * scale).max(0.0) / curve.perimeter());

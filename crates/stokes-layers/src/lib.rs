@@ -18,7 +18,7 @@
 //! PeriodicCalculus::new(count)?.tension_forces(&positions, &[1.0; 128], TensionPlacement::Points, &mut forces)?;
 //!
 //! let mut flow = InterfaceFlow::new(Geometry::Plane, 1.0, Settings::default())?;
-//! flow.load([Interface::closed(&positions, &forces, 10.0)].into_iter())?;
+//! flow.load([Interface::closed(&positions, &forces, [10.0, 1.0])].into_iter())?;
 //! let solution = flow.solve()?;
 //! let mut velocities = vec![Vec2::ZERO; count];
 //! flow.velocities(0, &mut velocities)?;

@@ -1,8 +1,7 @@
 //! Cowley's statements beside what the runs say.
 
-use std::fmt::Write as _;
-
 use motile_examples::Summary;
+use motile_tests::validation::Table;
 
 use crate::viscosity_contrast::run::{Domain, Job};
 
@@ -71,18 +70,17 @@ fn spread(mut values: Vec<(f64, f64)>) -> f64 {
 }
 
 /// The table in Markdown, for unbounded fluid and for the box.
-pub(crate) fn table(points: &Points) -> String {
-    let mut text = String::from("| figure | Cowley | unbounded fluid | box 12 x 12 |\n|---|---|---|---|\n");
+pub(crate) fn table(points: &Points) -> Table {
+    let header = ["figure", "Cowley", "unbounded fluid", "box 12 x 12"];
+    let mut table = Table::new("Section 2.3 of Cowley: statements beside what the runs say", &header);
     for (figure, statement, measure) in STATEMENTS {
         let of = |domain: Domain| {
             let own: Vec<_> = points.iter().filter(|(job, _)| job.domain == domain).cloned().collect();
             measure(&own)
         };
-        let (unbounded, boxed) = (of(Domain::Unbounded), of(Domain::Box));
-        // Writing to a string cannot fail.
-        let _ = writeln!(text, "| {figure} | {statement} | {unbounded} | {boxed} |");
+        table.push([figure.to_owned(), statement.to_owned(), of(Domain::Unbounded), of(Domain::Box)]);
     }
-    text
+    table
 }
 
 type Measure = fn(&Points) -> String;

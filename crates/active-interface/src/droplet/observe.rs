@@ -33,7 +33,7 @@ impl<'a> InterfaceState<'a> {
     /// # Errors
     /// A handle of another scene; [`SceneError::NotEvaluated`] where the flow of the present state is not known.
     pub fn of<H: Hydrodynamics>(system: &'a System<H>, droplet: Handle<ActiveDroplet>) -> Result<Self, SceneError> {
-        let discretisation = system.hydrodynamics().discretisation();
+        let discretisation = system.fluid_around(droplet)?;
         Ok(Self::new(system.body(droplet)?, &discretisation, &system.flow_at(droplet)?))
     }
 }

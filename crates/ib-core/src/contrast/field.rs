@@ -18,12 +18,12 @@ pub(crate) struct Nearby {
     /// Unit vector away from the interface on the point's side.
     away: Vec2,
     distance: f64,
-    /// Viscosity inside less that of the exterior fluid (stress times time).
+    /// Viscosity inside less that outside (stress times time).
     contrast: f64,
 }
 
 impl Nearby {
-    /// Viscosity inside the interface less that of the exterior fluid (stress times time).
+    /// Viscosity inside the interface less that outside (stress times time).
     pub(crate) fn contrast(&self) -> f64 {
         self.contrast
     }
@@ -117,22 +117,30 @@ impl Contrast {
         })
     }
 
-    /// The droplet that a point lies in.
+    /// The innermost droplet that a point lies in.
     pub(crate) fn droplet_at(&self, point: Vec2) -> Option<usize> {
-        self.curves.iter().position(|curve| {
-            let relative = self.matrix.wrap(point - curve.centre);
-            relative.length() <= curve.radius && curve.contains(relative)
-        })
+        self.innermost(point, None)
     }
 
-    /// What the pressure inside each droplet exceeds the ratio of viscosities times that of the fluid of one viscosity
+    /// The innermost droplet, but that one, that a point lies in.
+    pub(super) fn innermost(&self, point: Vec2, but: Option<usize>) -> Option<usize> {
+        let around = self.curves.iter().enumerate().filter(|(index, curve)| {
+            let relative = self.matrix.wrap(point - curve.centre);
+            but != Some(*index) && relative.length() <= curve.radius && curve.contains(relative)
+        });
+        around.min_by(|a, b| a.1.radius.total_cmp(&b.1.radius)).map(|(index, _)| index)
+    }
+
+    /// What the pressure inside each droplet exceeds that of the fluid of one viscosity times the ratio of viscosities
     /// by (force per length).
     ///
     /// With the equivalent forces q in place of the forces F, both per length, that fluid's pressure inside is the mean
-    /// of both sides, `at_nodes`, less q_n/2. The normal stresses balance, with
+    /// of both sides, `at_nodes`, less q_n/2, and outside more by it. The normal stresses balance, with
     /// `n . dv/dn = -tau . dv/ds` in an incompressible flow, so that on the interface
     ///
-    /// `p_in = p + q_n/2 - F_n - 2 (eta_in - eta) tau . dv/ds`.
+    /// `p_in = p_out - F_n - 2 (eta_in - eta_out) tau . dv/ds`,
+    ///
+    /// p_out that of the fluid of one viscosity, or that inside the droplet around.
     pub(crate) fn pressure_offsets(
         &self,
         at_nodes: &[f64],
@@ -140,7 +148,7 @@ impl Contrast {
         forces: &[Vec2],
         velocities: &[Vec2],
     ) -> Vec<f64> {
-        let offset = |curve: &NodeCurve| {
+        let offset = |curve: &NodeCurve, around: f64| {
             let count = curve.len();
             let mut sum = 0.0;
             for (k, (normal, weight)) in curve.normals.iter().zip(&curve.weights).enumerate() {
@@ -151,12 +159,22 @@ impl Contrast {
                 // Times the arc length.
                 let (q, f) = (equivalent[i].dot(unit), forces[i].dot(unit));
                 let stretching = 0.5 * (velocities[at(1)] - velocities[at(count - 1)]).dot(tangent);
-                let (mean, ratio) = (weight * at_nodes[i], 1.0 + curve.contrast / self.viscosity);
-                sum += mean + 0.5 * q - f - 2.0 * curve.contrast * stretching - ratio * (mean - 0.5 * q);
+                let [inside, outside] = [curve.outside + curve.contrast, curve.outside].map(|eta| eta / self.viscosity);
+                let mean = weight * at_nodes[i];
+                let out = outside * (mean + 0.5 * q) + weight * around;
+                sum += out - f - 2.0 * curve.contrast * stretching - inside * (mean - 0.5 * q);
             }
             sum / curve.perimeter()
         };
-        self.curves.iter().map(offset).collect()
+        // From the outermost droplets inwards.
+        let depth = |index: usize| std::iter::successors(self.around[index], |&outer| self.around[outer]).count();
+        let mut order: Vec<usize> = (0..self.curves.len()).collect();
+        order.sort_by_key(|&index| depth(index));
+        let mut offsets = vec![0.0; order.len()];
+        for index in order {
+            offsets[index] = offset(&self.curves[index], self.around[index].map_or(0.0, |outer| offsets[outer]));
+        }
+        offsets
     }
 }
 

@@ -27,8 +27,8 @@ impl Contrast {
     ) -> Result<[[f64; 2]; 2], FlowError> {
         let (nodes, viscosity) = (self.nodes, self.viscosity);
         let (mut matrix, mut curves) = (self.matrix.clone(), self.curves.clone());
-        // A of this contrast is the viscosity plus K.
-        curves.iter_mut().for_each(|curve| curve.contrast = 1.0);
+        // A of these viscosities is K.
+        curves.iter_mut().for_each(|curve| (curve.outside, curve.contrast) = (0.0, 1.0));
         let mut right = vec![0.0; 2 * nodes];
         for (i, (velocity, other)) in velocities.iter().zip(other).enumerate() {
             let own = viscosity * (velocity - other);
@@ -41,7 +41,7 @@ impl Contrast {
         // The other eigenvalues of K are about one half.
         let product = |q: &[f64], out: &mut [f64], _: f64| {
             matrix.product(&curves, q, out);
-            out.iter_mut().zip(q).for_each(|(out, q)| *out = 2.0 * (*out - viscosity * q));
+            out.iter_mut().for_each(|out| *out *= 2.0);
             for (motion, weighted) in self.rigid.motions(nodes).zip(self.rigid.weighted(nodes)) {
                 let amount = dot(weighted, q);
                 out.iter_mut().zip(motion).for_each(|(out, motion)| *out += amount * motion);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use input_checks::{InputError, same_length};
+use input_checks::{InputError, positive, same_length, within};
 use stokes_layers::Vec2;
 
 /// What a group of markers is, as far as the flow is concerned.
@@ -11,12 +11,12 @@ pub enum MarkerKind {
     /// A closed fluid interface: markers in counter-clockwise order at equal spacing along the curve (to a few per
     /// cent), the last one next to the first.
     Interface {
-        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the exterior fluid.
+        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
         viscosity_inside: Option<f64>,
     },
     /// A closed curve whose markers are not equally spaced.
     UnevenInterface {
-        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the exterior fluid.
+        /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
         viscosity_inside: Option<f64>,
     },
     /// Points in no particular order, such as those of an elastic solid.
@@ -60,6 +60,19 @@ pub struct MarkerGroup {
     pub kind: MarkerKind,
     /// The surfaces of a solid, as far as they move.
     pub surfaces: Vec<SurfaceCurve>,
+    /// Viscosity of the fluid around them (stress times time) where they lie inside an interface; `None` where it is
+    /// that of the exterior fluid.
+    pub viscosity_outside: Option<f64>,
+}
+
+impl MarkerGroup {
+    /// Viscosities of the fluid inside and right outside of an interface (stress times time), where that of the
+    /// exterior fluid is `exterior`.
+    #[must_use]
+    pub fn viscosities(&self, exterior: f64) -> [f64; 2] {
+        let outside = self.viscosity_outside.unwrap_or(exterior);
+        [self.kind.viscosity_inside().unwrap_or(outside), outside]
+    }
 }
 
 /// Positions, forces and velocities of the markers of all bodies, body after body: lists as long as all groups
@@ -90,8 +103,30 @@ impl Markers {
     /// The same with curves that some of them trace.
     pub fn push_solid(&mut self, count: usize, kind: MarkerKind, surfaces: Vec<SurfaceCurve>) {
         let start = self.positions.len();
-        self.groups.push(MarkerGroup { range: start..start + count, kind, surfaces });
+        self.groups.push(MarkerGroup { range: start..start + count, kind, surfaces, viscosity_outside: None });
         self.resize(start + count);
+    }
+
+    /// Says what fluid a group lies in: one of that viscosity (stress times time), or, `None`, the exterior fluid. A
+    /// [`Scene`](crate::Scene) finds it out by itself.
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite, no group of that number.
+    pub fn set_viscosity_outside(&mut self, group: usize, viscosity: Option<f64>) -> Result<(), InputError> {
+        if let Some(viscosity) = viscosity {
+            positive("the viscosity around a group of markers", viscosity)?;
+        }
+        let most = self.groups.len().saturating_sub(1);
+        within("the number of a group of markers", group as f64, 0.0, most as f64)?;
+        self.groups[group].viscosity_outside = viscosity;
+        Ok(())
+    }
+
+    /// The same for the groups in their order.
+    pub(crate) fn set_outside(&mut self, viscosities: &[Option<f64>]) {
+        for (group, viscosity) in self.groups.iter_mut().zip(viscosities) {
+            group.viscosity_outside = *viscosity;
+        }
     }
 
     /// Removes all groups, keeping the memory.

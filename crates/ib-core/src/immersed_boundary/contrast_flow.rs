@@ -72,12 +72,12 @@ impl<K: Kernel> ContrastFlow<K> {
     }
 
     /// The stresslet of the flow around a droplet; `None` for markers that are no droplet of a larger viscosity: for a
-    /// smaller one forces and velocities give it without a loss.
+    /// smaller one forces and velocities give it without a loss. `None` too where droplets lie inside each other.
     pub(super) fn stresslet(&self, group: usize) -> Result<Option<[[f64; 2]; 2]>, FlowError> {
         let Some(index) = self.contrast.droplets().iter().position(|droplet| droplet.group == group) else {
             return Ok(None);
         };
-        if self.contrast.curves()[index].contrast <= 0.0 {
+        if self.contrast.curves()[index].contrast <= 0.0 || self.contrast.is_nested() {
             return Ok(None);
         }
         let Nodes { forces, other, velocities, .. } = &self.nodes;
@@ -315,8 +315,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     fn find_equivalent(&mut self, flow: &mut ContrastFlow<K>) -> Result<Outcome, FlowError> {
         let viscosity = self.solver.viscosity();
         let Nodes { positions, gaps, forces, rigid, own, other, velocities, target, .. } = &mut flow.nodes;
-        let contrasts = flow.contrast.curves().iter().map(|curve| curve.contrast);
-        let share = viscosity / (viscosity + 0.5 * contrasts.fold(-viscosity, f64::max));
+        let means = flow.contrast.curves().iter().map(|curve| curve.outside + 0.5 * curve.contrast);
+        let share = viscosity / means.fold(0.5 * viscosity, f64::max);
         for i in 0..target.len() {
             rigid[i] = (1.0 - share) * forces[i];
             target[i] = viscosity * (velocities[i] - other[i] - share * own[i]);
@@ -399,7 +399,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
                 _ => sampling::pressure(&pressure, *point),
             };
             if let Some(index) = inside {
-                out.pressure = out.pressure * (1.0 + contrast.curves()[index].contrast / viscosity) + offsets[index];
+                let curve = &contrast.curves()[index];
+                out.pressure = out.pressure * (curve.outside + curve.contrast) / viscosity + offsets[index];
             }
         }
         Ok(())

@@ -4,7 +4,7 @@ use stokes_grid::{
     CentreField, Drive, Grid, NodeField, RealFft2, StaggeredField, StokesSolver, Symbol, TwoPhaseStokes,
 };
 
-use crate::contrast::other_viscosity;
+use crate::contrast::other_viscosities;
 use crate::{
     Discretisation, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, Kernel, Markers, Transfer, Vec2,
     checkpoint::SavedState,
@@ -129,14 +129,14 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
 
     /// Brings the viscosity up to date with the markers.
     fn set_viscosity(&mut self, markers: &Markers) -> Result<(), FlowError> {
-        let outside = self.flow.solver().viscosity();
+        let exterior = self.flow.solver().viscosity();
         self.spread.clear();
         self.positions.clear();
-        let (mut least, mut most, mut mean) = (outside, outside, outside);
+        let (mut least, mut most, mut mean) = (exterior, exterior, exterior);
         let grid = *self.centres.grid();
         let [lx, ly] = grid.lengths();
         for group in markers.groups() {
-            let Some(inside) = other_viscosity(&group.kind, outside)? else { continue };
+            let Some([inside, outside]) = other_viscosities(group, exterior)? else { continue };
             let positions = &markers.positions[group.range.clone()];
             let count = positions.len();
             for k in 0..count {
@@ -158,7 +158,7 @@ impl<S: StokesSolver, K: Kernel> SmearedContrast<S, K> {
         let (nx, ny) = (grid.nx(), grid.ny());
         let centres = self.centres.values_mut();
         self.indicator.solve(&self.normals, centres);
-        let shift = if grid.has_walls() { outside } else { mean };
+        let shift = if grid.has_walls() { exterior } else { mean };
         centres.iter_mut().for_each(|value| *value = (*value + shift).clamp(least, most));
         for (k, node) in self.nodes.values_mut().iter_mut().enumerate() {
             let (i, j) = (k % nx, k / nx);

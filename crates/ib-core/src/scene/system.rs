@@ -45,6 +45,12 @@ pub struct System<H> {
     minimum_wall_gap: Option<f64>,
     minimum_gap: Option<f64>,
     gaps: Gaps,
+    /// The interface that each body lies in, the innermost one, and the viscosity there where that is not the exterior
+    /// fluid's.
+    around: Vec<Option<usize>>,
+    outside: Vec<Option<f64>>,
+    /// The interfaces around the bodies before the last step.
+    before: Vec<Option<usize>>,
     /// The narrowest gap of the present state.
     narrowest: Option<Gap>,
     pub(crate) least_gap: Option<f64>,
@@ -67,6 +73,9 @@ impl<H: Hydrodynamics> System<H> {
             minimum_wall_gap: None,
             minimum_gap: None,
             gaps: Gaps::default(),
+            around: Vec::new(),
+            outside: Vec::new(),
+            before: Vec::new(),
             narrowest: None,
             least_gap: None,
             repulsion: None,
@@ -76,6 +85,8 @@ impl<H: Hydrodynamics> System<H> {
     pub(crate) fn push<B: Body>(&mut self, body: B) -> Handle<B> {
         self.markers.push_solid(body.marker_count(), body.kind(), body.surfaces());
         self.bodies.push(Box::new(body));
+        self.around.push(None);
+        self.outside.push(None);
         self.forget_flow();
         self.apart = false;
         self.record_wall_gap();
@@ -167,7 +178,7 @@ impl<H: Hydrodynamics> System<H> {
         }
         (self.time, self.steps) = (time, steps);
         (self.minimum_wall_gap, self.minimum_gap) = (minimum_wall_gap, minimum_gap);
-        self.place_markers();
+        self.find_surroundings();
         Ok(())
     }
 
@@ -238,8 +249,8 @@ impl<H: Hydrodynamics> System<H> {
     /// Tells `each` all bounds on the time step at the present state, with the names of the bodies that set them.
     pub fn each_limit<'a>(&'a self, each: &mut dyn FnMut(StepLimit, &'a str)) {
         let discretisation = self.hydrodynamics.discretisation();
-        for body in &self.bodies {
-            body.step_limits(&discretisation, &mut |limit| each(limit, body.name()));
+        for (body, &outside) in self.bodies.iter().zip(&self.outside) {
+            body.step_limits(&discretisation.in_fluid(outside), &mut |limit| each(limit, body.name()));
         }
         if let Some(repulsion) = &self.repulsion {
             each(StepLimit::decay(repulsion.step_limit(discretisation.viscosity), "the repulsion"), "the interfaces");
@@ -264,6 +275,7 @@ impl<H: Hydrodynamics> System<H> {
             for body in &self.bodies {
                 self.markers.push_solid(body.marker_count(), body.kind(), body.surfaces());
             }
+            self.markers.set_outside(&self.outside);
         }
     }
 
@@ -291,7 +303,9 @@ impl<H: Hydrodynamics> System<H> {
     fn compute_flow(&mut self) -> Result<(), SceneError> {
         let (discretisation, time) = (self.hydrodynamics.discretisation(), self.time);
         self.place_markers();
-        if let Some((index, source)) = write_forces(0, &mut self.bodies, &mut self.markers.forces, &discretisation) {
+        if let Some((index, source)) =
+            write_forces(0, &mut self.bodies, &self.outside, &mut self.markers.forces, &discretisation)
+        {
             return Err(body_error(time, self.bodies[index].as_ref(), source));
         }
         if let Some(repulsion) = &self.repulsion {
@@ -304,8 +318,9 @@ impl<H: Hydrodynamics> System<H> {
 
     pub(crate) fn begin_step(&mut self, step: StepInfo) -> Result<(), SceneError> {
         let (discretisation, time) = (self.hydrodynamics.discretisation(), self.time);
-        for body in &mut self.bodies {
-            body.begin_step(&discretisation, step).map_err(|source| body_error(time, body.as_ref(), source))?;
+        for (body, &outside) in self.bodies.iter_mut().zip(&self.outside) {
+            body.begin_step(&discretisation.in_fluid(outside), step)
+                .map_err(|source| body_error(time, body.as_ref(), source))?;
         }
         Ok(())
     }
@@ -314,8 +329,9 @@ impl<H: Hydrodynamics> System<H> {
         let (discretisation, time) = (self.hydrodynamics.discretisation(), self.time);
         self.forget_flow();
         self.apart = false;
-        for body in &mut self.bodies {
-            body.end_step(&discretisation, dt).map_err(|source| body_error(time, body.as_ref(), source))?;
+        for (body, &outside) in self.bodies.iter_mut().zip(&self.outside) {
+            body.end_step(&discretisation.in_fluid(outside), dt)
+                .map_err(|source| body_error(time, body.as_ref(), source))?;
         }
         Ok(())
     }

@@ -42,7 +42,7 @@ impl Setup {
     ///
     /// # Errors
     /// What [`Setup::check`] refuses; before anything is meshed, bodies that do not fit into the region or overlap one
-    /// another or their images ([`SetupError::NoRoom`], [`SetupError::Overlap`], [`SetupError::Nested`]); shapes that
+    /// another or their images ([`SetupError::NoRoom`], [`SetupError::Overlap`]); shapes that
     /// cannot be meshed.
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;

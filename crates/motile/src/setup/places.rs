@@ -2,7 +2,7 @@
 
 use active_interface::ActiveDroplet;
 use elastic_solids::Interior;
-use ib_core::gap::{Boundary, Conflict, Gaps};
+use ib_core::gap::{Boundary, Gaps, Overlap};
 use ib_core::{Body, Discretisation, MarkerKind, Vec2};
 
 use super::{DropletSetup, Region, Setup, SolidSetup};
@@ -33,16 +33,12 @@ impl Setup {
             bodies.push((boundary, MarkerKind::Points));
         }
         let gaps = Gaps::of(bodies);
-        match gaps.conflict(discretisation) {
+        match gaps.first_overlap(discretisation) {
             None => gaps.contact(discretisation).map_or(Ok(()), |(body, other, place)| {
                 let ([key, other], [x, y]) = ([body, other].map(|body| self.key(body)), place.into());
                 Err(SetupError::Touch { key, other, x, y })
             }),
-            Some(Conflict::Nested { inner, outer, interior, exterior }) => {
-                let [inner, outer] = [inner, outer].map(|body| self.key(body));
-                Err(SetupError::Nested { inner, outer, interior, exterior })
-            }
-            Some(Conflict::Overlap { body, other, place, depth, allowed }) => {
+            Some(Overlap { body, other, place, depth, allowed }) => {
                 let ([key, other], [x, y]) = ([body, other].map(|body| self.key(body)), place.into());
                 Err(SetupError::Overlap { key, other, x, y, depth, allowed })
             }

@@ -190,10 +190,9 @@ fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
             assert!(said.starts_with("droplets[1] touches droplets[0] at ("), "{x}: {said}");
         }
         assert!(pair(2.02, 1.0, None).build().is_ok() && pair(3.98, 1.0, None).build().is_ok());
-        let nested = refused(&pair(0.2, 0.5, Some(50.0)));
-        let start = "droplets[1] lies inside droplets[0], whose fluid has the viscosity 50 where the exterior has 100";
-        assert!(nested.starts_with(start), "{nested}");
-        assert!(pair(0.2, 0.5, None).build().is_ok() && pair(2.2, 1.0, Some(50.0)).build().is_ok());
+        for (x, radius) in [(0.2, 0.5), (2.2, 1.0)] {
+            assert!([None, Some(50.0)].into_iter().all(|viscosity| pair(x, radius, viscosity).build().is_ok()));
+        }
     }
     let named = |name: &str, solid: SolidSetup| SolidSetup { name: name.to_owned(), ..solid };
     let mut walls = elastic(3.0, Surface::Plain).solids;

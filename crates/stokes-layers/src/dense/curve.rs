@@ -14,7 +14,9 @@ const LEAST_NODES: f64 = 8.0;
 pub struct NodeCurve {
     /// Its first node among those of all curves.
     pub first: usize,
-    /// Viscosity inside less that of the exterior fluid (stress times time).
+    /// Viscosity of the fluid outside of it (stress times time).
+    pub outside: f64,
+    /// Viscosity inside less that outside (stress times time).
     pub contrast: f64,
     /// Mean of its nodes (length).
     pub centre: Vec2,
@@ -34,8 +36,8 @@ pub struct NodeCurve {
 }
 
 impl NodeCurve {
-    /// Takes over the positions of the nodes, counter-clockwise (length), the number of the first one, and the contrast
-    /// (stress times time).
+    /// Takes over the positions of the nodes, counter-clockwise (length), the number of the first one, and the viscosities
+    /// inside and outside (stress times time).
     ///
     /// # Errors
     /// Fewer than 8 nodes or more than 10,000, a clockwise curve.
@@ -43,12 +45,12 @@ impl NodeCurve {
         &mut self,
         matrix: &DoubleLayerMatrix,
         first: usize,
-        contrast: f64,
+        [inside, outside]: [f64; 2],
         positions: &[Vec2],
     ) -> Result<(), LayerError> {
         let n = positions.len();
         within("the number of nodes of a curve", n as f64, LEAST_NODES, MOST_NODES as f64)?;
-        (self.first, self.contrast) = (first, contrast);
+        (self.first, self.outside, self.contrast) = (first, outside, inside - outside);
         self.centre = positions.iter().sum::<Vec2>() / n as f64;
         self.positions.clear();
         self.positions.extend(positions.iter().map(|x| x - self.centre));

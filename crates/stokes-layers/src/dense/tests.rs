@@ -11,7 +11,7 @@ fn curves(layer: &DoubleLayerMatrix) -> Vec<NodeCurve> {
                 .map(|k| std::f64::consts::TAU * k as f64 / nodes as f64)
                 .map(|t| centre + Vec2::new(0.9 * t.cos(), 0.6 * t.sin()))
                 .collect();
-            curve.load(layer, first, contrast, &positions).unwrap();
+            curve.load(layer, first, [1.0 + contrast, 1.0], &positions).unwrap();
             first += nodes;
             curve
         })
@@ -26,7 +26,7 @@ fn layers() -> [DoubleLayerMatrix; 4] {
         channel(Forcing::Gradient(0.0)),
         channel(Forcing::Flux(0.0)),
     ]
-    .map(|geometry| DoubleLayerMatrix::new(geometry, 1.5, 1.0, 1e-3).unwrap())
+    .map(|geometry| DoubleLayerMatrix::new(geometry, 1.5, 1e-3).unwrap())
 }
 
 fn vector(len: usize, seed: f64) -> Vec<f64> {
@@ -72,15 +72,15 @@ fn rigid_motions_are_multiplied_by_the_exterior_viscosity() {
 
 #[test]
 fn what_cannot_be_is_refused_before_memory_is_taken() {
-    assert_eq!(DoubleLayerMatrix::new(Geometry::Plane, 0.0, 1.0, 0.1).unwrap_err(), LayerError::NoPeriod);
-    assert!(DoubleLayerMatrix::new(Geometry::Box { lengths: [1.0, -1.0] }, 0.0, 1.0, 0.1).is_err());
+    assert_eq!(DoubleLayerMatrix::new(Geometry::Plane, 0.0, 0.1).unwrap_err(), LayerError::NoPeriod);
+    assert!(DoubleLayerMatrix::new(Geometry::Box { lengths: [1.0, -1.0] }, 0.0, 0.1).is_err());
     let mut layer = layers()[0].clone();
     let mut curve = NodeCurve::default();
-    let error = curve.load(&layer, 0, 1.0, &[Vec2::ZERO; 7]).unwrap_err();
+    let error = curve.load(&layer, 0, [2.0, 1.0], &[Vec2::ZERO; 7]).unwrap_err();
     assert!(matches!(error, LayerError::Input(InputError::OutOfRange { value: 7.0, minimum: 8.0, .. })), "{error}");
     let circle = |k: usize| 1e-3 * std::f64::consts::TAU * k as f64;
     let positions: Vec<Vec2> = (0..1000).map(|k| Vec2::new(circle(k).cos(), circle(k).sin())).collect();
-    curve.load(&layer, 0, 1.0, &positions).unwrap();
+    curve.load(&layer, 0, [2.0, 1.0], &positions).unwrap();
     let error = layer.build(&vec![curve; 11]).unwrap_err();
     assert!(matches!(error, LayerError::Input(InputError::OutOfRange { value: 11_000.0, .. })), "{error}");
 }

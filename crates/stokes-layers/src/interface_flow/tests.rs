@@ -16,7 +16,7 @@ fn errors(geometry: Geometry, second: Complex64, viscosities: [f64; 2]) -> [f64;
     });
     let forces = vec![Vec2::ZERO; NODES];
     let interfaces = curves.iter().zip(viscosities);
-    let given = interfaces.map(|(positions, viscosity)| Interface::closed(positions, &forces, viscosity));
+    let given = interfaces.map(|(positions, viscosity)| Interface::closed(positions, &forces, [viscosity, 1.0]));
     flow.load(given).unwrap();
     let InterfaceFlow { layers, contrasts, scales, .. } = &mut flow;
     layers.single_layer(true);
@@ -92,7 +92,8 @@ fn two_fluids(shape: impl Fn(f64) -> Vec2, direction: f64, inside: f64, nodes: u
     let positions: Vec<Vec2> = (0..nodes).map(|k| shape(direction * angle(k))).collect();
     let forces = vec![Vec2::ZERO; nodes];
     let period = Vec2::new(direction * 3.0, 0.0);
-    flow.load([Interface { positions: &positions, period, forces: &forces, viscosity: inside }].into_iter()).unwrap();
+    flow.load([Interface { positions: &positions, period, forces: &forces, viscosities: [inside, 1.0] }].into_iter())
+        .unwrap();
     flow.solve().unwrap();
     flow
 }

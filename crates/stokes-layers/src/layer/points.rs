@@ -40,8 +40,8 @@ impl Layers {
         }
     }
 
-    /// The flow at the point of that number, and the curve that it lies inside of: the single layer less the double
-    /// layer.
+    /// The flow at the point of that number, and the innermost curve that it lies inside of: the single layer less
+    /// the double layer.
     pub(crate) fn flow_at(&mut self, index: usize, point: Complex64, density: Density<'_>) -> (Flow, Option<usize>) {
         let mut flow = Flow::default();
         let mut inside = None;
@@ -66,7 +66,9 @@ impl Layers {
                     None
                 };
                 let fluid = body < density.contrasts.len();
-                if fluid && side.unwrap_or_else(|| self.curves[body].winds_around(point)) {
+                let smaller = |other: usize| self.curves[body].radius < self.curves[other].radius;
+                if fluid && inside.is_none_or(smaller) && side.unwrap_or_else(|| self.curves[body].winds_around(point))
+                {
                     inside = Some(body);
                 }
             }

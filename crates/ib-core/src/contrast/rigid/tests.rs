@@ -13,14 +13,14 @@ fn ellipse(centre: Vec2, count: u32) -> Vec<Vec2> {
 /// force and torque as components.
 #[test]
 fn three_rigid_motions_of_each_droplet() {
-    let matrix = DoubleLayerMatrix::new(Geometry::Box { lengths: [8.0; 2] }, 0.0, 1.0, 0.01).unwrap();
+    let matrix = DoubleLayerMatrix::new(Geometry::Box { lengths: [8.0; 2] }, 0.0, 0.01).unwrap();
     let droplets = [ellipse(Vec2::new(-2.0, 0.3), 40), ellipse(Vec2::new(1.5, -0.4), 56)];
     let mut curves = [NodeCurve::default(), NodeCurve::default()];
     for (curve, (first, positions)) in curves.iter_mut().zip([0, 40].into_iter().zip(&droplets)) {
-        curve.load(&matrix, first, 1.0, positions).unwrap();
+        curve.load(&matrix, first, [2.0, 1.0], positions).unwrap();
     }
     let (mut modes, nodes) = (RigidModes::default(), 96);
-    modes.fill(&curves, nodes);
+    modes.fill(&matrix, &curves, &[None, None]);
     for (i, motion) in modes.motions(nodes).enumerate() {
         for (j, weighted) in modes.weighted(nodes).enumerate() {
             let product: f64 = motion.iter().zip(weighted).map(|(a, b)| a * b).sum();

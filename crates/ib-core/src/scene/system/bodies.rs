@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use super::{System, body_error};
-use crate::{Body, Handle, Hydrodynamics, Observe, SceneError, Vec2};
+use crate::{Body, Discretisation, Handle, Hydrodynamics, Observe, SceneError, Vec2};
 
 /// The flow at the markers of one body: lists of as many entries as it has markers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,6 +84,16 @@ impl<H: Hydrodynamics> System<H> {
         })
     }
 
+    /// The fluid as a body sees it: with the viscosity of that around it, which is not the exterior one where the body
+    /// lies inside an interface. As of the last [`System::evaluate`].
+    ///
+    /// # Errors
+    /// [`SceneError::ForeignHandle`].
+    pub fn fluid_around(&self, handle: impl Into<Handle<dyn Body>>) -> Result<Discretisation, SceneError> {
+        let outside = self.outside[self.index_of(handle.into())?];
+        Ok(self.hydrodynamics.discretisation().in_fluid(outside).into_owned())
+    }
+
     /// What is seen of a body in the present state, whose flow is computed if it is not known yet.
     ///
     /// # Errors
@@ -91,7 +101,7 @@ impl<H: Hydrodynamics> System<H> {
     pub fn observe<B: Observe>(&mut self, handle: Handle<B>) -> Result<B::Observables, SceneError> {
         let index = self.index_of(handle.into())?;
         self.evaluate()?;
-        let discretisation = self.hydrodynamics.discretisation();
+        let discretisation = self.fluid_around(handle)?;
         let seen = self.body(handle)?.observables(&discretisation, &self.flow_at(handle)?);
         seen.map_err(|source| body_error(self.time, self.bodies[index].as_ref(), source))
     }

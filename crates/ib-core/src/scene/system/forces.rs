@@ -6,10 +6,12 @@ use crate::{Body, BodyError, Discretisation, Vec2};
 #[cfg(feature = "rayon")]
 const LEAST_MARKERS: usize = 15_000;
 
-/// Writes the forces of `bodies`, the first of which has the number `first`.
+/// Writes the forces of `bodies`, the first of which has the number `first`, and which lie in fluids of the viscosities
+/// `outside`.
 pub(super) fn write_forces(
     first: usize,
     bodies: &mut [Box<dyn Body>],
+    outside: &[Option<f64>],
     forces: &mut [Vec2],
     discretisation: &Discretisation,
 ) -> Option<(usize, BodyError)> {
@@ -17,19 +19,20 @@ pub(super) fn write_forces(
     if bodies.len() > 1 && forces.len() >= 2 * LEAST_MARKERS {
         let middle = bodies.len() / 2;
         let (bodies, bodies_above) = bodies.split_at_mut(middle);
+        let (outside, outside_above) = outside.split_at(middle);
         let markers = bodies.iter().map(|body| body.marker_count()).sum();
         let (forces, forces_above) = forces.split_at_mut(markers);
         let (failed, failed_above) = rayon::join(
-            || write_forces(first, bodies, forces, discretisation),
-            || write_forces(first + middle, bodies_above, forces_above, discretisation),
+            || write_forces(first, bodies, outside, forces, discretisation),
+            || write_forces(first + middle, bodies_above, outside_above, forces_above, discretisation),
         );
         return failed.or(failed_above);
     }
     let mut start = 0;
-    for (index, body) in bodies.iter_mut().enumerate() {
+    for (index, (body, &outside)) in bodies.iter_mut().zip(outside).enumerate() {
         let range = start..start + body.marker_count();
         start = range.end;
-        if let Err(source) = body.write_forces(discretisation, &mut forces[range]) {
+        if let Err(source) = body.write_forces(&discretisation.in_fluid(outside), &mut forces[range]) {
             return Some((first + index, source));
         }
     }

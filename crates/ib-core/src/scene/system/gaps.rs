@@ -3,7 +3,7 @@
 use stokes_grid::Drive;
 
 use super::System;
-use crate::gap::{Boundary, Conflict, Gap, Gaps, Outline, wall_gap};
+use crate::gap::{Boundary, Gap, Gaps, Outline, Overlap, wall_gap};
 use crate::{Body, Discretisation, Handle, Hydrodynamics, Repulsion, SceneError, Vec2, Warning};
 
 /// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
@@ -76,7 +76,11 @@ impl<H: Hydrodynamics> System<H> {
         for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
             let message = format!(
                 "a gap of {gap:.2e} from {other}, below {resolved:.2e}, what is resolved: use a finer {}",
-                if on_grid(&discretisation).is_some() { "grid, or boundary integrals" } else { "interface (more nodes)" }
+                if on_grid(&discretisation).is_some() {
+                    "grid, or boundary integrals"
+                } else {
+                    "interface (more nodes)"
+                }
             );
             warnings.push(Warning { body, cause: "thin film", excess: resolved / gap.max(1e-3 * resolved), message });
         }
@@ -110,13 +114,12 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     /// Looks at how the bodies lie before anything is computed for them, unless that is known: neither interfaces nor
-    /// solids may be inside other bodies by more than a quarter of the grid spacing, and no interface inside another
-    /// one whose fluid has a viscosity of its own.
+    /// solids may be inside other bodies by more than a quarter of the grid spacing.
     pub(super) fn check_bodies(&mut self) -> Result<(), SceneError> {
         if self.apart {
             return Ok(());
         }
-        let (time, allowed) = (self.time, self.find_gaps()?);
+        let (time, allowed) = (self.time, self.find_gaps());
         let overlap = |body: usize, other: usize, place: Vec2, depth: f64| {
             let ([body, other], [x, y]) = ([body, other].map(|index| self.name_of(index)), place.into());
             Err(SceneError::Overlap { time, body, x, y, other, depth, allowed })
@@ -124,8 +127,8 @@ impl<H: Hydrodynamics> System<H> {
         if let Some(Gap { body, place, other, width }) = self.narrowest.filter(|gap| gap.width < -allowed) {
             return overlap(body, other, place, -width);
         }
-        if let Some(Conflict::Overlap { body, other, place, depth, .. }) =
-            self.gaps.conflict(&self.hydrodynamics.discretisation())
+        if let Some(Overlap { body, other, place, depth, .. }) =
+            self.gaps.first_overlap(&self.hydrodynamics.discretisation())
         {
             return overlap(body, other, place, depth);
         }
@@ -138,7 +141,19 @@ impl<H: Hydrodynamics> System<H> {
     /// images by more than a quarter of the grid spacing, and no gap be narrower than the bound, if there is one.
     pub(crate) fn check_gaps(&mut self) -> Result<(), SceneError> {
         let any = self.bodies.iter().any(|body| body.kind().is_interface());
-        let (time, allowed) = (self.time, if any { self.find_gaps()? } else { 0.0 });
+        let (time, mut before) = (self.time, std::mem::take(&mut self.before));
+        before.clone_from(&self.around);
+        let allowed = if any { self.find_gaps() } else { 0.0 };
+        let changed = (0..before.len()).find(|&body| before[body] != self.around[body]);
+        if let Some(body) = changed {
+            let place = |around: Option<usize>| match around {
+                Some(outer) => format!("inside {}", self.name_of(outer)),
+                None => "in the exterior fluid".to_owned(),
+            };
+            let [before, now] = [place(before[body]), place(self.around[body])];
+            return Err(SceneError::Containment { time, body: self.name_of(body), before, now });
+        }
+        self.before = before;
         if let Some(Gap { body, place, other, width }) = self.narrowest {
             let names = || [body, other].map(|index| self.name_of(index));
             if width < -allowed {
@@ -160,18 +175,26 @@ impl<H: Hydrodynamics> System<H> {
         Ok(())
     }
 
-    /// Finds the narrowest gap of the present state and refuses nested interfaces; how deep a body may be inside
-    /// another one (length).
-    fn find_gaps(&mut self) -> Result<f64, SceneError> {
-        self.place_markers();
+    /// Finds the narrowest gap of the present state, and what the bodies lie in; how deep a body may be inside another
+    /// one (length).
+    fn find_gaps(&mut self) -> f64 {
+        self.find_surroundings();
         let discretisation = self.hydrodynamics.discretisation();
-        self.gaps.update(&self.bodies, &self.markers);
-        if let Some(Conflict::Nested { inner, outer, interior, exterior }) = self.gaps.nested(&discretisation) {
-            let [inner, outer] = [inner, outer].map(|index| self.name_of(index));
-            return Err(SceneError::NestedInterfaces { time: self.time, inner, outer, interior, exterior });
-        }
         self.narrowest = self.gaps.narrowest_near(&discretisation);
-        Ok(self.gaps.allowed(&discretisation))
+        self.gaps.allowed(&discretisation)
+    }
+
+    /// Finds the interfaces that the bodies lie in, and the viscosities there.
+    pub(super) fn find_surroundings(&mut self) {
+        self.place_markers();
+        self.gaps.update(&self.bodies, &self.markers);
+        self.gaps.surroundings(self.hydrodynamics.discretisation().domain.periods, &mut self.around);
+        for index in 0..self.bodies.len() {
+            let enclosing = std::iter::successors(self.around[index], |&outer| self.around[outer]);
+            self.outside[index] =
+                enclosing.take(self.bodies.len()).find_map(|outer| self.bodies[outer].kind().viscosity_inside());
+        }
+        self.markers.set_outside(&self.outside);
     }
 
     /// Takes the gap that was found last into the smallest one.

@@ -11,41 +11,26 @@ const CONTACT: f64 = 0.25;
 const SIDES: usize = 16;
 const DEPTHS: [f64; 4] = [0.5, 0.25, 0.125, 0.0625];
 
-/// Two bodies, by their numbers, that cannot lie as they do.
+/// Two bodies, by their numbers, that have more in common than contact allows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Conflict {
-    /// They have more in common than contact allows.
-    Overlap {
-        /// The later one.
-        body: usize,
-        /// The earlier one.
-        other: usize,
-        /// Where it is deepest (length).
-        place: Vec2,
-        /// How deep (length).
-        depth: f64,
-        /// What is allowed (length).
-        allowed: f64,
-    },
-    /// An interface lies inside another one whose fluid has a viscosity of its own, which is not solved: the jumps of
-    /// viscosity would be taken against the exterior fluid.
-    Nested {
-        /// The interface inside.
-        inner: usize,
-        /// The one around it.
-        outer: usize,
-        /// Viscosity of the fluid inside the outer one (stress times time).
-        interior: f64,
-        /// Viscosity of the exterior fluid (stress times time).
-        exterior: f64,
-    },
+pub struct Overlap {
+    /// The later one.
+    pub body: usize,
+    /// The earlier one.
+    pub other: usize,
+    /// Where it is deepest (length).
+    pub place: Vec2,
+    /// How deep (length).
+    pub depth: f64,
+    /// What is allowed (length).
+    pub allowed: f64,
 }
 
 impl Gaps {
-    /// The first two bodies that cannot lie as they do; images of one and the same body are not looked at.
+    /// The first two bodies that overlap; images of one and the same body are not looked at.
     ///
     /// ```
-    /// use ib_core::gap::{Boundary, Conflict, Gaps};
+    /// use ib_core::gap::{Boundary, Gaps, Overlap};
     /// use ib_core::{Domain, MarkerKind, Discretisation, Vec2};
     ///
     /// let square = |x: f64| {
@@ -58,25 +43,22 @@ impl Gaps {
     ///     domain, viscosity: 1.0, spacing: Some(0.1), shape_modes: None, interface_stiffness: 1.0,
     ///     mobility_deficit: None,
     /// };
-    /// assert_eq!(Gaps::of([square(0.0), square(2.0)]).conflict(&discretisation), None);
+    /// assert_eq!(Gaps::of([square(0.0), square(2.0)]).first_overlap(&discretisation), None);
     /// // the image of the third overlaps the first
-    /// let Some(Conflict::Overlap { body, other, depth, .. }) =
-    ///     Gaps::of([square(0.0), square(2.0), square(5.5)]).conflict(&discretisation)
-    /// else {
-    ///     panic!()
-    /// };
+    /// let found = Gaps::of([square(0.0), square(2.0), square(5.5)]).first_overlap(&discretisation);
+    /// let Some(Overlap { body, other, depth, .. }) = found else { panic!() };
     /// assert_eq!((body, other, depth), (2, 0, 0.25));
     /// ```
     #[must_use]
-    pub fn conflict(&self, discretisation: &Discretisation) -> Option<Conflict> {
+    pub fn first_overlap(&self, discretisation: &Discretisation) -> Option<Overlap> {
         let periods = discretisation.domain.periods;
         let allowed = self.allowed(discretisation);
         let pairs = (0..self.boundaries.len()).flat_map(|body| (0..body).map(move |other| [body, other]));
         let mut overlaps = pairs.filter_map(|[body, other]| {
             let (place, depth) = self.overlap(body, other, periods, allowed).filter(|(_, depth)| *depth > allowed)?;
-            Some(Conflict::Overlap { body, other, place, depth, allowed })
+            Some(Overlap { body, other, place, depth, allowed })
         });
-        self.nested(discretisation).or_else(|| overlaps.next())
+        overlaps.next()
     }
 
     /// How deep a body may be inside another one (length).
@@ -93,16 +75,14 @@ impl Gaps {
             .unwrap_or_else(|| interfaces.map(|(boundary, _)| boundary.longest_side()).fold(0.0, f64::max))
     }
 
-    /// An interface inside another one whose fluid has a viscosity of its own.
-    pub(crate) fn nested(&self, discretisation: &Discretisation) -> Option<Conflict> {
-        let exterior = discretisation.viscosity;
-        self.kinds.iter().enumerate().find_map(|(outer, kind)| {
-            let interior = kind.viscosity_inside().filter(|interior| *interior != exterior)?;
-            let inside = |inner: &usize| {
-                self.kinds[*inner].is_interface() && self.lies_in(*inner, outer, discretisation.domain.periods)
-            };
-            (0..self.kinds.len()).find(inside).map(|inner| Conflict::Nested { inner, outer, interior, exterior })
-        })
+    /// The innermost interface that each body lies in.
+    pub(crate) fn surroundings(&self, periods: [Option<f64>; 2], around: &mut Vec<Option<usize>>) {
+        let size = |index: &usize| self.boundaries[*index].frame().map_or(f64::INFINITY, |frame| frame.size());
+        around.clear();
+        around.extend((0..self.kinds.len()).map(|inner| {
+            let outer = (0..self.kinds.len()).filter(|&outer| self.lies_in(inner, outer, periods));
+            outer.min_by(|a, b| size(a).total_cmp(&size(b)))
+        }));
     }
 
     /// The deepest place that two bodies have in common, and how deep it is in both (length); for what lies inside an

@@ -40,8 +40,8 @@ fn wall(height: f64) -> Boundary {
 fn depth(bodies: [(Boundary, MarkerKind); 2]) -> Option<f64> {
     let [a, b] = bodies;
     let orders = [Gaps::of([a.clone(), b.clone()]), Gaps::of([b, a])];
-    let depths = orders.map(|gaps| match gaps.conflict(&discretisation()) {
-        Some(Conflict::Overlap { body: 1, other: 0, depth, .. }) => Some(depth),
+    let depths = orders.map(|gaps| match gaps.first_overlap(&discretisation()) {
+        Some(Overlap { body: 1, other: 0, depth, .. }) => Some(depth),
         None => None,
         other => panic!("{other:?}"),
     });
