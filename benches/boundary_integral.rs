@@ -22,13 +22,14 @@ fn markers(nodes: usize, viscosity_inside: Option<f64>, droplets: usize) -> Mark
         markers.push_group(count, MarkerKind::Interface { viscosity_inside });
         let range = droplet * count..(droplet + 1) * count;
         let angle = |k: usize| TAU * k as f64 / count as f64;
-        for (k, position) in markers.positions[range.clone()].iter_mut().enumerate() {
+        for (k, position) in markers.positions_mut()[range.clone()].iter_mut().enumerate() {
             let (sin, cos) = angle(k).sin_cos();
             let (column, row) = (droplet % 4, droplet / 4);
             *position = Vec2::new(1.05 * cos + 2.6 * column as f64, sin / 1.05 + 2.6 * row as f64);
         }
         let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
-        let (positions, forces) = (&markers.positions[range.clone()], &mut markers.forces[range]);
+        let [positions, forces, _] = markers.lists_mut();
+        let (positions, forces) = (&positions[range.clone()], &mut forces[range]);
         calculus.tension_forces(positions, &tension, TensionPlacement::Points, forces).expect("a valid scene");
     }
     markers
@@ -66,7 +67,7 @@ fn evaluation(name: &str, region: Geometry, nodes: usize, ratio: f64, droplets: 
     let mut solver = BoundaryIntegral::new(region, 1.0, settings).expect("a valid scene");
     let inside = if ratio == 1.0 { None } else { Some(ratio) };
     let mut markers = markers(nodes, inside, droplets);
-    let (positions, forces) = (markers.positions.clone(), markers.forces.clone());
+    let (positions, forces) = (markers.positions().to_vec(), markers.forces().to_vec());
     let work = Rc::new(Cell::new([0.0; 2]));
     let counted = Rc::clone(&work);
     let mut phase = 0.0f64;
@@ -75,9 +76,8 @@ fn evaluation(name: &str, region: Geometry, nodes: usize, ratio: f64, droplets: 
         phase += 0.5;
         let stretch = [1.0 + 1e-3 * phase.sin(), 1.0 + 1e-3 * (1.7 * phase).cos()];
         let pull = [1.0 + 2e-3 * (1.3 * phase).sin(), 1.0 + 2e-3 * (0.7 * phase).cos()];
-        for (all, base, factors) in
-            [(&mut markers.positions, &positions, stretch), (&mut markers.forces, &forces, pull)]
-        {
+        let [places, pulls, _] = markers.lists_mut();
+        for (all, base, factors) in [(places, &positions, stretch), (pulls, &forces, pull)] {
             for (value, base) in all.iter_mut().zip(base) {
                 *value = Vec2::new(factors[0] * base.x, factors[1] * base.y);
             }

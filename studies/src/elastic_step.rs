@@ -74,12 +74,12 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         Ok(())
     })?;
     let locate = median("places", &mut || {
-        transfer.locate(&markers.positions);
+        transfer.locate(markers.positions());
         Ok(())
     })?;
     let spread = median("spread", &mut || {
         density.fill(0.0);
-        transfer.spread(&markers.forces, &mut density)?;
+        transfer.spread(markers.forces(), &mut density)?;
         Ok(())
     })?;
     let solve = median("Stokes solve", &mut || Ok(solver.solve(&density, &mut velocity).map(|_| ())?))?;

@@ -2,18 +2,18 @@
 //!
 //! `cargo run --release -p studies -- hard_cases` runs the long version of the suite in `tests/src/hard_cases`, prints
 //! a table (case, method, outcome, steps, changes of area and particles, seconds), and writes to `out/hard_cases/` a
-//! picture of the last state of each run, `table.md` and `summary.json`. `--case N` runs one case, `--quick` the short
-//! version. `--help` lists the flags.
+//! picture of the last state of each run and `summary.json`. `--case N` runs one case, `--quick` the short version,
+//! `--write` keeps the table in `docs/tables`. `--help` lists the flags.
 
-use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use crate::results::write_results;
+use crate::{results::write_results, tables};
 use anyhow::Result;
 use clap::Args;
 use motile_examples::{Summary, make_directory, say};
 use motile_output::{Look, Raster, Snapshot};
 use motile_tests::hard_cases::{Extent, Outcome, Trial, cases};
+use motile_tests::validation::Table;
 
 /// Scenes that are hard to compute.
 #[derive(Debug, Args)]
@@ -27,6 +27,9 @@ pub(crate) struct Flags {
     /// Draw no pictures
     #[arg(long)]
     no_pictures: bool,
+    /// Write the table to docs/tables, with the commit and what it depends on
+    #[arg(long, conflicts_with_all = ["quick", "cases"])]
+    write: bool,
     /// Directory of the results
     #[arg(long, value_name = "DIRECTORY", default_value = "out/hard_cases")]
     out: PathBuf,
@@ -40,11 +43,10 @@ const CONCENTRATION: f64 = 100.0;
 pub(crate) fn run(flags: &Flags) -> Result<()> {
     make_directory(&flags.out)?;
     let extent = if flags.quick { Extent::Quick } else { Extent::Long };
-    let heading = "| case | what is hard | method | outcome | time | steps | rejected | area | particles | seconds \
-        |\n\
-                   |---|---|---|---|---|---|---|---|---|---|\n";
-    let mut table = heading.to_owned();
-    say(heading.trim_end());
+    let columns =
+        ["case", "what is hard", "method", "outcome", "time", "steps", "rejected", "area", "particles", "seconds"];
+    say(columns.join(" | "));
+    let mut table = Table::new("How hard cases end", &columns);
     let (mut results, mut wrong) = (Vec::new(), Vec::new());
     let chosen = |trial: &&Trial| flags.cases.is_empty() || flags.cases.contains(&trial.number);
     for (index, trial) in cases().iter().filter(chosen).enumerate() {
@@ -62,26 +64,36 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         if let Err(error) = drawn {
             say(format_args!("note: no picture of {trial:?}: {error}"));
         }
-        let line = row(trial, &outcome);
-        say(&line);
-        writeln!(table, "{line}")?;
-        // The table so far, should somebody lose patience.
-        std::fs::write(flags.out.join("table.md"), &table)?;
+        let row = row(trial, &outcome);
+        say(row.join(" | "));
+        table.push(row);
         results.push(summary(trial, &outcome, &name));
         wrong.extend(trial.complaint(&outcome));
     }
     write_results(&flags.out.join("summary.json"), &results)?;
     say(format_args!("results in {}", flags.out.display()));
+    if flags.write {
+        let inputs = [&tables::RUNS[..7], &["crates/elastic-solids", "tests/src/hard_cases"]].concat();
+        tables::write("hard-cases", "hard_cases --write", &inputs, &[table])?;
+    }
     anyhow::ensure!(wrong.is_empty(), "{} runs did not end as they should: {}", wrong.len(), wrong.join("; "));
     Ok(())
 }
 
-fn row(trial: &Trial, outcome: &Outcome) -> String {
+fn row(trial: &Trial, outcome: &Outcome) -> [String; 10] {
     let Outcome { ending, time, steps, rejected, drift, seconds, .. } = outcome;
-    format!(
-        "| {} | {} | {} | {ending:?} | {time:.4} | {steps} | {rejected} | {:+.1e} | {:+.1e} | {seconds:.1} |",
-        trial.number, trial.name, trial.way, drift.area, drift.particles
-    )
+    [
+        trial.number.to_string(),
+        trial.name.to_owned(),
+        trial.way.to_string(),
+        format!("{ending:?}"),
+        format!("{time:.4}"),
+        steps.to_string(),
+        rejected.to_string(),
+        format!("{:+.1e}", drift.area),
+        format!("{:+.1e}", drift.particles),
+        format!("{seconds:.1}"),
+    ]
 }
 
 fn summary(trial: &Trial, outcome: &Outcome, picture: &str) -> Summary {

@@ -233,7 +233,7 @@ fn free(setup: &Setup, stabilised: bool) -> Result<Scene<AnyFlow>> {
 
 fn speed<I: Integrator>(scene: &mut Scene<AnyFlow, I>) -> Result<f64> {
     let markers = scene.system_mut().evaluate()?;
-    Ok(centroid_velocity(&markers.positions, &markers.velocities)?.length())
+    Ok(centroid_velocity(markers.positions(), markers.velocities())?.length())
 }
 
 /// Steps that must keep a steady swimmer's speed to a part in a hundred.

@@ -200,14 +200,14 @@ fn other_markers_move_with_the_flow() {
             })
             .collect();
         markers.push_group(places.len(), MarkerKind::Points);
-        markers.positions[droplet..].copy_from_slice(&places);
+        markers.positions_mut()[droplet..].copy_from_slice(&places);
         flow.velocities(&mut markers).unwrap();
-        let largest = markers.velocities[..droplet].iter().map(|v| v.length()).fold(0.0, f64::max);
+        let largest = markers.velocities()[..droplet].iter().map(|v| v.length()).fold(0.0, f64::max);
         let exact = exact_flow(SQUARE, &Droplet::ellipse(ratio), &places).unwrap();
         let worst = |found: &mut dyn Iterator<Item = Vec2>| {
             found.zip(&exact).map(|(found, exact)| (found - exact).length() / largest).fold(0.0, f64::max)
         };
-        let moved = worst(&mut markers.velocities[droplet..].iter().copied());
+        let moved = worst(&mut markers.velocities_mut()[droplet..].iter().copied());
         assert!(moved < bound, "{ratio}, {h}: {moved}");
         let solves = flow.work().stokes_solves;
         assert!(solves <= 12, "{solves} solves from nothing");

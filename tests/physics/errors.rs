@@ -1,11 +1,6 @@
 //! Wrong input ends in an error that names it, before any work; a run that goes wrong leaves the last good state.
 
-use motile::active_interface::Curve;
-use motile::ib_core::{
-    Body, Every, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, SceneError, StepSize, System, Vec2,
-    Warnings,
-};
-use motile::stokes_grid::InputError;
+use motile::ib_core::{Body, Every, FlowError, FlowSample, SceneError, StepSize, System, Vec2, Warnings};
 use motile::{AnyFlow, Built, DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
@@ -53,31 +48,14 @@ fn sizes_are_refused_before_they_are_allocated() {
     }
 }
 
-/// Lists of markers can be made shorter than the groups; the flow looks.
 #[test]
-fn lists_of_markers_that_were_shortened_are_refused() {
-    type Change = fn(&mut Markers);
-    let changes: [Change; 4] = [
-        |m| m.positions.truncate(20),
-        |m| m.forces.clear(),
-        |m| m.velocities.truncate(95),
-        |m| m.positions.push(Vec2::ZERO),
-    ];
-    for base in [on_grid(0.2), Setup::default()] {
-        for change in changes {
-            let mut flow = base.flow().unwrap();
-            let mut markers = Markers::new();
-            markers.push_group(96, MarkerKind::Interface { viscosity_inside: None });
-            markers.positions.copy_from_slice(&Curve::circle(1.0).unwrap().markers(96).unwrap());
-            let mut sample = [FlowSample::default()];
-            flow.velocities(&mut markers).unwrap();
-            flow.sample(&markers, &[Vec2::ZERO], &mut sample).unwrap();
-            change(&mut markers);
-            let error = flow.sample(&markers, &[Vec2::ZERO], &mut sample).unwrap_err();
-            assert!(matches!(error, FlowError::Input(InputError::WrongLength { expected: 96, .. })), "{error}");
-            assert_eq!(flow.velocities(&mut markers), Err(error));
-        }
-    }
+fn activities_beyond_measure_are_named() {
+    let with = |activity| Setup { droplets: vec![DropletSetup::active(activity)], ..on_grid(0.2) };
+    let message = with(-1e308).build().expect_err("an infinite tension").to_string();
+    assert!(message.contains("particles.activity") && message.contains("not finite"), "{message}");
+    let error = with(-1e200).build().unwrap().scene.run(1.0).go().unwrap_err();
+    assert!(matches!(error, SceneError::StepTooShort { .. }), "{error}");
+    assert!(error.to_string().contains("give droplet less activity"), "{error}");
 }
 
 #[test]

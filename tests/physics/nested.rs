@@ -31,7 +31,7 @@ fn scene([outer, inner]: [f64; 2], spacing: f64, pull: Vec2) -> Markers {
     }
     let range = markers.groups()[1].range.clone();
     let share = 1.0 / range.len() as f64;
-    markers.forces[range].iter_mut().for_each(|force| *force += share * pull);
+    markers.forces_mut()[range].iter_mut().for_each(|force| *force += share * pull);
     markers.set_viscosity_outside(1, Some(outer)).expect("a viscosity");
     markers
 }
@@ -41,7 +41,7 @@ fn means(markers: &Markers) -> [Vec2; 2] {
     [0, 1].map(|index| {
         let range = markers.groups()[index].range.clone();
         let count = range.len() as f64;
-        markers.velocities[range].iter().sum::<Vec2>() / count
+        markers.velocities()[range].iter().sum::<Vec2>() / count
     })
 }
 
@@ -79,7 +79,7 @@ fn an_interface_that_is_none_moves_with_the_fluid() {
         let solved = |mut flow: AnyFlow, spacing: f64| {
             let mut markers = scene([0.1; 2], spacing, Vec2::ZERO);
             let inner = markers.groups()[1].range.clone();
-            markers.forces[inner].fill(Vec2::ZERO);
+            markers.forces_mut()[inner].fill(Vec2::ZERO);
             flow.velocities(&mut markers).unwrap();
             means(&markers)
         };

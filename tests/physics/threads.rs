@@ -16,7 +16,7 @@ fn bits(threads: usize, setup: &Setup) -> Vec<u64> {
         let mut state = Vec::new();
         scene.system().write_state(&mut state);
         let markers = scene.system_mut().evaluate().expect("a flow");
-        state.extend(markers.velocities.iter().flat_map(|v| [v.x, v.y]));
+        state.extend(markers.velocities().iter().flat_map(|v| [v.x, v.y]));
         state.into_iter().map(f64::to_bits).collect()
     })
 }

@@ -160,7 +160,7 @@ fn run_and_look<H: Hydrodynamics, I: Integrator>(scene: &mut Scene<H, I>) -> (f6
     scene.run(60.0).go().expect("a run");
     scene.system_mut().evaluate().expect("a flow");
     let markers = scene.system().markers();
-    let velocity = centroid_velocity(&markers.positions, &markers.velocities).expect("an interface");
+    let velocity = centroid_velocity(markers.positions(), markers.velocities()).expect("an interface");
     (velocity.length(), scene.steps())
 }
 

@@ -322,6 +322,10 @@ fn a_checkpoint_of_other_physics_is_refused_by_name() {
         }
         driven(Drive::Gradient(0.0)).resume(&driven(Drive::ZeroGradient).checkpoint("")).expect("the same drive");
     }
+    let with_nodes =
+        |nodes| scene(&Setup { method: Method::Integral(IntegralMethod { nodes, cells: 64 }), ..Setup::default() });
+    let error = with_nodes(48).resume(&with_nodes(32).checkpoint("")).expect_err("more nodes");
+    assert!(error.to_string().contains("the number of nodes of an interface is 32 in it and 48 here"), "{error}");
     // Markers that follow the fluid come and go over a run, but those at the start tell.
     let follow = |marker_spacing: f64| {
         let mut setup = thesis(-3.0);

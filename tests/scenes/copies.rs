@@ -33,7 +33,8 @@ fn markers(axis: f64) -> Markers {
     markers.push_group(1, MarkerKind::Points);
     let ellipse = Curve::ellipse(axis, 1.0 / axis).expect("an ellipse").markers(64).expect("markers");
     for (k, place) in ellipse.into_iter().chain([Vec2::new(2.0, 0.3)]).enumerate() {
-        (markers.positions[k], markers.forces[k]) = (place, Vec2::new(place.x, 0.0));
+        markers.positions_mut()[k] = place;
+        markers.forces_mut()[k] = Vec2::new(place.x, 0.0);
     }
     markers
 }
@@ -49,6 +50,6 @@ fn a_copy_of_a_flow_goes_on_by_itself() {
     flow.velocities(&mut ahead).expect("a flow");
     flow.velocities(&mut markers(1.3)).expect("a flow");
     copy.velocities(&mut beside).expect("a flow");
-    assert_eq!(ahead.velocities, beside.velocities);
+    assert_eq!(ahead.velocities(), beside.velocities());
     assert_eq!((flow.work().evaluations, copy.work().evaluations), (3, 2));
 }

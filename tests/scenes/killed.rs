@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime};
 
 use motile::ib_core::{Checkpoint, Scene};
 use motile::{AnyFlow, GridMethod, Method, Setup};
@@ -27,10 +27,9 @@ fn runs_until_killed() {
     scene.run(1e6).save(1, &path, "to be killed").go().expect("a long run");
 }
 
-fn wait_for(path: &Path, start: Instant) {
-    while !path.exists() && start.elapsed() < Duration::from_secs(60) {
-        std::thread::sleep(Duration::from_millis(1));
-    }
+/// When a file was last written.
+fn written(path: &Path) -> Option<SystemTime> {
+    path.metadata().and_then(|file| file.modified()).ok()
 }
 
 #[test]
@@ -41,6 +40,7 @@ fn checkpoints_of_a_killed_program_are_complete() {
     let program = std::env::current_exe().expect("this program");
     let (mut steps, mut moment) = (0, 12_345_u64);
     for _ in 0..20 {
+        let (before, start) = (written(&path), Instant::now());
         let mut child = Command::new(&program)
             .args(["--ignored", "--exact", "killed::runs_until_killed"])
             .env(PATH, &path)
@@ -48,7 +48,10 @@ fn checkpoints_of_a_killed_program_are_complete() {
             .stderr(Stdio::null())
             .spawn()
             .expect("the program");
-        wait_for(&path, Instant::now());
+        // A loaded machine may take long to start it.
+        while written(&path) == before && start.elapsed() < Duration::from_secs(60) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
         moment = moment.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         std::thread::sleep(Duration::from_micros(moment >> 46));
         assert!(child.try_wait().expect("its state").is_none(), "the program ended by itself");
@@ -56,12 +59,11 @@ fn checkpoints_of_a_killed_program_are_complete() {
         child.wait().expect("its end");
 
         let checkpoint = Checkpoint::read(&path).expect("a complete checkpoint");
-        assert!(checkpoint.steps() >= steps);
+        assert!(checkpoint.steps() > steps);
         steps = checkpoint.steps();
         let mut scene = scene();
         scene.resume(&checkpoint).expect("the same scene");
         scene.step(1e-3).expect("a step");
     }
-    assert!(steps > 20, "{steps} steps in all");
     std::fs::remove_dir_all(&directory).expect("a directory that can be removed");
 }

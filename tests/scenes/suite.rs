@@ -84,9 +84,14 @@ fn walls_and_net_forces() {
 }
 
 #[test]
+fn other_units() {
+    run(&[21]);
+}
+
+#[test]
 fn every_case_is_there() {
     let all = cases();
-    for number in (1..=19).filter(|&number| number != 20) {
+    for number in (1..=21).filter(|&number| number != 20) {
         assert!(all.iter().any(|trial| trial.number == number), "case {number}");
     }
 }

@@ -1,10 +1,12 @@
 //! What the tests and studies of motile share: comparisons with exact and independently computed values
-//! ([`validation`]), and scenes that are hard to compute ([`hard_cases`]).
+//! ([`validation`]), scenes that are hard to compute
+//! ([`hard_cases`]), and descriptions in other units ([`units`]).
 //!
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 pub mod hard_cases;
+pub mod units;
 pub mod validation;
 
 /// The programs of the documents, run as tests.

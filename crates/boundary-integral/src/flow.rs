@@ -60,7 +60,6 @@ impl BoundaryIntegral {
 
     /// Takes over positions and forces.
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
-        markers.check()?;
         if markers.groups().iter().any(|group| group.kind == MarkerKind::Points) {
             return Err(FlowError::Unsupported {
                 what: "a body of points without a closed interface",
@@ -69,7 +68,8 @@ impl BoundaryIntegral {
         }
         let viscosity = self.flow.viscosity();
         let interface = |group: &MarkerGroup| {
-            let (positions, forces) = (&markers.positions[group.range.clone()], &markers.forces[group.range.clone()]);
+            let (positions, forces) =
+                (&markers.positions()[group.range.clone()], &markers.forces()[group.range.clone()]);
             Interface::closed(positions, forces, group.viscosities(viscosity))
         };
         Ok(self.flow.load(markers.groups().iter().map(interface))?)
@@ -117,7 +117,7 @@ impl Hydrodynamics for BoundaryIntegral {
         self.work.most_iterations = self.work.most_iterations.max(iterations);
         for index in 0..markers.groups().len() {
             let range = markers.groups()[index].range.clone();
-            self.flow.velocities(index, &mut markers.velocities[range])?;
+            self.flow.velocities(index, &mut markers.velocities_mut()[range])?;
         }
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
     }
@@ -125,7 +125,7 @@ impl Hydrodynamics for BoundaryIntegral {
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         self.load(markers)?;
         for (index, group) in markers.groups().iter().enumerate() {
-            self.flow.set_velocities(index, &markers.velocities[group.range.clone()])?;
+            self.flow.set_velocities(index, &markers.velocities()[group.range.clone()])?;
         }
         Ok(self.flow.sample(points, out)?)
     }

@@ -19,17 +19,18 @@
 //! let count = 128;
 //! let mut markers = Markers::new();
 //! markers.push_group(count, MarkerKind::UnevenInterface { viscosity_inside: Some(10.0) });
-//! for (k, position) in markers.positions.iter_mut().enumerate() {
+//! for (k, position) in markers.positions_mut().iter_mut().enumerate() {
 //!     let t = std::f64::consts::TAU * k as f64 / count as f64;
 //!     *position = Vec2::new(1.3 * t.cos(), t.sin() / 1.3);
 //! }
 //! let mut calculus = PeriodicCalculus::new(count)?;
 //! let tension = vec![1.0; count];
-//! calculus.tension_forces(&markers.positions, &tension, TensionPlacement::Points, &mut markers.forces)?;
+//! let [positions, forces, _] = markers.lists_mut();
+//! calculus.tension_forces(positions, &tension, TensionPlacement::Points, forces)?;
 //!
 //! let mut flow = BoundaryIntegral::new(Geometry::Plane, 1.0, Settings::default())?;
 //! let report = flow.velocities(&mut markers)?;
-//! assert!((markers.velocities[0].x + 0.029_016_190).abs() < 1e-8);
+//! assert!((markers.velocities()[0].x + 0.029_016_190).abs() < 1e-8);
 //! assert!(report.iterations < 10);
 //! # Ok(())
 //! # }

@@ -118,7 +118,7 @@ fn imposed_gradient_and_imposed_flux_agree() {
     let flux = driven.flux(-2.0);
     let imposed = solve(7.0, 3.2, Drive::Flux(flux), &contrasting());
     assert!((imposed.report.mean_pressure_gradient[0] + 0.4).abs() < 1e-11);
-    for (a, b) in driven.markers.velocities.iter().zip(&imposed.markers.velocities) {
+    for (a, b) in driven.markers.velocities().iter().zip(imposed.markers.velocities()) {
         assert!((a - b).length() < 1e-12);
     }
 }
@@ -138,7 +138,7 @@ fn a_thin_film_converges() {
         .expect("a valid scene");
         let mut markers = markers(&[shape], 512);
         solver.velocities(&mut markers).expect("a valid scene");
-        markers.velocities
+        markers.velocities().to_vec()
     };
     let reference = run(320);
     let error = |velocities: &[Vec2]| -> f64 {

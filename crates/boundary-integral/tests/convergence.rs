@@ -30,7 +30,7 @@ fn errors_fall_faster_than_any_power_of_the_nodes() {
         let errors = [16, 24, 32, 48, 64].map(|nodes| {
             let mut found = markers(&[shape], COUNT);
             solve(geometry, &mut found, nodes);
-            largest(&found.velocities, &reference.velocities)
+            largest(found.velocities(), reference.velocities())
         });
         println!("ratio {ratio}: {errors:?}");
         // Orders between one number of nodes and the next: they grow.
@@ -49,7 +49,7 @@ fn a_circle_is_exact_with_few_nodes() {
     for nodes in [16, 17, 24, 33] {
         let mut found = markers(&[circle], COUNT);
         solve(Geometry::Plane, &mut found, nodes);
-        let error = largest(&found.velocities, &reference.velocities);
+        let error = largest(found.velocities(), reference.velocities());
         assert!(error < 1e-14, "{nodes}: {error:e}");
     }
 }
@@ -63,16 +63,16 @@ fn forces_of_segments_are_of_second_order_in_the_markers() {
         let mut exact = markers(&[shape], count);
         let mut segments = exact.clone();
         let tangent = |k: usize| {
-            let chord = exact.positions[(k + 1) % count] - exact.positions[k % count];
+            let chord = exact.positions()[(k + 1) % count] - exact.positions()[k % count];
             chord.normalize() * tension(TAU * (k as f64 + 0.5) / count as f64)
         };
-        for (k, force) in segments.forces.iter_mut().enumerate() {
+        for (k, force) in segments.forces_mut().iter_mut().enumerate() {
             *force = tangent(k) - tangent((k + count - 1) % count);
         }
         solve(Geometry::Plane, &mut exact, 64);
         solve(Geometry::Plane, &mut segments, 64);
-        let scale = exact.velocities.iter().map(|v| v.length()).fold(0.0, f64::max);
-        largest(&segments.velocities, &exact.velocities) / scale
+        let scale = exact.velocities().iter().map(|v| v.length()).fold(0.0, f64::max);
+        largest(segments.velocities(), exact.velocities()) / scale
     };
     let errors = [64, 128, 256, 512].map(error);
     println!("{errors:?}");

@@ -15,13 +15,14 @@ fn markers(table: &Table, count: usize) -> Markers {
     let (a, b) = if table.ellipse { (1.3, 1.0 / 1.3) } else { (1.0, 1.0) };
     let angles: Vec<f64> = (0..count).map(|k| TAU * k as f64 / count as f64).collect();
     markers.push_group(count, MarkerKind::UnevenInterface { viscosity_inside: Some(table.viscosity_inside) });
-    for (position, t) in markers.positions.iter_mut().zip(&angles) {
+    for (position, t) in markers.positions_mut().iter_mut().zip(&angles) {
         *position = Vec2::new(a * t.cos(), table.height + b * t.sin());
     }
     let tension: Vec<f64> = angles.iter().map(|t| 1.0 + 0.5 * t.cos()).collect();
+    let [positions, forces, _] = markers.lists_mut();
     PeriodicCalculus::new(count)
         .expect("a valid scene")
-        .tension_forces(&markers.positions, &tension, TensionPlacement::Points, &mut markers.forces)
+        .tension_forces(positions, &tension, TensionPlacement::Points, forces)
         .expect("a valid scene");
     markers
 }
@@ -35,7 +36,7 @@ fn errors(geometry: Geometry, table: &Table, nodes: usize, tolerance: f64) -> [f
     let mut markers = markers(table, count);
     solver.velocities(&mut markers).expect("a valid scene");
     let difference = |v: Vec2, row: &[f64; 4]| (v.x - row[2]).abs().max((v.y - row[3]).abs());
-    let at_markers = (0..8).map(|j| difference(markers.velocities[j * count / 8], &table.rows[j]));
+    let at_markers = (0..8).map(|j| difference(markers.velocities()[j * count / 8], &table.rows[j]));
     let points: Vec<Vec2> = table.rows[8..].iter().map(|row| Vec2::new(row[0], row[1])).collect();
     let mut samples = vec![FlowSample::default(); points.len()];
     solver.sample(&markers, &points, &mut samples).expect("a valid scene");

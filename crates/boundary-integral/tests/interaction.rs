@@ -13,7 +13,7 @@ fn velocities(geometry: Geometry, ellipses: &[Ellipse], nodes: usize, tolerance:
     let mut solver = BoundaryIntegral::new(geometry, 1.0, settings).expect("a valid scene");
     let mut markers = markers(ellipses, COUNT);
     solver.velocities(&mut markers).expect("a valid scene");
-    markers.velocities
+    markers.velocities().to_vec()
 }
 
 /// Largest error over the largest velocity.

@@ -15,14 +15,15 @@ fn velocities(k: usize, bump: f64, wave: f64, [inside, outside]: [f64; 2]) -> [V
     let mut markers = Markers::new();
     markers.push_group(COUNT, MarkerKind::Interface { viscosity_inside: Some(inside) });
     let angle = |j: usize| TAU * j as f64 / COUNT as f64;
-    for (j, position) in markers.positions.iter_mut().enumerate() {
+    for (j, position) in markers.positions_mut().iter_mut().enumerate() {
         let r = 1.0 + bump * (k as f64 * angle(j)).cos();
         *position = r * Vec2::new(angle(j).cos(), angle(j).sin());
     }
     let tension: Vec<f64> = (0..COUNT).map(|j| 1.0 + wave * (k as f64 * angle(j)).cos()).collect();
+    let [positions, forces, _] = markers.lists_mut();
     PeriodicCalculus::new(COUNT)
         .expect("a valid scene")
-        .tension_forces(&markers.positions, &tension, TensionPlacement::Points, &mut markers.forces)
+        .tension_forces(positions, &tension, TensionPlacement::Points, forces)
         .expect("a valid scene");
     solver.velocities(&mut markers).expect("a valid scene");
     let component = |tangential: bool| {
@@ -30,7 +31,7 @@ fn velocities(k: usize, bump: f64, wave: f64, [inside, outside]: [f64; 2]) -> [V
             let (sin, cos) = angle(j).sin_cos();
             if tangential { cos * v.y - sin * v.x } else { cos * v.x + sin * v.y }
         };
-        markers.velocities.iter().enumerate().map(part).collect()
+        markers.velocities().iter().enumerate().map(part).collect()
     };
     [component(false), component(true)]
 }

@@ -24,8 +24,8 @@ fn nested([outer, inner]: [Ellipse; 2]) -> Markers {
 fn centroid_velocity(markers: &Markers, group: usize) -> Vec2 {
     let range = markers.groups()[group].range.clone();
     let count = range.len() as f64;
-    let normals = markers.positions[range.clone()].iter().map(|position| position.normalize());
-    normals.zip(&markers.velocities[range]).map(|(n, v)| 2.0 * v.dot(n) * n).sum::<Vec2>() / count
+    let normals = markers.positions()[range.clone()].iter().map(|position| position.normalize());
+    normals.zip(&markers.velocities()[range]).map(|(n, v)| 2.0 * v.dot(n) * n).sum::<Vec2>() / count
 }
 
 /// A droplet of radius 1 with the tension 1 + cos theta, exterior viscosity 1, around a concentric one of radius rho and
@@ -64,9 +64,9 @@ fn an_interface_that_is_none_moves_with_the_fluid() {
         let mut alone = scenes::markers(&[outer], COUNT);
         flow.velocities(&mut alone).unwrap();
         let mut seen = vec![FlowSample::default(); COUNT];
-        flow.sample(&alone, &markers.positions[COUNT..], &mut seen).unwrap();
-        let fastest = alone.velocities.iter().map(|v| v.length()).fold(0.0, f64::max);
-        for (velocity, sample) in markers.velocities[COUNT..].iter().zip(&seen) {
+        flow.sample(&alone, &markers.positions()[COUNT..], &mut seen).unwrap();
+        let fastest = alone.velocities().iter().map(|v| v.length()).fold(0.0, f64::max);
+        for (velocity, sample) in markers.velocities()[COUNT..].iter().zip(&seen) {
             assert!((velocity - sample.velocity).length() < 1e-10 * fastest, "{geometry:?}");
         }
     }
@@ -82,7 +82,7 @@ fn reciprocity_and_convergence() {
             Ellipse { viscosity: Some(0.4), axes: [0.4, 0.5], ..Ellipse::circle(0.55, 0.1, |t| 2.0 - (t + 0.3).sin()) };
         let solved = |nodes: usize, pull: f64| {
             let mut markers = nested([outer, inner]);
-            for force in &mut markers.forces[COUNT..] {
+            for force in &mut markers.forces_mut()[COUNT..] {
                 *force += pull / COUNT as f64 * Vec2::new(1.0, -0.5);
             }
             solver(geometry, nodes).velocities(&mut markers).unwrap();
@@ -90,14 +90,14 @@ fn reciprocity_and_convergence() {
         };
         let [one, other] = [solved(160, 0.0), solved(160, 3.0)];
         let work = |forces: &Markers, velocities: &Markers| -> f64 {
-            forces.forces.iter().zip(&velocities.velocities).map(|(f, v)| f.dot(*v)).sum()
+            forces.forces().iter().zip(velocities.velocities()).map(|(f, v)| f.dot(*v)).sum()
         };
         let (there, back) = (work(&one, &other), work(&other, &one));
         assert!((there - back).abs() < 1e-9 * work(&other, &other), "{there} {back}");
-        let fastest = other.velocities.iter().map(|v| v.length()).fold(0.0, f64::max);
+        let fastest = other.velocities().iter().map(|v| v.length()).fold(0.0, f64::max);
         for (nodes, bound) in [48, 96].into_iter().zip(bounds) {
             let coarse = solved(nodes, 3.0);
-            let differences = coarse.velocities.iter().zip(&other.velocities).map(|(a, b)| (a - b).length());
+            let differences = coarse.velocities().iter().zip(other.velocities()).map(|(a, b)| (a - b).length());
             let error = differences.fold(0.0, f64::max) / fastest;
             assert!(error < bound, "{geometry:?} {nodes}: {error:e}");
         }

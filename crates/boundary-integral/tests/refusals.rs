@@ -75,7 +75,7 @@ fn markers_that_are_not_an_interface() {
     assert!(matches!(solver().velocities(&mut few), Err(FlowError::Input(InputError::OutOfRange { value: 32.0, .. }))));
 
     let mut clockwise = markers(&[circle()], 64);
-    clockwise.positions.reverse();
+    clockwise.positions_mut().reverse();
     assert!(matches!(solver().velocities(&mut clockwise), Err(FlowError::Unsupported { .. })));
 
     for viscosity in [0.0, -3.0, f64::NAN] {
@@ -90,11 +90,11 @@ fn markers_that_are_not_an_interface() {
 #[test]
 fn numbers_that_are_not_finite() {
     let mut bad = markers(&[circle(), Ellipse { centre: [3.0, 0.0], ..circle() }], 64);
-    bad.positions[64 + 7].y = f64::NAN;
+    bad.positions_mut()[64 + 7].y = f64::NAN;
     let error = solver().velocities(&mut bad).unwrap_err();
     assert!(matches!(error, FlowError::NonFinite { what: "the position", body: 1, marker: 7, .. }), "{error}");
     let mut bad = markers(&[circle()], 64);
-    bad.forces[3].x = f64::INFINITY;
+    bad.forces_mut()[3].x = f64::INFINITY;
     let error = solver().velocities(&mut bad).unwrap_err();
     assert!(matches!(error, FlowError::NonFinite { what: "the force", body: 0, marker: 3, .. }), "{error}");
 
@@ -133,11 +133,11 @@ fn interfaces_that_cross_do_not_panic() {
     );
     // Any result is allowed that is an error or finite.
     if solver().velocities(&mut crossing).is_ok() {
-        assert!(crossing.velocities.iter().all(|v| v.x.is_finite() && v.y.is_finite()));
+        assert!(crossing.velocities().iter().all(|v| v.x.is_finite() && v.y.is_finite()));
     }
     let mut coinciding = markers(&[circle(), circle()], 64);
     if solver().velocities(&mut coinciding).is_ok() {
-        assert!(coinciding.velocities.iter().all(|v| v.x.is_finite() && v.y.is_finite()));
+        assert!(coinciding.velocities().iter().all(|v| v.x.is_finite() && v.y.is_finite()));
     }
 }
 

@@ -16,22 +16,22 @@ struct Relaxing {
 
 impl Relaxing {
     fn rate(&mut self, positions: &[Vec2]) -> Vec<Vec2> {
-        let Markers { positions: own, forces, .. } = &mut self.markers;
+        let [own, forces, _] = self.markers.lists_mut();
         own.copy_from_slice(positions);
         self.calculus.tension_forces(own, &[1.0; COUNT], TensionPlacement::Points, forces).expect("lengths that agree");
         self.solver.velocities(&mut self.markers).expect("a smooth shape");
-        self.markers.velocities.clone()
+        self.markers.velocities().to_vec()
     }
 
     /// One step of the classical Runge-Kutta rule with the markers moving like fluid.
     fn step(&mut self, dt: f64) {
-        let start = self.markers.positions.clone();
+        let start = self.markers.positions().to_vec();
         let along = |rate: &[Vec2], dt: f64| -> Vec<Vec2> { start.iter().zip(rate).map(|(x, v)| x + v * dt).collect() };
         let a = self.rate(&start);
         let b = self.rate(&along(&a, 0.5 * dt));
         let c = self.rate(&along(&b, 0.5 * dt));
         let d = self.rate(&along(&c, dt));
-        for (k, x) in self.markers.positions.iter_mut().enumerate() {
+        for (k, x) in self.markers.positions_mut().iter_mut().enumerate() {
             *x = start[k] + (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]) * (dt / 6.0);
         }
     }
@@ -40,8 +40,8 @@ impl Relaxing {
         // Exact for a curve of so many modes.
         let mut tangents = vec![Vec2::ZERO; COUNT];
         let mut calculus = PeriodicCalculus::new(COUNT).expect("enough samples");
-        calculus.derivative(&self.markers.positions, &mut tangents).expect("lengths that agree");
-        let sum: f64 = self.markers.positions.iter().zip(&tangents).map(|(x, t)| x.x * t.y - x.y * t.x).sum();
+        calculus.derivative(self.markers.positions(), &mut tangents).expect("lengths that agree");
+        let sum: f64 = self.markers.positions().iter().zip(&tangents).map(|(x, t)| x.x * t.y - x.y * t.x).sum();
         std::f64::consts::PI / COUNT as f64 * sum
     }
 }
@@ -67,7 +67,7 @@ fn ellipse_in_a_box() {
             for _ in 0..10 {
                 relaxing.step(0.05);
             }
-            let positions = &relaxing.markers.positions;
+            let positions = relaxing.markers.positions();
             let errors = [(positions[0].x - x_tip).abs(), (positions[COUNT / 4].y - y_tip).abs()];
             println!("viscosity {viscosity}: {errors:?}");
             assert!(errors[0] < 5e-9 && errors[1] < 5e-9, "{errors:?}");

@@ -150,15 +150,15 @@ fn jumps_by_the_force(geometry: Geometry) {
     let mut solved = Solved::new(geometry, &ellipses, 96);
     let mut calculus = PeriodicCalculus::new(COUNT).expect("a valid scene");
     let mut tangents = vec![Vec2::ZERO; COUNT];
-    calculus.derivative(&solved.markers.positions[..COUNT], &mut tangents).expect("a valid scene");
+    calculus.derivative(&solved.markers.positions()[..COUNT], &mut tangents).expect("a valid scene");
     let distance = 1e-7;
     // Markers that are nodes and markers that are not.
     for k in [0, 3, 57, 64, 131, 200] {
-        let (position, tangent) = (solved.markers.positions[k], tangents[k]);
+        let (position, tangent) = (solved.markers.positions()[k], tangents[k]);
         let normal = Vec2::new(tangent.y, -tangent.x).normalize();
         let on = solved.at(&[position + distance * normal, position - distance * normal, position]);
         for sample in &on {
-            let error = (sample.velocity - solved.markers.velocities[k]).length();
+            let error = (sample.velocity - solved.markers.velocities()[k]).length();
             assert!(error < 1e-6, "{error:e}");
         }
         let traction = |s: &FlowSample, viscosity: f64| {
@@ -168,7 +168,7 @@ fn jumps_by_the_force(geometry: Geometry) {
                 shear * normal.x + (2.0 * viscosity * s.gradient[1][1] - s.pressure) * normal.y,
             )
         };
-        let force = solved.markers.forces[k] * (COUNT as f64 / TAU / tangent.length());
+        let force = solved.markers.forces()[k] * (COUNT as f64 / TAU / tangent.length());
         let jump = traction(&on[0], 1.0) - traction(&on[1], 20.0) + force;
         assert!(jump.length() < 2e-5, "{jump}");
     }
@@ -228,9 +228,9 @@ fn far_interfaces_move_with_the_flow(geometry: Geometry) {
     ellipses.push(Ellipse { centre: [-4.7, -0.8], axes: [0.5, 0.7], viscosity: None, ..ellipses[0] });
     ellipses.push(Ellipse { centre: [9.5, -1.0], axes: [0.3, 0.25], viscosity: Some(3.0), ..ellipses[0] });
     let mut solved = Solved::new(geometry, &ellipses, 96);
-    let points: Vec<Vec2> = solved.markers.positions.iter().copied().step_by(17).collect();
+    let points: Vec<Vec2> = solved.markers.positions().iter().copied().step_by(17).collect();
     let samples = solved.at(&points);
-    for (sample, velocity) in samples.iter().zip(solved.markers.velocities.iter().step_by(17)) {
+    for (sample, velocity) in samples.iter().zip(solved.markers.velocities().iter().step_by(17)) {
         // A point on an interface is taken a billionth of a spacing inside.
         let error = (sample.velocity - velocity).length();
         println!("{geometry:?}: {error:e}");

@@ -21,7 +21,7 @@ fn allocations(geometry: Geometry, viscosity: f64) -> u64 {
     solver.velocities(&mut markers).expect("a valid scene");
     let counted = measure(|| {
         for _ in 0..3 {
-            markers.positions.iter_mut().for_each(|x| *x *= 1.0001);
+            markers.positions_mut().iter_mut().for_each(|x| *x *= 1.0001);
             solver.velocities(&mut markers).expect("a valid scene");
         }
     });

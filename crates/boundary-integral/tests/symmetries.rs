@@ -40,10 +40,10 @@ proptest! {
         let (sin, cos) = angle.sin_cos();
         let turn = |v: &Vec2| Vec2::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y);
         let mut second = first.clone();
-        second.positions.iter_mut().for_each(|x| *x = turn(x));
-        second.forces.iter_mut().for_each(|f| *f = turn(f));
+        second.positions_mut().iter_mut().for_each(|x| *x = turn(x));
+        second.forces_mut().iter_mut().for_each(|f| *f = turn(f));
         solver.velocities(&mut second).unwrap();
-        for (a, b) in first.velocities.iter().zip(&second.velocities) {
+        for (a, b) in first.velocities().iter().zip(second.velocities()) {
             prop_assert!((turn(a) - b).length() < 1e-10);
         }
     }
@@ -54,11 +54,11 @@ proptest! {
         let mut markers = markers(&[shape], COUNT);
         solver.velocities(&mut markers).unwrap();
         let mut tangents = vec![Vec2::ZERO; COUNT];
-        PeriodicCalculus::new(COUNT).unwrap().derivative(&markers.positions, &mut tangents).unwrap();
-        let pairs = markers.velocities.iter().zip(&tangents);
+        PeriodicCalculus::new(COUNT).unwrap().derivative(markers.positions(), &mut tangents).unwrap();
+        let pairs = markers.velocities().iter().zip(&tangents);
         let flux: f64 = pairs.map(|(v, t)| v.x * t.y - v.y * t.x).sum::<f64>() * TAU / COUNT as f64;
         prop_assert!(flux.abs() < 1e-9, "{}", flux);
-        let power: f64 = markers.velocities.iter().zip(&markers.forces).map(|(v, f)| v.dot(*f)).sum();
+        let power: f64 = markers.velocities().iter().zip(markers.forces()).map(|(v, f)| v.dot(*f)).sum();
         prop_assert!(power > 0.0);
     }
 
@@ -70,13 +70,13 @@ proptest! {
         let mut one = markers(&[first, second], COUNT);
         let mut two = one.clone();
         let push = |k: usize| (3.0 * TAU * k as f64 / COUNT as f64 + wave).sin();
-        for (k, force) in two.forces.iter_mut().enumerate() {
+        for (k, force) in two.forces_mut().iter_mut().enumerate() {
             *force = Vec2::new(push(k), push(2 * k + 1)) / COUNT as f64;
         }
         solver.velocities(&mut one).unwrap();
         solver.velocities(&mut two).unwrap();
         let work = |a: &Markers, b: &Markers| -> f64 {
-            a.forces.iter().zip(&b.velocities).map(|(f, v)| f.dot(*v)).sum()
+            a.forces().iter().zip(b.velocities()).map(|(f, v)| f.dot(*v)).sum()
         };
         let (ab, ba) = (work(&one, &two), work(&two, &one));
         prop_assert!((ab - ba).abs() < 1e-9 * (1.0 + ab.abs()), "{} {}", ab, ba);
@@ -109,7 +109,7 @@ fn markers_may_be_any_number_from_that_of_the_nodes_on() {
             // The first marker is at the same place for all.
             let mut reference = scenes::markers(&[shape], 256);
             solver.velocities(&mut reference).unwrap();
-            assert!((markers.velocities[0] - reference.velocities[0]).length() < 1e-12, "{nodes} {count}");
+            assert!((markers.velocities()[0] - reference.velocities()[0]).length() < 1e-12, "{nodes} {count}");
         }
     }
 }

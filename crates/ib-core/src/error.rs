@@ -247,6 +247,21 @@ pub enum SceneError {
         /// Which body.
         body: String,
     },
+    /// A stability limit so short that a run would never end.
+    #[error(
+        "the time step at the start of the run would be {dt:.3e}, set by {reason} of {body}, below {least:.3e}, with \
+         which it takes 1e10 steps: give {body} less activity, tension or stiffness, or run for less time"
+    )]
+    StepTooShort {
+        /// The step that is stable (time).
+        dt: f64,
+        /// The shortest that the run takes (time).
+        least: f64,
+        /// What limits it.
+        reason: &'static str,
+        /// Which body.
+        body: String,
+    },
     /// A step size that is a part of the stability limit, where no body states a finite one.
     #[error(
         "at time {time} no body states a bound on the time step that a run could take a part of: give the run \

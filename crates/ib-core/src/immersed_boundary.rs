@@ -20,7 +20,7 @@ use crate::{
 use contrast_flow::ContrastFlow;
 
 /// How far beyond a wall a marker may lie, in grid spacings.
-const WALL_TOLERANCE: f64 = 0.25;
+pub(crate) const WALL_TOLERANCE: f64 = 0.25;
 
 /// Velocities of markers by spreading their forces to a grid, solving the Stokes equations there and interpolating
 /// (Cowley section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).
@@ -195,10 +195,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(false)
     }
 
-    /// Refuses lists of other lengths than the groups', markers that are not finite or too far beyond a wall, and
-    /// forces that are not finite.
+    /// Refuses markers that are not finite or too far beyond a wall, and forces that are not finite.
     pub(crate) fn check(&self, markers: &Markers) -> Result<(), FlowError> {
-        markers.check()?;
         let walls = self.walls();
         let allowed = WALL_TOLERANCE * self.grid().spacing();
         for (body, group) in markers.groups().iter().enumerate() {

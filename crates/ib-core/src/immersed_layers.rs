@@ -2,11 +2,11 @@
 
 mod curves;
 
-use input_checks::{all_points_finite, same_length};
+use input_checks::{all_points_finite, same_length, within};
 use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
-use stokes_layers::{Forcing, Geometry, Reciprocity, Settings, SingleLayer};
+use stokes_layers::{Forcing, Geometry, Reciprocity, SingleLayer};
 
-use crate::immersed_boundary::sampling;
+use crate::immersed_boundary::{WALL_TOLERANCE, sampling};
 use crate::{
     Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, Markers, Transfer, Vec2,
     checkpoint::SavedState, hydrodynamics::FlowWork,
@@ -38,7 +38,8 @@ use curves::LayerCurves;
 pub struct ImmersedLayers<S, K> {
     solver: S,
     layer: SingleLayer,
-    settings: Settings,
+    /// Of an interface.
+    modes: usize,
     curves: LayerCurves,
     /// For inner points and for grid nodes of layers.
     inner: Transfer<K>,
@@ -53,11 +54,14 @@ pub struct ImmersedLayers<S, K> {
 }
 
 impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
-    /// The method on the grid of `solver`, with layers of the given resolution.
+    /// The method on the grid of `solver`, with that number of nodes of an interface and layers that are right to the
+    /// tolerance (without dimension).
     ///
     /// # Errors
-    /// Settings out of their range, a channel whose middle is not at y = 0.
-    pub fn new(solver: S, kernel: K, settings: Settings) -> Result<Self, FlowError> {
+    /// Fewer than 16 or more than 4096 nodes, a tolerance outside of 1e-15 to 1e-3, a channel whose middle is not at
+    /// y = 0.
+    pub fn new(solver: S, kernel: K, nodes: usize, tolerance: f64) -> Result<Self, FlowError> {
+        within("the number of nodes", nodes as f64, 16.0, 4096.0)?;
         let grid = *solver.grid();
         let [length, width] = grid.lengths();
         let geometry = if grid.has_walls() {
@@ -77,16 +81,16 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
             Geometry::Box { lengths: [length, width] }
         };
         Ok(Self {
-            layer: SingleLayer::new(geometry, settings.tolerance, Reciprocity::Exact)?,
-            settings,
-            curves: LayerCurves::new(length, grid.spacing(), settings.nodes),
+            layer: SingleLayer::new(geometry, tolerance, Reciprocity::Exact)?,
+            modes: nodes,
+            curves: LayerCurves::new(length, grid.spacing(), nodes),
             inner: Transfer::new(grid, kernel.clone()),
             nodes: Transfer::new(grid, kernel),
             density: StaggeredField::zeros(grid),
             velocity: StaggeredField::zeros(grid),
             positions: Vec::new(),
             values: Vec::new(),
-            stiffness: stiffness(settings.nodes, std::f64::consts::TAU),
+            stiffness: stiffness(nodes, std::f64::consts::TAU),
             work: FlowWork::default(),
             solver,
         })
@@ -96,12 +100,6 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     #[must_use]
     pub fn grid(&self) -> &Grid {
         self.solver.grid()
-    }
-
-    /// Resolution and accuracy of the layers.
-    #[must_use]
-    pub fn settings(&self) -> &Settings {
-        &self.settings
     }
 
     fn solve(&mut self) -> Result<SolveReport, FlowError> {
@@ -137,6 +135,23 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         self.solve()
     }
 
+    /// Refuses inner points too far beyond a wall; layers see to their own.
+    fn check_walls(&self, markers: &Markers) -> Result<(), FlowError> {
+        let grid = self.grid();
+        let (bottom, allowed) = (grid.origin()[1], WALL_TOLERANCE * grid.spacing());
+        let top = bottom + grid.lengths()[1];
+        for &marker in self.curves.inner.iter().filter(|_| grid.has_walls()) {
+            let Vec2 { x, y } = markers.positions[marker];
+            let depth = (bottom - y).max(y - top);
+            if depth > allowed {
+                let body = markers.groups().iter().position(|group| group.range.contains(&marker)).unwrap_or(0);
+                let marker = marker - markers.groups()[body].range.start;
+                return Err(FlowError::BeyondWall { body, marker, x, y, depth, allowed });
+            }
+        }
+        Ok(())
+    }
+
     /// Takes over positions and forces.
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         let viscosity = self.solver.viscosity();
@@ -147,6 +162,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
                 remedy: "leave the layers out",
             });
         }
+        self.check_walls(markers)?;
         self.nodes.locate(&self.curves.grid[0]);
         Ok(())
     }
@@ -161,7 +177,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
             domain: Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls },
             viscosity: self.solver.viscosity(),
             spacing: Some(grid.spacing()),
-            shape_modes: Some(self.settings().nodes),
+            shape_modes: Some(self.modes),
             interface_stiffness: self.stiffness,
             mobility_deficit: None,
         }
@@ -175,7 +191,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
         self.load(markers)?;
         self.work.evaluations += 1;
         if let Some(shortest) = self.curves.shortest_interface() {
-            self.stiffness = stiffness(self.settings.nodes, shortest);
+            self.stiffness = stiffness(self.modes, shortest);
         }
         let curves = &mut self.curves;
         self.layer.load(curves.layers())?;

@@ -23,17 +23,17 @@
 //! markers.push_group(128, MarkerKind::Interface { viscosity_inside: None });
 //! for k in 0..128 {
 //!     let angle = std::f64::consts::TAU * k as f64 / 128.0;
-//!     markers.positions[k] = Vec2::new(1.1 * angle.cos(), angle.sin() / 1.1);
+//!     markers.positions_mut()[k] = Vec2::new(1.1 * angle.cos(), angle.sin() / 1.1);
 //! }
 //! for k in 0..128 {
-//!     let pull = (markers.positions[(k + 1) % 128] - markers.positions[k]).normalize();
-//!     markers.forces[k] += pull;
-//!     markers.forces[(k + 1) % 128] -= pull;
+//!     let pull = (markers.positions()[(k + 1) % 128] - markers.positions()[k]).normalize();
+//!     markers.forces_mut()[k] += pull;
+//!     markers.forces_mut()[(k + 1) % 128] -= pull;
 //! }
 //! flow.velocities(&mut markers)?;
 //! // the tip moves in at about half the excess of curvature
-//! assert!(markers.velocities[0].x < -0.03 && markers.velocities[0].x > -0.05);
-//! println!("tip velocity {:.4}", markers.velocities[0].x);
+//! assert!(markers.velocities()[0].x < -0.03 && markers.velocities()[0].x > -0.05);
+//! println!("tip velocity {:.4}", markers.velocities()[0].x);
 //! # Ok::<(), ib_core::FlowError>(())
 //! ```
 //!

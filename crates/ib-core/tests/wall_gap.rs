@@ -26,7 +26,7 @@ impl Hydrodynamics for Wind {
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
-        markers.velocities.fill(self.velocity);
+        markers.velocities_mut().fill(self.velocity);
         Ok(SolveReport::default())
     }
 

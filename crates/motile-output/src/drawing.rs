@@ -7,7 +7,7 @@ pub(crate) mod raster;
 mod svg;
 pub(crate) mod ticks;
 
-use tiny_skia::{ColorU8, FillRule, Paint, Path, PathBuilder, Pixmap, Transform};
+use tiny_skia::{ColorU8, FillRule, Paint, Path, PathBuilder, Pixmap, StrokeDash, Transform};
 
 use crate::Rgb;
 
@@ -143,7 +143,9 @@ impl Drawing {
 
     /// A line with lengths of dash and gap (pixels).
     pub(crate) fn dashed(&mut self, path: &[Pixel], pen: &Pen, pattern: [f64; 2]) {
-        self.strokes(&dashes(path, pattern), pen);
+        let dash = StrokeDash::new(pattern.map(|length| length.max(0.1) as f32).to_vec(), 0.0);
+        let cut = dash.and_then(|dash| self::path(&[path.to_vec()], false)?.dash(&dash, 1.0));
+        self.shapes.extend(cut.map(|path| Shape::Line { path, pen: *pen }));
     }
 
     /// An opaque line whose pieces from vertex to vertex have the mean of the colours at their ends; `colours` has as
@@ -208,40 +210,3 @@ fn path(lines: &[Vec<Pixel>], closed: bool) -> Option<Path> {
     }
     builder.finish()
 }
-
-/// Cuts a path into the dashes of a pattern of dash and gap lengths.
-fn dashes(path: &[Pixel], [dash, gap]: [f64; 2]) -> Vec<Vec<Pixel>> {
-    let mut pieces = Vec::new();
-    let mut piece: Vec<Pixel> = path.first().map(|&p| vec![p]).unwrap_or_default();
-    let (mut drawing, mut left) = (true, dash.max(0.1));
-    for pair in path.windows(2) {
-        let (mut from, to) = (pair[0], pair[1]);
-        loop {
-            let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-            if length < left {
-                left -= length;
-                if drawing {
-                    piece.push(to);
-                }
-                break;
-            }
-            let t = left / length;
-            from = [from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1])];
-            if drawing {
-                piece.push(from);
-                pieces.push(std::mem::take(&mut piece));
-            } else {
-                piece = vec![from];
-            }
-            drawing = !drawing;
-            left = if drawing { dash } else { gap }.max(0.1);
-        }
-    }
-    if drawing && piece.len() > 1 {
-        pieces.push(piece);
-    }
-    pieces
-}
-
-#[cfg(test)]
-mod tests;

@@ -50,7 +50,7 @@ impl<H: Hydrodynamics> Case<H> {
         while phases.len() < 5 || start.elapsed() < budget {
             let bare = seconds(|| pair.run()).min(seconds(|| pair.run()));
             let markers = self.scene.system_mut().evaluate()?;
-            let own = if self.without_grid { [0.0; 3] } else { pieces.measure(&markers.positions, &markers.forces) };
+            let own = if self.without_grid { [0.0; 3] } else { pieces.measure(markers.positions(), markers.forces()) };
             // What the markers' forces are known from is not part of the step that follows.
             let _ = self.take();
             // A step changes the state, so that the first evaluation of the next is remade, as in a run nobody looks
@@ -96,7 +96,7 @@ impl<H: Hydrodynamics> Case<H> {
     }
 
     fn markers(&self) -> f64 {
-        self.scene.system().markers().positions.len() as f64
+        self.scene.system().markers().positions().len() as f64
     }
 
     fn take(&self) -> [f64; 5] {

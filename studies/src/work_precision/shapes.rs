@@ -44,7 +44,7 @@ pub(crate) fn fixed_ellipse(settings: &Settings) -> Result<(f64, Cost)> {
             let mut markers = exact_ellipse(nodes.next_multiple_of(8))?;
             flow.velocities(&mut markers)?;
             let every = markers.len() / 8;
-            let seen: Vec<Vec2> = markers.velocities.iter().step_by(every).copied().collect();
+            let seen: Vec<Vec2> = markers.velocities().iter().step_by(every).copied().collect();
             let error = fixed_shapes::compare_velocities(&seen, case)?.maximum;
             Ok((error, repeat(|| Ok(flow.velocities(&mut markers).map(|_| ())?))?))
         }
@@ -56,11 +56,11 @@ fn exact_ellipse(count: usize) -> Result<Markers> {
     let mut markers = Markers::new();
     markers.push_group(count, MarkerKind::UnevenInterface { viscosity_inside: None });
     let angle = |k: usize| TAU * k as f64 / count as f64;
-    for (k, position) in markers.positions.iter_mut().enumerate() {
+    for (k, position) in markers.positions_mut().iter_mut().enumerate() {
         *position = Vec2::new(1.3 * angle(k).cos(), angle(k).sin() / 1.3);
     }
     let tension: Vec<f64> = (0..count).map(|k| 1.0 + 0.5 * angle(k).cos()).collect();
-    let (positions, forces) = (&markers.positions, &mut markers.forces);
+    let [positions, forces, _] = markers.lists_mut();
     PeriodicCalculus::new(count)?.tension_forces(positions, &tension, TensionPlacement::Points, forces)?;
     Ok(markers)
 }

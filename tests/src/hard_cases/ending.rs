@@ -54,6 +54,8 @@ pub enum Ending {
     NonFinite,
     /// An iteration did not converge.
     NotConverged,
+    /// At its time, but elsewhere than the same run in other units.
+    Differs,
     /// Something else.
     Other,
 }

@@ -1,7 +1,7 @@
 //! Scenes that are hard to compute: what is hard about each, and what must come of it.
 //!
 //! [`cases`] lists them. Each is a number of runs, by the methods that apply, in a quick version for tests and a longer
-//! one for the example `hard_cases`. A run must finish with its area and particles, or end in the error that is right
+//! one for the study `hard_cases`. A run must finish with its area and particles, or end in the error that is right
 //! for it; nothing else counts.
 
 mod drive;
@@ -10,6 +10,7 @@ mod ending;
 mod pairs;
 mod shapes;
 mod steps;
+mod units;
 mod walls;
 mod weight;
 
@@ -145,6 +146,7 @@ pub fn cases() -> Vec<Trial> {
     all.extend(pairs::trials());
     all.extend(walls::trials());
     all.extend(steps::trials());
+    all.extend(units::trials());
     all.sort_by_key(|trial| trial.number);
     all
 }

@@ -40,10 +40,10 @@ pub fn point_forces<K: Kernel>(kernel: &K, h: f64, drive: Drive) -> Result<f64, 
             // A second marker without force takes the velocity by the kernel's own interpolation.
             let mut markers = Markers::new();
             markers.push_group(2, MarkerKind::Points);
-            markers.positions.copy_from_slice(&[from, to]);
-            markers.forces[0] = force;
+            markers.positions_mut().copy_from_slice(&[from, to]);
+            markers.forces_mut()[0] = force;
             flow.velocities(&mut markers)?;
-            let velocity = 4.0 * std::f64::consts::PI * markers.velocities[1];
+            let velocity = 4.0 * std::f64::consts::PI * markers.velocities()[1];
             let [ex, ey] = &expected[direction];
             worst = worst.max((velocity - Vec2::new(ex[i], ey[i])).length());
         }
@@ -109,7 +109,7 @@ pub fn fixed_shape<K: Kernel>(
     let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
     for (i, (point, sample)) in points.iter().zip(&samples).enumerate() {
         let distance =
-            shape.markers.positions.iter().map(|marker| (marker - point).length()).fold(f64::INFINITY, f64::min);
+            shape.markers.positions().iter().map(|marker| (marker - point).length()).fold(f64::INFINITY, f64::min);
         let exact = Vec2::new(vx[i], vy[i]);
         largest = largest.max(exact.length());
         if distance > 3.0 * h {

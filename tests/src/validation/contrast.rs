@@ -128,12 +128,12 @@ impl Droplet {
         let count = (curve.perimeter() / spacing).round() as usize;
         let start = markers.len();
         markers.push_group(count, self.kind(true));
-        markers.positions[start..].copy_from_slice(&curve.markers(count)?);
+        markers.positions_mut()[start..].copy_from_slice(&curve.markers(count)?);
         for k in 0..count {
-            let (here, next) = (markers.positions[start + k], markers.positions[start + (k + 1) % count]);
+            let (here, next) = (markers.positions()[start + k], markers.positions()[start + (k + 1) % count]);
             let pull = self.tension(self.parameter(0.5 * (here + next))) * (next - here).normalize();
-            markers.forces[start + k] += pull;
-            markers.forces[start + (k + 1) % count] -= pull;
+            markers.forces_mut()[start + k] += pull;
+            markers.forces_mut()[start + (k + 1) % count] -= pull;
         }
         Ok(())
     }
@@ -144,8 +144,8 @@ impl Droplet {
         markers.push_group(count, self.kind(false));
         for k in 0..count {
             let t = TAU * k as f64 / count as f64;
-            markers.positions[start + k] = self.point(t);
-            markers.forces[start + k] = self.force(t) * (TAU / count as f64);
+            markers.positions_mut()[start + k] = self.point(t);
+            markers.forces_mut()[start + k] = self.force(t) * (TAU / count as f64);
         }
     }
 }
@@ -181,7 +181,7 @@ impl Exact {
         let mut markers = Markers::new();
         droplets.iter().for_each(|droplet| droplet.push_exact(nodes, &mut markers));
         exact(region, nodes)?.velocities(&mut markers)?;
-        let velocities: Vec<Vec<Vec2>> = markers.velocities.chunks(nodes).map(<[Vec2]>::to_vec).collect();
+        let velocities: Vec<Vec<Vec2>> = markers.velocities().chunks(nodes).map(<[Vec2]>::to_vec).collect();
         let centroids = droplets
             .iter()
             .zip(&velocities)
@@ -237,7 +237,7 @@ impl Exact {
         let mut all = Vec::new();
         for (index, group) in markers.groups().iter().enumerate() {
             let (droplet, range) = (&self.droplets[index], group.range.clone());
-            let (positions, velocities) = (&markers.positions[range.clone()], &markers.velocities[range]);
+            let (positions, velocities) = (&markers.positions()[range.clone()], &markers.velocities()[range]);
             let exact = &self.velocities[index];
             let largest = exact.iter().map(|v| v.length()).fold(0.0, f64::max);
             let (mut sum, mut maximum) = (0.0, 0.0_f64);

@@ -123,13 +123,13 @@ impl Shape {
         let count = 8 * (curve.perimeter() / (4.0 * h)).round() as usize;
         let mut markers = Markers::new();
         markers.push_group(count, MarkerKind::Interface { viscosity_inside });
-        markers.positions.copy_from_slice(&curve.markers(count)?);
+        markers.positions_mut().copy_from_slice(&curve.markers(count)?);
         let mut shape = Self { markers, case, height };
         for k in 0..count {
-            let (here, next) = (shape.markers.positions[k], shape.markers.positions[(k + 1) % count]);
+            let (here, next) = (shape.markers.positions()[k], shape.markers.positions()[(k + 1) % count]);
             let pull = case.tension(shape.parameter(0.5 * (here + next))) * (next - here).normalize();
-            shape.markers.forces[k] += pull;
-            shape.markers.forces[(k + 1) % count] -= pull;
+            shape.markers.forces_mut()[k] += pull;
+            shape.markers.forces_mut()[(k + 1) % count] -= pull;
         }
         Ok(shape)
     }
@@ -141,8 +141,8 @@ impl Shape {
 
     /// Errors at the eight markers of `reference`.
     pub(crate) fn compare(&self, reference: &Reference) -> Result<Errors, StudyError> {
-        let parameters: Vec<f64> = self.markers.positions.iter().map(|&point| self.parameter(point)).collect();
-        errors_of(reference, |j| at_parameter(&parameters, &self.markers.velocities, TAU * j as f64 / 8.0))
+        let parameters: Vec<f64> = self.markers.positions().iter().map(|&point| self.parameter(point)).collect();
+        errors_of(reference, |j| at_parameter(&parameters, self.markers.velocities(), TAU * j as f64 / 8.0))
     }
 }
 

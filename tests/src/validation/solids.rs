@@ -1,6 +1,5 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
-use motile::boundary_integral::Settings;
 use motile::elastic_solids::{
     ElasticForces, EnergyDensity, Interior, Mesher, NeoHookean, Outline, Solid, SolidError, TriangleMesh,
     check::{ForceBalance, InnerPoints, MeasuredModuli, force_balance, measured_moduli, patch_residual, stress_error},
@@ -169,6 +168,8 @@ pub enum Surface {
 const LENGTH: f64 = 1.6;
 /// Where the surface is a layer, which needs 16 points.
 const LAYER_LENGTH: f64 = 3.2;
+/// Of interfaces, of which there are none.
+const NODES: usize = 16;
 const HEIGHT: f64 = 2.0;
 /// With this thickness a lattice is exactly equilateral at spacings 0.2, 0.1, 0.05 and 0.025.
 const THICKNESS: f64 = 0.866_025_403_784_438_6;
@@ -217,7 +218,7 @@ impl Layer {
         let grid = Grid::channel((self.length() / h).round() as usize, (HEIGHT / h).round() as usize, h)?;
         let solver = ChannelStokes::new(grid, VISCOSITY)?;
         let flow: Box<dyn Hydrodynamics> = if self.surface == Surface::Layer {
-            Box::new(ImmersedLayers::new(solver, CubicQuadratic::default(), Settings::default())?)
+            Box::new(ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, 1e-8)?)
         } else {
             Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()))
         };

@@ -24,7 +24,7 @@ impl Hydrodynamics for Converging {
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
-        let Markers { positions, forces, velocities, .. } = markers;
+        let [positions, forces, velocities] = markers.lists_mut();
         for ((u, x), f) in velocities.iter_mut().zip(positions.iter()).zip(forces.iter()) {
             *u = Vec2::new(-0.2 * x.x, 0.2 * x.y + 0.05 * x.x * x.x) + 0.1 * f;
         }

@@ -35,11 +35,12 @@ pub(crate) fn markers(ellipses: &[Ellipse], count: usize) -> Markers {
         markers.push_group(count, MarkerKind::UnevenInterface { viscosity_inside: ellipse.viscosity });
         let range = index * count..(index + 1) * count;
         let angle = |k: usize| TAU * k as f64 / count as f64;
-        for (k, position) in markers.positions[range.clone()].iter_mut().enumerate() {
+        for (k, position) in markers.positions_mut()[range.clone()].iter_mut().enumerate() {
             *position = ellipse.point(angle(k));
         }
         let tension: Vec<f64> = (0..count).map(|k| (ellipse.tension)(angle(k))).collect();
-        let (positions, forces) = (&markers.positions[range.clone()], &mut markers.forces[range]);
+        let [positions, forces, _] = markers.lists_mut();
+        let (positions, forces) = (&positions[range.clone()], &mut forces[range]);
         calculus.tension_forces(positions, &tension, TensionPlacement::Points, forces).expect("a valid scene");
     }
     markers

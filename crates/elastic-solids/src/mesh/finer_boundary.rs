@@ -14,7 +14,7 @@ impl TriangleMesh {
     /// their place (length); the triangle there is divided. For surfaces that are to be resolved more finely than what
     /// lies below them.
     ///
-    /// New points lie on the cubic through the four points about them, on the side itself next to corners.
+    /// New points lie on the cubic through the four points about them, next to corners on the side itself.
     ///
     /// # Errors
     /// A mesh that is so coarse that triangles fold.
@@ -36,9 +36,10 @@ impl TriangleMesh {
                 }
                 let [before, own, after] = [side(k + count - 1), side(k), side(k + 1)];
                 let turns = |a: Vec2, b: Vec2| a.dot(b) < CORNER * a.length() * b.length();
-                let bend = if turns(before, own) || turns(own, after) { Vec2::ZERO } else { (before - after) / 16.0 };
+                let corner = turns(before, own) || turns(own, after);
+                let middle = if corner { 0.5 * own } else { middle(before, own, after) };
                 middles.insert([first, second], points.len());
-                points.push(self.points[first] + 0.5 * own + bend);
+                points.push(self.points[first] + middle);
             }
         }
         let mut triangles = Vec::with_capacity(self.triangles.len() + middles.len());
@@ -57,4 +58,17 @@ impl TriangleMesh {
         }
         Self::build(points, triangles, self.period)
     }
+}
+
+/// The middle of a side of a smooth line, from its start: on the cubic through its ends and the ends of the sides before
+/// and after it, with the lengths of the sides as parameter.
+fn middle(before: Vec2, own: Vec2, after: Vec2) -> Vec2 {
+    let [a, b, c] = [before, own, after].map(|side| side.length());
+    let knots = [(-a, -before), (0.0, Vec2::ZERO), (b, own), (b + c, own + after)];
+    let at = 0.5 * b;
+    let weight = |knot: f64| -> f64 {
+        let others = knots.iter().filter(|(other, _)| *other != knot);
+        others.map(|(other, _)| (at - other) / (knot - other)).product()
+    };
+    knots.iter().map(|(knot, place)| weight(*knot) * place).sum()
 }

@@ -135,7 +135,7 @@ fn bad_meshes_are_refused() {
 
 #[test]
 fn a_finer_boundary_has_twice_as_many_points_and_the_same_shape() {
-    let strip = super::lattice::equilateral_strip(v(-1.0, -1.0), 20, 6, 0.1).unwrap();
+    let strip = equilateral_strip(v(-1.0, -1.0), 20, 6, 0.1).unwrap();
     let finer = strip.with_finer_boundary(|s| s.y > -0.9).unwrap();
     assert!((finer.area() - strip.area()).abs() < 1e-12);
     let counts: Vec<usize> = finer.boundary_loops().iter().map(|boundary| boundary.points.len()).collect();

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use input_checks::{InputError, positive, same_length, within};
+use input_checks::{InputError, positive, within};
 use stokes_layers::Vec2;
 
 /// What a group of markers is, as far as the flow is concerned.
@@ -76,15 +76,15 @@ impl MarkerGroup {
 }
 
 /// Positions, forces and velocities of the markers of all bodies, body after body: lists as long as all groups
-/// together, which flows check ([`Markers::check`]).
+/// together.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Markers {
     /// Positions (length), not wrapped into the box.
-    pub positions: Vec<Vec2>,
+    pub(crate) positions: Vec<Vec2>,
     /// Forces on the fluid (force, not force per length).
-    pub forces: Vec<Vec2>,
+    pub(crate) forces: Vec<Vec2>,
     /// Velocities (length per time).
-    pub velocities: Vec<Vec2>,
+    pub(crate) velocities: Vec<Vec2>,
     groups: Vec<MarkerGroup>,
 }
 
@@ -135,21 +135,48 @@ impl Markers {
         self.resize(0);
     }
 
-    /// Whether the lists are as long as the groups together.
-    ///
-    /// # Errors
-    /// A list that has been made longer or shorter.
-    pub fn check(&self) -> Result<(), InputError> {
-        let count = self.groups.last().map_or(0, |group| group.range.end);
-        same_length("the positions of the markers", count, self.positions.len())?;
-        same_length("the forces on the markers", count, self.forces.len())?;
-        same_length("the velocities of the markers", count, self.velocities.len())
-    }
-
     fn resize(&mut self, count: usize) {
         for array in [&mut self.positions, &mut self.forces, &mut self.velocities] {
             array.resize(count, Vec2::ZERO);
         }
+    }
+
+    /// Positions (length), not wrapped into the box.
+    #[must_use]
+    pub fn positions(&self) -> &[Vec2] {
+        &self.positions
+    }
+
+    /// The positions to be changed.
+    pub fn positions_mut(&mut self) -> &mut [Vec2] {
+        &mut self.positions
+    }
+
+    /// Forces on the fluid (force, not force per length).
+    #[must_use]
+    pub fn forces(&self) -> &[Vec2] {
+        &self.forces
+    }
+
+    /// The forces to be changed.
+    pub fn forces_mut(&mut self) -> &mut [Vec2] {
+        &mut self.forces
+    }
+
+    /// Velocities (length per time).
+    #[must_use]
+    pub fn velocities(&self) -> &[Vec2] {
+        &self.velocities
+    }
+
+    /// The velocities to be changed.
+    pub fn velocities_mut(&mut self) -> &mut [Vec2] {
+        &mut self.velocities
+    }
+
+    /// Positions, forces and velocities to be changed, at once.
+    pub fn lists_mut(&mut self) -> [&mut [Vec2]; 3] {
+        [&mut self.positions, &mut self.forces, &mut self.velocities]
     }
 
     /// The groups, one a body.

@@ -103,6 +103,8 @@ impl LayerCurves {
         for group in groups {
             for surface in &group.surfaces {
                 let count = at_least("the points of a solid's surface", surface.markers.len(), LEAST_POINTS)?;
+                let largest = surface.markers.iter().map(|(marker, _)| *marker).max().unwrap_or(0);
+                at_least("the markers of a solid with a surface", group.range.len(), largest + 1)?;
                 let absolute = |&(marker, shift): &(usize, i32)| (group.range.start + marker, shift);
                 self.curves.push(curve(surface.markers.iter().map(absolute).collect(), surface.periods, count));
             }
@@ -121,7 +123,6 @@ impl LayerCurves {
 
     /// Takes over positions and forces.
     pub(super) fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
-        markers.check()?;
         for (body, group) in markers.groups().iter().enumerate() {
             for (what, list) in [("the position", &markers.positions), ("the force", &markers.forces)] {
                 let wrong = |v: &Vec2| !(v.x.is_finite() && v.y.is_finite());

@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use stokes_grid::{ChannelStokes, PeriodicStokes};
-use stokes_layers::{Interface, InterfaceFlow};
+use stokes_layers::{Interface, InterfaceFlow, Settings};
 
 use super::*;
 use crate::{CubicQuadratic, MarkerKind, hydrodynamics::SurfaceCurve};
@@ -15,8 +15,7 @@ type Flow<S> = ImmersedLayers<S, CubicQuadratic>;
 fn channel(length: f64, h: f64) -> Flow<ChannelStokes> {
     let cells = |length: f64| (length / h).round() as usize;
     let solver = ChannelStokes::new(Grid::channel(cells(length), cells(HEIGHT), h).unwrap(), 2.0).unwrap();
-    let settings = Settings { nodes: NODES, tolerance: TOLERANCE, ..Settings::default() };
-    ImmersedLayers::new(solver, CubicQuadratic::default(), settings).unwrap()
+    ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, TOLERANCE).unwrap()
 }
 
 fn circle(centre: Vec2, radius: f64, count: usize) -> Vec<Vec2> {
@@ -148,7 +147,7 @@ fn interfaces_alone_move_as_without_a_grid() {
     let settings = Settings { nodes: NODES, tolerance: TOLERANCE, ..Settings::default() };
     let mut exact = InterfaceFlow::new(geometry, 2.0, settings).unwrap();
     let (positions, forces) = (&markers.positions[..], &markers.forces[..]);
-    exact.load([Interface { positions, forces, period: Vec2::ZERO, viscosity: 2.0 }].into_iter()).unwrap();
+    exact.load([Interface::closed(positions, forces, [2.0; 2])].into_iter()).unwrap();
     exact.solve().unwrap();
     let mut expected = vec![Vec2::ZERO; NODES];
     exact.velocities(0, &mut expected).unwrap();
@@ -196,8 +195,7 @@ fn forces_inside_leave_the_area_of_a_solid() {
 #[test]
 fn a_box_has_them_too() {
     let solver = PeriodicStokes::new(Grid::periodic(40, 60, 0.1).unwrap(), 2.0).unwrap();
-    let settings = Settings { nodes: NODES, ..Settings::default() };
-    let mut flow = ImmersedLayers::new(solver, CubicQuadratic::default(), settings).unwrap();
+    let mut flow = ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, TOLERANCE).unwrap();
     let mut markers = droplet_and_disc(0.1, 0.2);
     let [largest, difference] = asymmetry(&mobility(&mut flow, &mut markers));
     assert!(difference < 1e-13 * largest, "{difference:e} of {largest:e}");
@@ -218,8 +216,12 @@ fn what_has_no_layers_is_refused() {
     assert!(few.contains("markers of an interface"), "{few}");
     let few = refused(MarkerKind::Points, 20, 10);
     assert!(few.contains("points of a solid's surface"), "{few}");
+    let mut beyond = droplet_and_disc(0.3, 0.2);
+    beyond.positions[NODES + 50].y = 4.0;
+    let error = channel(4.0, 0.2).velocities(&mut beyond).unwrap_err();
+    assert!(matches!(error, FlowError::BeyondWall { body: 1, marker: 50, .. }), "{error}");
     let moved = Grid::channel(20, 20, 0.2).unwrap().with_origin([0.0; 2]).unwrap();
     let solver = ChannelStokes::new(moved, 1.0).unwrap();
-    let error = ImmersedLayers::new(solver, CubicQuadratic::default(), Settings::default()).unwrap_err();
+    let error = ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, TOLERANCE).unwrap_err();
     assert!(error.to_string().contains("middle"), "{error}");
 }

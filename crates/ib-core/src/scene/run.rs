@@ -308,18 +308,18 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
             return Err(SceneError::NoErrorEstimate { integrator });
         }
         self.step.check()?;
-        let step = match self.step {
+        let least = length / MOST_STEPS;
+        match self.step {
             StepSize::Fixed(dt) => {
                 self.scene.check_step(dt)?;
-                Some(dt)
+                within("the time step", dt, least, f64::INFINITY)?;
             }
             StepSize::OfLimit(_) | StepSize::Adaptive { .. } => {
                 self.check_limit()?;
-                self.limit().map(|(dt, ..)| dt)
+                if let Some((dt, reason, body)) = self.limit().filter(|(dt, ..)| dt.is_nan() || *dt < least) {
+                    return Err(SceneError::StepTooShort { dt, least, reason, body });
+                }
             }
-        };
-        if let Some(dt) = step {
-            within("the time step at the start of the run", dt, length / MOST_STEPS, f64::INFINITY)?;
         }
         Ok(())
     }

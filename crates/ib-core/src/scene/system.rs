@@ -140,7 +140,10 @@ impl<H: Hydrodynamics> System<H> {
 
     /// What the scene is made of, besides its bodies and its domain.
     pub(crate) fn properties(&self) -> Vec<(String, f64)> {
-        let mut properties = vec![("the exterior viscosity", self.hydrodynamics.discretisation().viscosity)];
+        let discretisation = self.hydrodynamics.discretisation();
+        let mut properties = vec![("the exterior viscosity", discretisation.viscosity)];
+        let nodes = discretisation.shape_modes.map(|nodes| ("the number of nodes of an interface", nodes as f64));
+        properties.extend(nodes);
         properties.extend(self.hydrodynamics.drive().map(|drive| match drive {
             Drive::ZeroGradient => ("the imposed pressure gradient", 0.0),
             Drive::Gradient(gradient) => ("the imposed pressure gradient", gradient),

@@ -168,8 +168,7 @@ impl Setup {
     fn coupled(&self, grid: &GridMethod, solver: Box<dyn StokesSolver>) -> Result<AnyFlow, SetupError> {
         let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
         Ok(if let Some(IntegralMethod { nodes, .. }) = grid.layers {
-            let settings = Settings { nodes, tolerance: LAYER_TOLERANCE, ..Settings::default() };
-            Box::new(ImmersedLayers::new(solver, grid.kernel, settings)?)
+            Box::new(ImmersedLayers::new(solver, grid.kernel, nodes, LAYER_TOLERANCE)?)
         } else if differs && grid.contrast == Contrast::Arithmetic {
             Box::new(SmearedContrast::new(solver, grid.kernel)?)
         } else if grid.corrected {

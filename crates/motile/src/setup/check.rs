@@ -269,6 +269,9 @@ impl DropletSetup {
         checked.finite("particles.activity", particles.activity)?;
         checked.not_negative("particles.diffusion", particles.diffusion)?;
         checked.positive("particles.concentration", particles.concentration)?;
+        let (key, tension) = ("particles.activity", particles.activity * particles.concentration);
+        let remedy = "the tension that it makes at the mean concentration is not finite: give less";
+        checked.require(tension.is_finite(), key, particles.activity, remedy)?;
         match particles.excluded_volume {
             Exclusion::None => {}
             Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,

@@ -67,6 +67,12 @@ fn what_makes_no_scene_is_refused_with_its_key() {
         ("method.integral.cells", nodes(64, usize::MAX)),
         ("method.grid.spacing = 0.07: a length of 6 is not a whole number", grid(GridMethod::of_spacing(0.07))),
         ("method.grid.spacing = 0.0000001: a length of 6 would take", grid(GridMethod::of_spacing(1e-7))),
+        ("method.grid.spacing = 0.1: a length of 1000 would take 10000 cells, 1.0e8 in all", {
+            Setup { region: Region::Box { lengths: [1e3; 2] }, ..grid(coarse) }
+        }),
+        ("droplets[0].particles.start.perturbed.amplitude = 1: give a number from 0 to below 1", {
+            with(Particles { start: Start::Perturbed { amplitude: 1.0, seed: 1 }, ..Particles::default() })
+        }),
         ("method.grid.marker-spacing = 0.0000000001", grid(GridMethod { marker_spacing: Some(1e-10), ..coarse })),
         ("region = plane", Setup { region: Region::Plane, ..grid(coarse) }),
         ("method = integral: solids need a grid", Setup { method: Method::default(), ..elastic(3.0, Surface::Plain) }),
@@ -86,6 +92,10 @@ fn what_makes_no_scene_is_refused_with_its_key() {
     for (start, setup) in cases {
         assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
     }
+    // One droplet with equally spaced markers is enough for a correction.
+    let thesis = DropletSetup { centre: [-1.5, 0.0], ..DropletSetup::thesis() };
+    let default = DropletSetup { centre: [1.5, 0.0], ..DropletSetup::default() };
+    assert!(Setup { droplets: vec![thesis, default], ..grid(coarse) }.check().is_ok());
 }
 
 #[test]
@@ -139,6 +149,10 @@ fn solids_that_make_no_scene_are_refused() {
         }),
         ("solids[0].mesh-spacing = 0", SolidSetup { mesh_spacing: Some(0.0), ..wall.clone() }),
         ("solids[0].outline.wall-below.straight.width", SolidSetup { mesh_spacing: Some(1e-9), ..wall.clone() }),
+        // Too many points along the channel, not across it.
+        ("solids[0].outline.wall-below.straight.width = 6: with points 0.00005", {
+            SolidSetup { mesh_spacing: Some(5.5e-5), ..wall.clone() }
+        }),
         ("solids[0].outline.wall-below.straight.width = 5", {
             SolidSetup { outline: SolidOutline::WallBelow(ChannelShape::Straight { width: 5.0 }), ..wall.clone() }
         }),

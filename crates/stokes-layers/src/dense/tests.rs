@@ -84,3 +84,43 @@ fn what_cannot_be_is_refused_before_memory_is_taken() {
     let error = layer.build(&vec![curve; 11]).unwrap_err();
     assert!(matches!(error, LayerError::Input(InputError::OutOfRange { value: 11_000.0, .. })), "{error}");
 }
+
+/// Nodes of a circle of radius one about the middle of a region.
+fn circle(layer: &DoubleLayerMatrix, nodes: usize, contrast: f64) -> NodeCurve {
+    let angle = |k: usize| std::f64::consts::TAU * k as f64 / nodes as f64;
+    let positions: Vec<Vec2> = (0..nodes).map(|k| Vec2::new(angle(k).cos(), 1.5 + angle(k).sin())).collect();
+    let mut curve = NodeCurve::default();
+    curve.load(layer, 0, [1.0 + contrast, 1.0], &positions).unwrap();
+    curve
+}
+
+#[test]
+fn growth_is_multiplied_by_the_mean_viscosity() {
+    // So large a box is the plane but for the ratio of areas.
+    let mut layer = DoubleLayerMatrix::new(Geometry::Box { lengths: [4e3; 2] }, 1.5, 1e-3).unwrap();
+    for (contrast, expected) in [(-0.8, 0.6), (-0.1, 0.95), (3.0, 4.0)] {
+        let curves = [circle(&layer, 64, contrast)];
+        layer.build(&curves).unwrap();
+        let normals = curves[0].normals.iter().zip(&curves[0].weights).map(|(n, w)| n / *w);
+        let normals: Vec<Vec2> = normals.collect();
+        let v: Vec<f64> = normals.iter().map(|n| n.x).chain(normals.iter().map(|n| n.y)).collect();
+        let mut out = vec![0.0; 128];
+        layer.product(&curves, &v, &mut out);
+        for (out, v) in out.iter().zip(&v) {
+            assert!((out - expected * v).abs() < 1e-5, "{contrast}: {out} {v}");
+        }
+    }
+}
+
+#[test]
+fn lengths_and_areas_of_curves_are_of_fourth_order() {
+    let layer = layers()[0].clone();
+    let errors = [16, 32, 64].map(|nodes| {
+        let curve = circle(&layer, nodes, 1.0);
+        [curve.perimeter() - std::f64::consts::TAU, curve.area - std::f64::consts::PI].map(f64::abs)
+    });
+    for pair in errors.windows(2) {
+        let orders = [0, 1].map(|k| (pair[0][k] / pair[1][k]).log2());
+        assert!(orders.iter().all(|order| (order - 4.0).abs() < 0.1), "{orders:?} {errors:?}");
+    }
+}

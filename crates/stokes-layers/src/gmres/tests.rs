@@ -55,3 +55,43 @@ fn tells_when_it_has_not_converged() {
     assert_eq!(outcome.iterations, 90);
     assert!(outcome.residual > 0.5);
 }
+
+/// A shift of the entries, which takes as many products as there are entries: the first cycle may use products that are
+/// less exact as the residual falls, those after it may not.
+#[test]
+fn only_the_first_cycle_relies_on_products_that_are_not_exact() {
+    let mut accuracies = Vec::new();
+    let product = |x: &[f64], out: &mut [f64], accuracy: f64| {
+        accuracies.push(accuracy);
+        out[1..].copy_from_slice(&x[..199]);
+        out[0] = x[199];
+    };
+    let mut b = vec![0.0; 200];
+    b[0] = 1.0;
+    let outcome = Gmres::default().solve(product, &b, &mut vec![0.0; 200], 1e-3, 100);
+    assert_eq!(outcome.iterations, 100);
+    // The residual of the guess, a cycle, the residual again.
+    assert!(accuracies[1..=BASIS].iter().all(|&accuracy| (accuracy - 1e-3).abs() < 1e-15), "{accuracies:?}");
+    assert_eq!(accuracies[BASIS + 1], 1e-3);
+    assert_eq!(accuracies[BASIS + 2..102], vec![0.0; 40]);
+}
+
+#[test]
+fn recycled_directions_invert_the_matrix_on_their_images() {
+    let len = 12;
+    let matrix = |x: &[f64]| -> Vec<f64> {
+        (0..len).map(|i| 2.0 * x[i] + (0..len).map(|j| ((3 * i + 5 * j) as f64).sin() * x[j]).sum::<f64>()).collect()
+    };
+    let directions: Vec<Vec<f64>> =
+        (1..=5).map(|k| (0..len).map(|i| 1.0 + (0.3 * (k * i) as f64).cos()).collect()).collect();
+    let images: Vec<Vec<f64>> = directions.iter().map(|u| matrix(u)).collect();
+    let mut recycled = Recycled::default();
+    recycled.fit(len);
+    recycled.renew(&mut directions.concat(), &images.concat());
+    for (direction, image) in directions.iter().zip(&images) {
+        let mut out = vec![0.0; len];
+        recycled.apply(image, &mut out);
+        let error = out.iter().zip(direction).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-9, "{error:e}");
+    }
+}

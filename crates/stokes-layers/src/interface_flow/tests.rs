@@ -82,6 +82,26 @@ fn rigid_motions_and_flux() {
     }
 }
 
+/// Incompressible flow has no uniform growth: with less viscous fluid inside it is multiplied by the mean viscosity.
+#[test]
+fn growth_of_a_circle_has_the_eigenvalue_one() {
+    let angle = |k: usize| std::f64::consts::TAU * k as f64 / NODES as f64;
+    let circle: Vec<Vec2> = (0..NODES).map(|k| Vec2::new(angle(k).cos(), angle(k).sin())).collect();
+    for (viscosity, expected) in [(1e-3, 1.0), (0.5, 1.0), (3.0, 1.5)] {
+        let settings = Settings { nodes: NODES, tolerance: 1e-14, ..Settings::default() };
+        let mut flow = InterfaceFlow::new(Geometry::Plane, 1.0, settings).unwrap();
+        flow.load(std::iter::once(Interface::closed(&circle, &circle, [viscosity, 1.0]))).unwrap();
+        flow.solve().unwrap();
+        let InterfaceFlow { layers, contrasts, scales, normals, deflation, .. } = &mut flow;
+        let operator = Operator { contrasts, scales, normals, deflation };
+        let mut out = vec![0.0; 2 * NODES];
+        operator.apply(layers, normals, 1e-14, &mut out);
+        for (out, normal) in out.iter().zip(normals.iter()) {
+            assert!((out - expected * normal).abs() < 1e-12, "{viscosity}: {out} {normal}");
+        }
+    }
+}
+
 /// An open interface in a channel, fluid of a viscosity above or below it, with a pressure gradient.
 fn two_fluids(shape: impl Fn(f64) -> Vec2, direction: f64, inside: f64, nodes: usize) -> InterfaceFlow {
     let forcing = Forcing::Gradient(-1.0);

@@ -57,8 +57,8 @@ impl CostScene {
                 let step = 12.0 / columns as f64;
                 let y = step * (j as f64 + 0.5);
                 let y = if y < 1.5 { 1.4 + y } else { 0.1 - y };
-                markers.positions[droplet + k] = Vec2::new(step * i as f64 - 6.0, y.clamp(-3.0, 3.0));
-                markers.forces[droplet + k] = 1e-4 * Vec2::new((i as f64).sin(), (j as f64).cos());
+                markers.positions_mut()[droplet + k] = Vec2::new(step * i as f64 - 6.0, y.clamp(-3.0, 3.0));
+                markers.forces_mut()[droplet + k] = 1e-4 * Vec2::new((i as f64).sin(), (j as f64).cos());
             }
         }
         const EVALUATIONS: usize = 20;
@@ -67,7 +67,7 @@ impl CostScene {
         flow.velocities(&mut markers)?;
         let before = flow.work();
         for _ in 0..EVALUATIONS {
-            markers.positions[..droplet].iter_mut().for_each(|x| x.x += 0.002);
+            markers.positions_mut()[..droplet].iter_mut().for_each(|x| x.x += 0.002);
             let clock = Instant::now();
             flow.velocities(&mut markers)?;
             best = best.min(clock.elapsed().as_secs_f64());

@@ -65,7 +65,7 @@ fn exact_samples(region: Region, droplet: &Droplet, points: &[Vec2]) -> Result<(
     let mut markers = Markers::new();
     droplet.push_exact(256, &mut markers);
     sample(exact(region, 256)?, &mut markers, points, &mut samples)?;
-    Ok((samples, markers.velocities.iter().map(|v| v.length()).fold(0.0, f64::max)))
+    Ok((samples, markers.velocities().iter().map(|v| v.length()).fold(0.0, f64::max)))
 }
 
 /// The velocities of the flow of a single droplet at points, by boundary integrals.

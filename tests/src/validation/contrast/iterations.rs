@@ -31,14 +31,14 @@ pub fn cold_iterations(region: Region, h: f64, ratio: f64, tolerance: f64) -> Re
     let mut markers = Markers::new();
     let count = (2.0 * TAU / h).round() as usize;
     markers.push_group(count, MarkerKind::Interface { viscosity_inside: Some(ratio) });
-    markers.positions.copy_from_slice(&Curve::circle(1.0)?.translated(Vec2::new(0.013, 0.017)).markers(count)?);
+    markers.positions_mut().copy_from_slice(&Curve::circle(1.0)?.translated(Vec2::new(0.013, 0.017)).markers(count)?);
     for k in 0..count {
         let next = (k + 1) % count;
         let t = TAU * (k as f64 + 0.5) / count as f64;
         let tension = 10.0 + 3.0 * t.cos() + 2.0 * (2.0 * t).cos() + (3.0 * t).cos();
-        let pull = tension * (markers.positions[next] - markers.positions[k]).normalize();
-        markers.forces[k] += pull;
-        markers.forces[next] -= pull;
+        let pull = tension * (markers.positions()[next] - markers.positions()[k]).normalize();
+        markers.forces_mut()[k] += pull;
+        markers.forces_mut()[next] -= pull;
     }
     let report = smeared(region, h, tolerance)?.velocities(&mut markers)?;
     Ok(Iterations { mean: report.iterations as f64, most: report.iterations, residual: report.residual })

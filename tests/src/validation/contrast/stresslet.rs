@@ -52,7 +52,7 @@ impl Exact {
         let errors = markers.groups().iter().enumerate().map(|(index, group)| {
             let (droplet, range, exact) = (&self.droplets[index], group.range.clone(), self.stresslet(index));
             let [positions, forces, velocities] =
-                [&markers.positions, &markers.forces, &markers.velocities].map(|list| &list[range.clone()]);
+                [markers.positions(), markers.forces(), markers.velocities()].map(|list| &list[range.clone()]);
             let state = InterfaceState {
                 markers: positions,
                 forces,

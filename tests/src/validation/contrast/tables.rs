@@ -60,8 +60,14 @@ pub fn ratio_ten(case: Case, h: f64) -> Result<RatioTen, StudyError> {
     let frame = Frame::new(Vec2::ZERO, 0.0)?;
     let state = &shape.markers;
     let viscosities = [10.0, 1.0];
-    let moments =
-        force_moments(&state.positions, &state.forces, &state.velocities, viscosities, Convention::FarField, &frame)?;
+    let moments = force_moments(
+        state.positions(),
+        state.forces(),
+        state.velocities(),
+        viscosities,
+        Convention::FarField,
+        &frame,
+    )?;
     let (mut second, mut third) = (Vec::new(), Vec::new());
     for (i, a) in ["x", "y"].into_iter().enumerate() {
         for (j, b) in ["x", "y"].into_iter().enumerate() {

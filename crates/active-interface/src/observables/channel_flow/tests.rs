@@ -40,7 +40,8 @@ impl Hydrodynamics for Profile {
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
-        for (velocity, position) in markers.velocities.iter_mut().zip(&markers.positions) {
+        let [positions, _, velocities] = markers.lists_mut();
+        for (velocity, position) in velocities.iter_mut().zip(positions) {
             *velocity = Vec2::new(self.u(position.y), 0.0);
         }
         Ok(SolveReport::default())
@@ -167,7 +168,7 @@ fn inside_flux_is_that_of_the_interface() {
         assert_relative_eq!(flow.net(), net_flux(scene.system_mut(), 1.7).unwrap(), max_relative = 2e-3);
         let x = polygon_moments(scene.body(body).unwrap().markers()).unwrap().centroid.x;
         let markers = scene.body(body).unwrap().markers();
-        let through = flux_through_interface(markers, &scene.system().markers().velocities, x);
+        let through = flux_through_interface(markers, scene.system().markers().velocities(), x);
         ((flow.inside - through).abs(), (flow.net() - 1.0).abs())
     });
     assert!(errors[1].0 < 2e-3 && errors[0].0 / errors[1].0 > 3.0, "{errors:?}");

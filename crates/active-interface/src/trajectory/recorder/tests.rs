@@ -36,8 +36,8 @@ impl Hydrodynamics for Wind {
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
         // Only the droplet as a whole is moved, so that it stays round.
-        let centre = markers.positions.iter().sum::<Vec2>() / markers.len() as f64;
-        markers.velocities.fill(self.at(centre));
+        let centre = markers.positions().iter().sum::<Vec2>() / markers.len() as f64;
+        markers.velocities_mut().fill(self.at(centre));
         Ok(SolveReport { mean_pressure_gradient: [-0.5, 0.0], ..SolveReport::default() })
     }
 

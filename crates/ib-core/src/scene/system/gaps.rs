@@ -68,6 +68,10 @@ impl<H: Hydrodynamics> System<H> {
     /// What a user should know of the present state, though a run can go on from it: what the bodies warn of, and films
     /// that the method does not resolve.
     pub fn warnings(&mut self) -> Vec<Warning> {
+        if !self.apart {
+            // No step has looked at the gaps of this state.
+            self.find_gaps();
+        }
         let discretisation = self.hydrodynamics.discretisation();
         let mut warnings: Vec<Warning> = self.bodies.iter().flat_map(|body| body.warnings(&discretisation)).collect();
         let between = self.narrowest.map(|gap| (gap.width, self.name_of(gap.body), self.name_of(gap.other)));

@@ -77,3 +77,15 @@ fn gradient_and_pressure_satisfy_the_stokes_equations() {
     assert!((scale * (east.pressure - west.pressure) + mean - laplacian(0)).abs() < 1e-7);
     assert!((scale * (north.pressure - south.pressure) - laplacian(1)).abs() < 1e-7);
 }
+
+/// The odd part of the walls' equation where a mode is much longer than the channel is wide: (sinh z - z)/2 against its
+/// series, `z^3/12 (1 + z^2/20 + z^4/840 + z^6/60480)`.
+#[test]
+fn long_waves_keep_their_digits() {
+    for z in [1e-4_f64, 1e-3, 1e-2, 0.1] {
+        let series = 1.0 + z.powi(2) / 20.0 + z.powi(4) / 840.0 + z.powi(6) / 60_480.0;
+        let odd = z.powi(3) / 12.0 * series;
+        let found = factors(z, 0.5).odd[1];
+        assert!((found * odd / 0.5 - 1.0).abs() < 1e-13, "{z}: {found}");
+    }
+}
