@@ -172,7 +172,7 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
     fn discretisation(&self) -> Discretisation {
         let grid = self.grid();
         let ([lx, ly], [_, bottom]) = (grid.lengths(), grid.origin());
-        let walls = grid.has_walls().then(|| [bottom, bottom + ly]);
+        let walls = grid.has_walls().then_some([bottom, bottom + ly]);
         Discretisation {
             domain: Domain { origin: grid.origin(), periods: [Some(lx), walls.is_none().then_some(ly)], walls },
             viscosity: self.solver.viscosity(),

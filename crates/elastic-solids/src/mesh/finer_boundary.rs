@@ -63,7 +63,7 @@ impl TriangleMesh {
 /// The middle of a side of a smooth line, from its start: on the cubic through its ends and the ends of the sides before
 /// and after it, with the lengths of the sides as parameter.
 fn middle(before: Vec2, own: Vec2, after: Vec2) -> Vec2 {
-    let [a, b, c] = [before, own, after].map(|side| side.length());
+    let [a, b, c] = [before, own, after].map(Vec2::length);
     let knots = [(-a, -before), (0.0, Vec2::ZERO), (b, own), (b + c, own + after)];
     let at = 0.5 * b;
     let weight = |knot: f64| -> f64 {

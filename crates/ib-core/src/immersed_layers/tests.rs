@@ -35,9 +35,9 @@ fn droplet() -> Markers {
 }
 
 /// A solid of surface points and inner points.
-fn push(markers: &mut Markers, surface: SurfaceCurve, points: Vec<Vec2>) {
+fn push(markers: &mut Markers, surface: SurfaceCurve, points: &[Vec2]) {
     let mut positions = markers.positions.clone();
-    positions.extend_from_slice(&points);
+    positions.extend_from_slice(points);
     markers.push_solid(points.len(), MarkerKind::Points, vec![surface]);
     markers.positions = positions;
 }
@@ -50,7 +50,8 @@ fn droplet_and_disc(gap: f64, lattice: f64) -> Markers {
     let inner = (-rows..=rows).flat_map(|i| (-rows..=rows).map(move |j| place(i, j)));
     let inner = inner.filter(|x| x.length() < 0.7 - 0.8 * lattice).map(|x| x + centre);
     let mut markers = droplet();
-    push(&mut markers, closed(count), circle(centre, 0.7, count).into_iter().chain(inner).collect());
+    let points: Vec<Vec2> = circle(centre, 0.7, count).into_iter().chain(inner).collect();
+    push(&mut markers, closed(count), &points);
     markers
 }
 
@@ -66,7 +67,7 @@ fn droplet_and_walls(gap: f64, length: f64, lattice: f64) -> Markers {
         let inner =
             rows.map(|(row, k)| at(lattice * (k as f64 + 0.5 * f64::from(row % 2)), 0.866 * lattice * f64::from(row)));
         let curve = SurfaceCurve { markers: (0..count).map(|k| (k, 0)).collect(), periods: 1 };
-        push(&mut markers, curve, surface.chain(inner).collect());
+        push(&mut markers, curve, &surface.chain(inner).collect::<Vec<_>>());
     }
     markers
 }
@@ -78,7 +79,7 @@ fn mobility(flow: &mut impl Hydrodynamics, markers: &mut Markers) -> Vec<Vec<f64
         markers.forces.fill(Vec2::ZERO);
         markers.forces[column / 2][column % 2] = 1.0;
         flow.velocities(markers).unwrap();
-        markers.velocities.iter().flat_map(|v| v.to_array()).collect()
+        markers.velocities.iter().flat_map(Vec2::to_array).collect()
     };
     (0..count).map(column).collect()
 }
@@ -86,9 +87,7 @@ fn mobility(flow: &mut impl Hydrodynamics, markers: &mut Markers) -> Vec<Vec<f64
 /// Whether all eigenvalues of a symmetric matrix are above a bound, by Cholesky's decomposition.
 fn eigenvalues_are_above(bound: f64, mut matrix: Vec<Vec<f64>>) -> bool {
     let count = matrix.len();
-    for k in 0..count {
-        matrix[k][k] -= bound;
-    }
+    matrix.iter_mut().enumerate().for_each(|(k, row)| row[k] -= bound);
     for k in 0..count {
         let (above, below) = matrix.split_at_mut(k + 1);
         let row = &above[k];
