@@ -27,7 +27,7 @@ pub use command_line::{run, say};
 pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, OutputFlags, RegionFlags, SceneFlags};
 pub use job::{Job, Watch};
 pub use method_flags::{MethodFlags, Preset, settle_contrast};
-pub use parse::{activity, pair, positive};
+pub use parse::{activity, not_negative, pair, positive};
 pub use passage::{Decided, Passage, Verdict};
 pub use steady::Steadiness;
 pub use summary::{Summary, make_directory};

@@ -100,7 +100,7 @@ pub(crate) fn steps(text: &str) -> Result<usize, String> {
 ///
 /// # Errors
 /// The rule that `text` breaks.
-pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+pub fn not_negative(text: &str) -> Result<f64, String> {
     number(text, "must be a number from 0 to 1e6", |v| v >= 0.0)
 }
 

@@ -112,6 +112,12 @@ impl WatchedRun {
         Ok(self.recorder.finish(self.scene.system_mut())?)
     }
 
+    /// Times and positions of the droplet.
+    #[must_use]
+    pub fn track(&self) -> motile_output::Track {
+        self.recorder.track()
+    }
+
     /// The last of what was measured of the droplet.
     ///
     /// # Errors

@@ -6,6 +6,7 @@
 
 mod channels;
 mod contrast;
+mod curved_walls;
 mod headings;
 mod interfaces;
 mod recommended;
@@ -58,6 +59,7 @@ enum Study {
     InterfaceLateral,
     InterfaceSeveral,
     InterfaceLongRuns,
+    CurvedWalls,
     Solids,
     Cost,
 }
@@ -85,7 +87,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
-    let studies: [(Study, Run); 34] = [
+    let studies: [(Study, Run); 35] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -118,6 +120,7 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
         (Study::InterfaceLateral, interfaces::lateral_modes),
         (Study::InterfaceSeveral, interfaces::several),
         (Study::InterfaceLongRuns, interfaces::long_runs),
+        (Study::CurvedWalls, curved_walls::curved_walls),
         (Study::Solids, solids::solids),
         (Study::Cost, interfaces::cost),
     ];

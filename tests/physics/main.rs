@@ -3,6 +3,7 @@
 mod allocation;
 mod channel;
 mod contrast;
+mod curved_walls;
 mod elastic_walls;
 mod errors;
 mod fixed_shapes;

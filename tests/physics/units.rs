@@ -50,7 +50,8 @@ fn setup(units: Units, scene: Scene) -> Setup {
     let solids = if matches!(scene, Scene::Solids) { walls(units) } else { Vec::new() };
     let repulsion = repulsion.filter(|_| droplets.len() == 2);
     let viscosity = units.viscosity(100.0);
-    Setup { region, method, viscosity, droplets, solids, repulsion, step: StepSize::OfLimit(0.5) }
+    let step = StepSize::OfLimit(0.5);
+    Setup { region, method, viscosity, droplets, solids, rigid: Vec::new(), repulsion, step }
 }
 
 /// Speed, direction, stresslet, aspect ratio and place of the first droplet in the units of the scene, and the steps.

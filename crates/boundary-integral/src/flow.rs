@@ -1,9 +1,11 @@
 //! The flow of interfaces by boundary integrals.
 
+use crate::RigidWall;
 use ib_core::input::positive;
 use ib_core::{
     Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers,
     checkpoint::SavedState,
+    gap::Boundary,
     hydrodynamics::{FlowWork, SolveReport},
 };
 use ib_core::{Vec2, hydrodynamics::MarkerGroup};
@@ -22,6 +24,7 @@ pub struct BoundaryIntegral {
     /// Fastest relaxation, as in [`Discretisation`].
     stiffness: f64,
     work: FlowWork,
+    walls: Boundary,
 }
 
 impl BoundaryIntegral {
@@ -32,7 +35,7 @@ impl BoundaryIntegral {
     pub fn new(geometry: Geometry, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
         let flow = InterfaceFlow::new(geometry, viscosity, settings)?;
         let stiffness = stiffness(settings.nodes, std::f64::consts::TAU);
-        Ok(Self { flow, stiffness, work: FlowWork::default() })
+        Ok(Self { flow, stiffness, work: FlowWork::default(), walls: Boundary::default() })
     }
 
     /// The same solver for interfaces of which the smallest has this perimeter (length): what
@@ -44,6 +47,25 @@ impl BoundaryIntegral {
     pub fn with_reference_perimeter(self, perimeter: f64) -> Result<Self, LayerError> {
         positive("the reference perimeter", perimeter)?;
         Ok(Self { stiffness: stiffness(self.settings().nodes, perimeter), ..self })
+    }
+
+    /// The same between rigid walls and obstacles in a channel ([`InterfaceFlow::with_walls`]), which is wider than
+    /// what they leave. Costs time and memory that grow with the third and second power of the number of their nodes.
+    ///
+    /// # Errors
+    /// Another region than a channel; more than 3000 nodes in all; walls beyond those of the channel; walls that cross
+    /// or touch.
+    pub fn with_walls(self, walls: &[RigidWall]) -> Result<Self, LayerError> {
+        let flow = self.flow.with_walls(walls.iter().map(RigidWall::curve))?;
+        let mut boundary = Boundary::default();
+        walls.iter().for_each(|wall| wall.add_to(&mut boundary));
+        boundary.sort();
+        Ok(Self { flow, walls: boundary, ..self })
+    }
+
+    /// Forces of the rigid walls on the fluid (force), in their order, from the last evaluation.
+    pub fn wall_forces(&self) -> impl Iterator<Item = Vec2> {
+        self.flow.wall_forces()
     }
 
     /// The geometry.
@@ -97,6 +119,10 @@ impl Hydrodynamics for BoundaryIntegral {
             Forcing::Gradient(gradient) => Drive::Gradient(gradient),
             Forcing::Flux(flux) => Drive::Flux(flux),
         })
+    }
+
+    fn walls(&self) -> Option<&Boundary> {
+        if self.walls.is_empty() { None } else { Some(&self.walls) }
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -11,7 +11,7 @@ use stokes_grid::Drive;
 pub use stokes_grid::SolveReport;
 pub use stokes_layers::{FlowSample, Vec2};
 
-use crate::{FlowError, MobilityDeficit, checkpoint::SavedState};
+use crate::{FlowError, MobilityDeficit, checkpoint::SavedState, gap::Boundary};
 
 /// The region that the fluid fills.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -86,6 +86,12 @@ pub trait Hydrodynamics: std::fmt::Debug + Send {
         None
     }
 
+    /// The rigid walls and obstacles at rest that there are besides the straight walls of the domain, sorted, with what
+    /// is rigid to the left of their sides; by default none.
+    fn walls(&self) -> Option<&Boundary> {
+        None
+    }
+
     /// Fills `markers.velocities` from `markers.positions` and `markers.forces`.
     ///
     /// # Errors
@@ -130,6 +136,10 @@ impl<H: Hydrodynamics + ?Sized> Hydrodynamics for Box<H> {
 
     fn drive(&self) -> Option<Drive> {
         self.as_ref().drive()
+    }
+
+    fn walls(&self) -> Option<&Boundary> {
+        self.as_ref().walls()
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

@@ -3,7 +3,10 @@
 use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
 use motile::ib_core::{FlowSample, Hydrodynamics, System};
 
-use crate::{Error, Raster, SolidShape, Vec2, solids::solid_shape};
+use crate::{
+    Error, Raster, SolidShape, Vec2,
+    solids::{rigid_shape, solid_shape},
+};
 
 /// A droplet at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,9 +30,9 @@ pub struct Snapshot {
     pub flow: Vec<FlowSample>,
     /// The droplets, in the order of addition.
     pub droplets: Vec<DropletOutline>,
-    /// The elastic solids, in the order of addition.
+    /// The elastic solids, in the order of addition, and rigid walls and obstacles as one more.
     pub solids: Vec<SolidShape>,
-    /// Heights of rigid walls (length).
+    /// Heights of straight rigid walls (length).
     pub walls: Option<[f64; 2]>,
 }
 
@@ -47,13 +50,15 @@ impl Snapshot {
             let concentration = at_markers(droplet.concentrations());
             Ok(DropletOutline { concentration, centroid: polygon_moments(&markers)?.centroid, markers })
         };
+        let walls = system.hydrodynamics().discretisation().domain.walls;
+        let rigid = system.hydrodynamics().walls().map(|boundary| rigid_shape(boundary, walls));
         Ok(Self {
             time: system.time(),
             raster,
             flow,
             droplets: system.bodies().map(shape).collect::<Result<_, Error>>()?,
-            solids: system.bodies().map(|(_, solid)| solid_shape(solid)).collect(),
-            walls: system.hydrodynamics().discretisation().domain.walls,
+            solids: system.bodies().map(|(_, solid)| solid_shape(solid)).chain(rigid).collect(),
+            walls,
         })
     }
 

@@ -1,7 +1,7 @@
 //! What is seen of the elastic solids of a scene.
 
 use motile::elastic_solids::{Solid, channel::width_between, solid::Deformation};
-use motile::ib_core::gap::SolidGap;
+use motile::ib_core::gap::{Boundary, SolidGap};
 use motile::ib_core::{Hydrodynamics, System};
 
 use crate::{Error, SolidShape, Vec2};
@@ -42,6 +42,37 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
     if !around.is_empty() {
         shape.area.push(around);
     }
+    shape
+}
+
+/// Rigid walls and obstacles; those that are open reach to the straight walls behind them.
+pub(crate) fn rigid_shape(boundary: &Boundary, straight: Option<[f64; 2]>) -> SolidShape {
+    let mut shape = SolidShape::default();
+    let mut line: Vec<Vec2> = Vec::new();
+    let mut finish = |line: &mut Vec<Vec2>| {
+        let (Some(&first), Some(&last)) = (line.first(), line.last()) else { return };
+        let mut area = line.clone();
+        if let Some([below, above]) = straight.filter(|_| first.distance(last) > 1e-6 * (last - first).x.abs()) {
+            // What is rigid is to the left.
+            let behind = if last.x > first.x { above } else { below };
+            area.extend([Vec2::new(last.x, behind), Vec2::new(first.x, behind), first]);
+        }
+        shape.area.push(area);
+        shape.edges.push(std::mem::take(line));
+    };
+    for &[start, end] in boundary.sides() {
+        // Sides follow each other to the right or to the left.
+        let follows = |end: Vec2, start: Vec2| end.distance_squared(start) < 1e-20;
+        match (line.first().copied(), line.last().copied()) {
+            (_, Some(last)) if follows(last, start) => line.push(end),
+            (Some(first), _) if follows(end, first) => line.insert(0, start),
+            _ => {
+                finish(&mut line);
+                line.extend([start, end]);
+            }
+        }
+    }
+    finish(&mut line);
     shape
 }
 

@@ -12,6 +12,8 @@ use crate::{CsvTable, Error, SolidMeter, Track};
 /// are those up to rigid walls.
 const BETWEEN_WALLS: [&str; 4] = ["gap", "pressure_gradient", "net_flux", "retrograde_flow"];
 const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
+/// And those that walls that are not straight do not have.
+const BETWEEN_STRAIGHT_WALLS: [&str; 2] = ["net_flux", "retrograde_flow"];
 
 /// Records a droplet whenever it is called and writes what it sees to a CSV file.
 ///
@@ -51,16 +53,19 @@ impl TrajectoryCsv {
         system: &mut System<H>,
         droplet: Handle<ActiveDroplet>,
     ) -> Result<Self, Error> {
+        let curved = system.hydrodynamics().walls().is_some();
         let walls = system.hydrodynamics().discretisation().domain.walls.is_some();
         let records = TrajectoryRecorder::new(droplet);
         let solids = SolidMeter::of(system);
-        let records = if walls && solids.is_none() { records.with_gap_flow() } else { records };
+        let records = if walls && !curved && solids.is_none() { records.with_gap_flow() } else { records };
         let mut probe = records.clone();
         probe.observe(system).map_err(Error::Observer)?;
         let entries = probe.records()[0].entries();
         let wanted = |k: &usize| {
             let name = entries[*k].0;
-            (walls || !BETWEEN_WALLS.contains(&name)) && (solids.is_none() || !BETWEEN_RIGID_WALLS.contains(&name))
+            (walls || !BETWEEN_WALLS.contains(&name))
+                && (solids.is_none() || !BETWEEN_RIGID_WALLS.contains(&name))
+                && !(curved && BETWEEN_STRAIGHT_WALLS.contains(&name))
         };
         let columns: Vec<usize> = (0..entries.len()).filter(wanted).collect();
         let mut names: Vec<&str> = columns.iter().map(|&k| entries[k].0).collect();

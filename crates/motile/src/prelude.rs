@@ -2,8 +2,8 @@
 
 pub use crate::{
     AnyFlow, Axis, Built, ChannelShape, Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold,
-    IntegralMethod, MarkerMotion, Material, MeshKind, Method, Particles, Region, RepulsionSetup, Setup, SetupError,
-    SolidOutline, SolidSetup, Squeezed, Start, Surface,
+    IntegralMethod, MarkerMotion, Material, MeshKind, Method, Particles, Region, RepulsionSetup, RigidSetup, Setup,
+    SetupError, SolidOutline, SolidSetup, Squeezed, Start, Surface,
 };
 pub use active_interface::{ActiveDroplet, Curve, Flux};
 pub use elastic_solids::Solid;

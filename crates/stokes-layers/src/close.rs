@@ -19,7 +19,7 @@ use crate::{
 
 mod correction;
 
-pub(crate) use correction::{CloseCorrection, reach};
+pub(crate) use correction::{CloseCorrection, Crossing, reach};
 
 /// Newton iterations before giving up on a preimage.
 const MOST_ITERATIONS: usize = 30;

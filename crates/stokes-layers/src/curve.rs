@@ -295,7 +295,7 @@ impl Curve {
     }
 
     /// Takes over forces at the nodes, x then y.
-    pub(crate) fn set_forces(&mut self, transforms: &mut Transforms, values: &[f64]) {
+    pub(crate) fn set_forces(&mut self, transforms: &mut Transforms, values: &[f64], fine: bool) {
         let (x, y) = values.split_at(self.len());
         for ((force, x), y) in self.nodes.force.iter_mut().zip(x).zip(y) {
             *force = Complex64::new(*x, *y);
@@ -303,9 +303,17 @@ impl Curve {
         self.force.copy_from_slice(transforms.coefficients(values));
         let per_node = 1.0 / self.weight();
         self.force.iter_mut().for_each(|force| *force *= per_node);
+        if fine {
+            self.refine_forces(transforms);
+        }
+    }
+
+    /// Fills the fine nodes, their forces in any case.
+    pub(crate) fn refine_forces(&mut self, transforms: &mut Transforms) {
         if self.refined {
             self.fine.fill_force(&mut transforms.fine, &self.force);
         }
+        self.refine(transforms);
     }
 
     /// Signed area (length squared), positive for a counter-clockwise curve.

@@ -63,6 +63,41 @@ pub enum LayerError {
         /// What is allowed (length).
         allowed: f64,
     },
+    /// Rigid walls in a region that is no channel.
+    #[error("rigid walls and obstacles stand in a channel: give one that is wider than they are")]
+    NoChannel,
+    /// Rigid walls that cross or touch each other, or themselves.
+    #[error("wall {first} crosses or touches wall {second} near ({x}, {y}): leave fluid between them")]
+    WallsCross {
+        /// Number of a wall.
+        first: usize,
+        /// Number of the other one, the same where it crosses itself.
+        second: usize,
+        /// Where, in x.
+        x: f64,
+        /// Where, in y.
+        y: f64,
+    },
+    /// Rigid walls whose forces cannot be found.
+    #[error("the forces on the rigid walls cannot be found: use more nodes, or leave more fluid between the walls")]
+    SingularWalls,
+    /// An interface beyond a rigid wall or in an obstacle.
+    #[error(
+        "node {node} of curve {curve} at ({x}, {y}) is beyond rigid wall {wall}: move it away, use a smaller time \
+         step or more nodes"
+    )]
+    CrossesWall {
+        /// Number of the interface.
+        curve: usize,
+        /// Number of its node, or of the wall's.
+        node: usize,
+        /// Its x coordinate.
+        x: f64,
+        /// Its y coordinate.
+        y: f64,
+        /// Number of the wall.
+        wall: usize,
+    },
     /// The solution for a viscosity contrast did not converge.
     #[error("the solution stopped at a residual of {residual:e} after {iterations} iterations, above {tolerance:e}")]
     NoConvergence {

@@ -1,17 +1,22 @@
 //! The flow of fluid interfaces: velocities on them from the forces on them, for any viscosity inside and outside.
 
+mod rigid;
+
 use std::f64::consts::PI;
 
 use input_checks::{positive, same_length, within};
 use num_complex::Complex64;
 
 use crate::{
-    Geometry, LayerError, Settings, Vec2,
-    curve::GivenCurve,
+    Forcing, Geometry, LayerError, Settings, Vec2,
+    close::Crossing,
+    curve::{Curve, GivenCurve},
     gmres::{Gmres, Outcome},
     greens::{Flow, Vectors},
-    layer::{Density, Kept, Layers},
+    layer::{Density, Layers},
+    single_layer::LayerCurve,
 };
+use rigid::RigidWalls;
 
 const FOUR_PI: f64 = 4.0 * PI;
 /// Largest ratio of the periods of a box.
@@ -117,6 +122,9 @@ pub struct InterfaceFlow {
     /// Unit normals at the nodes, as velocities.
     normals: Vec<f64>,
     deflation: Vec<f64>,
+    rigid: Option<Box<RigidWalls>>,
+    /// Whether the interfaces are known to lie between the walls.
+    placed: bool,
 }
 
 impl InterfaceFlow {
@@ -146,6 +154,50 @@ impl InterfaceFlow {
             right: Vec::new(),
             normals: Vec::new(),
             deflation: Vec::new(),
+            rigid: None,
+            placed: true,
+        })
+    }
+
+    /// The same between rigid walls and obstacles at rest in a channel, in place of those that there were: open walls
+    /// with the fluid on their left, that are the sides of a channel of another shape, and closed ones,
+    /// counter-clockwise, around which it flows. They are a single layer whose forces f cancel the velocity on them,
+    ///
+    /// ```text
+    /// 1/(4 pi eta) [INT G f ds over walls  +  layers of the interfaces]  +  forced flow  =  0    on walls
+    /// ```
+    ///
+    /// with the Green's function G of the straight channel around them. The matrix of this equation is factorised here,
+    /// once; a uniform pressure behind a wall, which moves nothing, is taken out of f. A given flux is that between
+    /// the walls, without what a pressure gradient drives behind them.
+    ///
+    /// # Errors
+    /// Another region than a channel; what [`crate::SingleLayer::load`] refuses; more than 3000 nodes; walls that cross
+    /// or touch.
+    pub fn with_walls<'a>(mut self, walls: impl Iterator<Item = LayerCurve<'a>> + Clone) -> Result<Self, LayerError> {
+        let Geometry::Channel { length, width, forcing } = self.geometry else { return Err(LayerError::NoChannel) };
+        // What is forced is the flow between the walls.
+        let geometry = Geometry::Channel { length, width, forcing: Forcing::Gradient(0.0) };
+        self.layers = Layers::new(geometry, self.settings.tolerance, false);
+        let rigid = RigidWalls::new(&mut self.layers, [length, width], forcing, self.viscosity, walls)?;
+        self.rigid = Some(Box::new(rigid));
+        self.placed = false;
+        Ok(self)
+    }
+
+    /// Forces of the walls on the fluid from the last solution (force), wall by wall as many as there are; what a
+    /// pressure gradient does behind open walls is part of them.
+    pub fn wall_forces(&self) -> impl Iterator<Item = Vec2> {
+        let walls = self.rigid.as_ref().map(|rigid| &rigid.forces);
+        let first = self.layers.kept.first;
+        walls.into_iter().flat_map(move |forces| {
+            (first..self.layers.curves.len()).map(move |wall| {
+                let start = self.layers.entries(first).start;
+                let entries = self.layers.entries(wall);
+                let (x, y) = forces.as_slice()[entries.start - start..entries.end - start]
+                    .split_at(self.layers.curves[wall].len());
+                Vec2::new(x.iter().sum(), y.iter().sum())
+            })
         })
     }
 
@@ -170,19 +222,19 @@ impl InterfaceFlow {
     /// Number of interfaces.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.layers.curves.len()
+        self.layers.kept.first
     }
 
     /// Whether there are no interfaces.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.layers.curves.is_empty()
+        self.len() == 0
     }
 
     /// Length of an interface (length), none where there is no interface of that number.
     #[must_use]
     pub fn perimeter(&self, interface: usize) -> Option<f64> {
-        self.layers.curves.get(interface).map(crate::curve::Curve::perimeter)
+        self.layers.curves[..self.len()].get(interface).map(Curve::perimeter)
     }
 
     /// Takes over interfaces, truncated to the modes that the nodes carry.
@@ -209,7 +261,50 @@ impl InterfaceFlow {
         let nodes = self.settings.nodes;
         let given =
             |Interface { positions, forces, period, .. }| GivenCurve { positions, forces: Some(forces), period, nodes };
-        self.layers.load(interfaces.map(given), Kept { first: usize::MAX, among: false })
+        let before = self.len();
+        self.layers.load(interfaces.map(given), false)?;
+        if self.rigid.is_some() && !(self.placed && before == self.len()) {
+            self.placed = false;
+            self.check_places()?;
+            self.placed = true;
+        }
+        Ok(())
+    }
+
+    /// Refuses interfaces beyond walls.
+    fn check_places(&self) -> Result<(), LayerError> {
+        let (interfaces, walls) = self.layers.curves.split_at(self.len());
+        for (curve, interface) in interfaces.iter().enumerate() {
+            for (node, z) in interface.nodes.position.iter().enumerate() {
+                let place = z + interface.centre;
+                let left = |wall: &Curve| wall.winds_around(self.geometry.images().wrap(place - wall.centre));
+                if let Some(wall) = walls.iter().position(|wall| left(wall) != wall.is_open()) {
+                    return Err(LayerError::CrossesWall { curve, node, x: place.re, y: place.im, wall });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Computes the single layer of the interfaces, at walls too.
+    fn single_layer(&mut self, contrast: bool) -> Result<(), LayerError> {
+        self.layers.single_layer(contrast);
+        self.layers.crossing().map_or(Ok(()), |Crossing { curve, node, wall }| {
+            let Complex64 { re: x, im: y } = self.layers.curves[curve].centre;
+            Err(LayerError::CrossesWall { curve, node, x, y, wall: wall - self.len() })
+        })
+    }
+
+    /// After the response to the single layer, finds the forces of walls and the pressure gradient for velocities on
+    /// the interfaces.
+    fn settle_walls(&mut self) {
+        let Self { layers, rigid: Some(rigid), contrasts, velocities, settings, .. } = self else { return };
+        if contrasts.iter().any(|contrast| *contrast != 0.0) {
+            let density = Density { values: velocities, contrasts };
+            layers.double_layer(density, settings.tolerance);
+            rigid.respond(layers, layers.dipole_moment(density), false);
+            rigid.combine();
+        }
     }
 
     /// Solves for the velocities on the interfaces.
@@ -225,9 +320,18 @@ impl InterfaceFlow {
         let contrast = self.contrasts.iter().any(|contrast| *contrast != 0.0);
         // Right-hand side and guess: the single layer and the forced flow over the mean viscosity.
         self.right.clear();
-        self.layers.single_layer(contrast);
+        self.single_layer(contrast)?;
         for (Vectors { x, y }, scale) in self.layers.flow().iter().zip(&self.scales) {
             self.right.extend(x.iter().chain(y).map(|value| value / FOUR_PI * scale));
+        }
+        if let Some(rigid) = &mut self.rigid {
+            let moment = self.layers.force_moment(0..self.layers.kept.first);
+            rigid.respond(&mut self.layers, moment, true);
+            let flow = self.layers.flow().iter().zip(&self.scales);
+            let response = flow.flat_map(|(Vectors { x, y }, scale)| x.iter().chain(y).map(move |u| (u, scale)));
+            for (value, (u, scale)) in self.right.iter_mut().zip(response) {
+                *value += u / FOUR_PI * scale;
+            }
         }
         for (index, (curve, scale)) in self.layers.curves.iter().zip(&self.scales).enumerate() {
             let right = &mut self.right[2 * nodes * index..][..nodes];
@@ -247,8 +351,12 @@ impl InterfaceFlow {
             outcome = self.solve_contrast().inspect_err(|_| self.solution.clear())?;
         }
         self.velocities.clone_from(&self.solution);
-        let density = Density { values: &self.velocities, contrasts: &self.contrasts };
         let Outcome { iterations, residual } = outcome;
+        self.settle_walls();
+        if let Some(rigid) = &self.rigid {
+            return Ok(Solution { iterations, residual, pressure_gradient: rigid.gradient });
+        }
+        let density = Density { values: &self.velocities, contrasts: &self.contrasts };
         Ok(Solution { iterations, residual, pressure_gradient: self.layers.pressure_gradient(density, self.viscosity) })
     }
 
@@ -270,10 +378,10 @@ impl InterfaceFlow {
             self.normals.extend(curve.nodes.tangent.iter().map(|t| -t.re / t.norm_sqr().sqrt()));
         }
         goal = goal.max(1e-15);
-        let Self { gmres, layers, contrasts, scales, right, solution, normals, deflation, .. } = self;
+        let Self { gmres, layers, rigid, contrasts, scales, right, solution, normals, deflation, .. } = self;
         let operator = Operator { contrasts, scales, normals, deflation };
         let product = |v: &[f64], out: &mut [f64], accuracy: f64| {
-            operator.apply(layers, v, accuracy.max(tolerance), out);
+            operator.apply(layers, rigid.as_deref_mut(), v, accuracy.max(tolerance), out);
         };
         let outcome = gmres.solve(product, right, solution, goal, most_iterations);
         let Outcome { iterations, residual } = outcome;
@@ -291,7 +399,7 @@ impl InterfaceFlow {
     /// No such interface or no solution for it, another number of points, velocities that are not finite.
     pub fn velocities(&mut self, interface: usize, out: &mut [Vec2]) -> Result<(), LayerError> {
         let nodes = self.settings.nodes;
-        let expected = self.layers.curves.get(interface).map_or(0, |curve| curve.points);
+        let expected = self.layers.curves[..self.len()].get(interface).map_or(0, |curve| curve.points);
         same_length("the velocities of an interface", expected, out.len())?;
         same_length("the solution", 2 * nodes * self.len(), self.velocities.len())?;
         self.layers.plan(interface).transforms.at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out);
@@ -304,7 +412,7 @@ impl InterfaceFlow {
     /// No such interface, another number of points, velocities that are not finite.
     pub fn set_velocities(&mut self, interface: usize, values: &[Vec2]) -> Result<(), LayerError> {
         let nodes = self.settings.nodes;
-        let expected = self.layers.curves.get(interface).map_or(0, |curve| curve.points);
+        let expected = self.layers.curves[..self.len()].get(interface).map_or(0, |curve| curve.points);
         same_length("the velocities of an interface", expected, values.len())?;
         finite_vectors("the velocity", interface, values)?;
         self.velocities.resize(2 * nodes * self.len(), 0.0);
@@ -324,10 +432,25 @@ impl InterfaceFlow {
         same_length("out", points.len(), out.len())?;
         finite_vectors("the position", 0, points)?;
         same_length("the solution", 2 * self.settings.nodes * self.len(), self.velocities.len())?;
-        let Self { layers, viscosities, contrasts, velocities, .. } = self;
+        if self.rigid.is_some() {
+            self.single_layer(self.contrasts.iter().any(|contrast| *contrast != 0.0))?;
+            let moment = self.layers.force_moment(0..self.layers.kept.first);
+            if let Some(rigid) = &mut self.rigid {
+                rigid.respond(&mut self.layers, moment, true);
+            }
+            self.settle_walls();
+        }
+        let Self { layers, rigid, viscosities, contrasts, velocities, .. } = self;
+        if let Some(rigid) = rigid {
+            layers.set_kept(rigid.forces.as_slice(), true);
+            layers.set_gradient(rigid.gradient);
+        }
         let density = Density { values: velocities, contrasts };
         let viscosity = |inside: Option<usize>| inside.map_or(self.viscosity, |interface| viscosities[interface]);
         flow_samples(layers, density, points, out, viscosity);
+        if rigid.is_some() {
+            layers.set_gradient(0.0);
+        }
         Ok(())
     }
 
@@ -355,11 +478,12 @@ struct Operator<'a> {
 
 impl Operator<'_> {
     /// `out = v + scale/(4 pi) double layer + deflation`.
-    fn apply(&self, layers: &mut Layers, v: &[f64], accuracy: f64, out: &mut [f64]) {
+    fn apply(&self, layers: &mut Layers, rigid: Option<&mut RigidWalls>, v: &[f64], accuracy: f64, out: &mut [f64]) {
         let density = Density { values: v, contrasts: self.contrasts };
         let nodes = density.nodes();
         layers.double_layer(density, accuracy);
-        for (index, (curve, sum)) in layers.curves.iter().zip(layers.flow()).enumerate() {
+        let interfaces = layers.curves[..self.contrasts.len()].iter().zip(layers.flow());
+        for (index, (curve, sum)) in interfaces.enumerate() {
             let range = 2 * nodes * index..2 * nodes * (index + 1);
             let (x, y) = out[range.clone()].split_at_mut(nodes);
             let (vx, vy) = density.of(index);
@@ -375,6 +499,14 @@ impl Operator<'_> {
             for i in 0..nodes {
                 x[i] = vx[i] + factor * sum.x[i] + growth * nx[i];
                 y[i] = vy[i] + factor * sum.y[i] + growth * ny[i];
+            }
+        }
+        if let Some(rigid) = rigid {
+            rigid.respond(layers, layers.dipole_moment(density), false);
+            for ((values, sum), scale) in out.chunks_exact_mut(2 * nodes).zip(layers.flow()).zip(self.scales) {
+                for (value, u) in values.iter_mut().zip(sum.x.iter().chain(&sum.y)) {
+                    *value += scale / FOUR_PI * u;
+                }
             }
         }
     }

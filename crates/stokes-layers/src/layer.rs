@@ -20,8 +20,8 @@ use std::{
 use num_complex::Complex64;
 
 use crate::{
-    Geometry, LayerError,
-    close::CloseCorrection,
+    Forcing, Geometry, LayerError,
+    close::{CloseCorrection, Crossing},
     curve::{Curve, GivenCurve, REFINEMENT},
     greens::{GreensFunction, Vectors},
     multipole::Multipoles,
@@ -72,7 +72,9 @@ pub(crate) struct Layers {
     /// The first node of each curve among those of all, and their number.
     pub(crate) starts: Vec<usize>,
     /// Curves whose forces come later.
-    kept: Kept,
+    pub(crate) kept: Kept,
+    /// Number of curves at the end that stay as they are when others are loaded.
+    fixed: usize,
     direct: DirectSums,
     multipoles: Multipoles,
     walls: Option<Walls>,
@@ -99,6 +101,7 @@ impl Layers {
             curves: Vec::new(),
             starts: vec![0],
             kept: Kept { first: 0, among: false },
+            fixed: 0,
             direct: DirectSums::default(),
             multipoles: Multipoles::new(geometry, tolerance),
             walls,
@@ -109,7 +112,13 @@ impl Layers {
         }
     }
 
-    /// Takes over curves; the single layers of those of `kept` come later.
+    /// Keeps the present curves as they are when others are loaded, in front of them.
+    pub(crate) fn fix(&mut self) {
+        self.fixed = self.curves.len();
+    }
+
+    /// Takes over curves, in place of all that are not fixed; the single layers of the fixed ones come later, or of all
+    /// of them.
     ///
     /// # Errors
     /// Numbers that are not finite, too few or too many points, a clockwise curve, a curve that goes on by something
@@ -117,27 +126,31 @@ impl Layers {
     pub(crate) fn load<'a>(
         &mut self,
         curves: impl Iterator<Item = GivenCurve<'a>>,
-        kept: Kept,
+        all_later: bool,
     ) -> Result<(), LayerError> {
         let mut count = 0;
+        let mut loaded = self.curves.len() - self.fixed;
         self.starts.truncate(1);
         for (index, given) in curves.enumerate() {
             let plan = Plan::find(&mut self.plans, given.nodes);
-            if index == self.curves.len() {
-                self.curves.push(Curve::new(given.nodes));
-                self.out.push(Vectors::default());
+            if index == loaded {
+                self.curves.insert(index, Curve::new(given.nodes));
+                self.out.insert(index, Vectors::default());
+                loaded += 1;
             } else if self.curves[index].len() != given.nodes {
                 self.curves[index] = Curve::new(given.nodes);
             }
             let curve = &mut self.curves[index];
             curve.plan = plan;
             curve.load(&mut self.plans[plan].transforms, given, &self.geometry, index)?;
-            self.starts.push(self.starts[index] + given.nodes);
             count += 1;
         }
-        self.curves.truncate(count);
-        self.out.truncate(count);
-        self.kept = Kept { first: kept.first.min(count), ..kept };
+        self.curves.drain(count..loaded);
+        self.out.drain(count..loaded);
+        for curve in &self.curves {
+            self.starts.push(self.starts[self.starts.len() - 1] + curve.len());
+        }
+        self.kept = if all_later { Kept { first: 0, among: true } } else { Kept { first: count, among: false } };
         match &mut self.walls {
             Some(walls) => walls.load(&mut self.curves, &mut self.plans),
             None => Ok(()),
@@ -195,7 +208,7 @@ impl Layers {
 
     /// Computes the single layer of forces that came later, at the nodes of their curves, x then y, curve after curve.
     pub(crate) fn kept_layer(&mut self, forces: &[f64]) {
-        self.set_kept(forces);
+        self.set_kept(forces, self.walls.as_ref().is_some_and(Walls::is_refined));
         self.clear();
         let Self { direct, walls, close, curves, plans, out, kept, .. } = self;
         direct.add_kept(curves, plans, *kept, out);
@@ -205,12 +218,19 @@ impl Layers {
         close.add_kept(curves, out);
     }
 
-    /// Takes over forces that come later.
-    pub(crate) fn set_kept(&mut self, forces: &[f64]) {
+    /// Interpolates forces that came later to the fine nodes.
+    pub(crate) fn refine_kept(&mut self) {
+        for curve in &mut self.curves[self.kept.first..] {
+            curve.refine_forces(&mut self.plans[curve.plan].transforms);
+        }
+    }
+
+    /// Takes over forces that come later; at the fine nodes too, where they are asked for.
+    pub(crate) fn set_kept(&mut self, forces: &[f64], fine: bool) {
         let mut first = 0;
         for curve in &mut self.curves[self.kept.first..] {
             let values = &forces[first..first + 2 * curve.len()];
-            curve.set_forces(&mut self.plans[curve.plan].transforms, values);
+            curve.set_forces(&mut self.plans[curve.plan].transforms, values, fine);
             first += values.len();
         }
     }
@@ -246,6 +266,30 @@ impl Layers {
     /// Velocity at height y of the flow that the forcing of a channel drives.
     pub(crate) fn forced_flow(&self, y: f64, viscosity: f64) -> f64 {
         self.walls.as_ref().map_or(0.0, |walls| walls.forced_flow(y, viscosity))
+    }
+
+    /// Drives the flow by a mean pressure gradient (force per volume).
+    pub(crate) fn set_gradient(&mut self, gradient: f64) {
+        if let Some(walls) = &mut self.walls {
+            walls.forcing = Forcing::Gradient(gradient);
+        }
+    }
+
+    /// The two curves and the place where a node lies on the wrong side of a fixed curve, as far as the last single
+    /// layer has seen.
+    pub(crate) fn crossing(&self) -> Option<Crossing> {
+        self.close.crossing()
+    }
+
+    /// What the flux through the channel of the forces of some curves, without a mean pressure gradient, is `1/(2 l eta)`
+    /// times of.
+    pub(crate) fn force_moment(&self, from: Range<usize>) -> f64 {
+        self.walls.as_ref().map_or(0.0, |walls| walls.force_moment(&self.curves[from]))
+    }
+
+    /// The same of a double layer.
+    pub(crate) fn dipole_moment(&self, density: Density<'_>) -> f64 {
+        self.walls.as_ref().map_or(0.0, |walls| walls.dipole_moment(&self.curves, density))
     }
 
     /// Mean pressure gradient along x (force per volume).

@@ -6,7 +6,7 @@ use crate::{
     FlowSample, Geometry, LayerError, Vec2,
     curve::GivenCurve,
     interface_flow::{LARGEST_RATIO, finite_vectors, flow_samples},
-    layer::{Density, Kept, Layers},
+    layer::{Density, Layers},
 };
 
 const FOUR_PI: f64 = 4.0 * std::f64::consts::PI;
@@ -106,7 +106,7 @@ impl SingleLayer {
         }
         within("the number of pairs of nodes", total * total, 0.0, MOST_PAIRS)?;
         let given = |LayerCurve { positions, period, nodes }| GivenCurve { positions, forces: None, period, nodes };
-        self.layers.load(curves.map(given), Kept { first: 0, among: true })?;
+        self.layers.load(curves.map(given), true)?;
         self.layers.single_layer(false);
         Ok(())
     }
@@ -166,6 +166,7 @@ impl SingleLayer {
         same_length("out", points.len(), out.len())?;
         finite_vectors("the position", 0, points)?;
         positive("the viscosity", viscosity)?;
+        self.layers.refine_kept();
         flow_samples(&mut self.layers, Density { values: &[], contrasts: &[] }, points, out, |_| viscosity);
         Ok(())
     }

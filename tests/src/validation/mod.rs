@@ -13,6 +13,7 @@
 
 pub mod channel;
 pub mod contrast;
+pub mod curved_walls;
 pub mod fixed_shapes;
 pub mod growth;
 pub mod headings;

@@ -29,6 +29,10 @@ pub enum ReferenceFile {
     ChannelSwimmers,
     /// Growth of a small lateral offset of swimmers in channels.
     ChannelStability,
+    /// Velocities on fixed shapes between curved walls.
+    CurvedWalls,
+    /// Flux and forces on curved walls of fixed shapes between them.
+    CurvedWallsGlobal,
 }
 
 impl ReferenceFile {
@@ -46,6 +50,8 @@ impl ReferenceFile {
             Self::ChannelGlobal => include_str!("../../reference/channel_fixed_shape_global.csv"),
             Self::ChannelSwimmers => include_str!("../../reference/channel_steady_swimmer.csv"),
             Self::ChannelStability => include_str!("../../reference/channel_lateral_stability.csv"),
+            Self::CurvedWalls => include_str!("../../reference/curved_walls_velocities.csv"),
+            Self::CurvedWallsGlobal => include_str!("../../reference/curved_walls_global.csv"),
         }
     }
 }

@@ -162,7 +162,10 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryRecorder {
         let state = InterfaceState::of(system, self.droplet)?;
         let observables = observe(&state, self.convention)?;
         let walls = system.hydrodynamics().discretisation().domain.walls;
-        let gap = walls.map(|walls| wall_gap(state.markers, walls));
+        let straight = walls.map(|walls| wall_gap(state.markers, walls));
+        let periods = system.hydrodynamics().discretisation().domain.periods;
+        let others = system.hydrodynamics().walls().and_then(|walls| walls.smallest(state.markers, periods));
+        let gap = [straight, others.map(|(gap, _)| gap)].into_iter().flatten().reduce(f64::min);
         if let Some(gap) = gap {
             self.minimum_gap = Some(self.minimum_gap.map_or(gap, |least| least.min(gap)));
         }

@@ -125,6 +125,12 @@ impl ChannelShape {
         }
     }
 
+    /// Number of its islands.
+    #[must_use]
+    pub fn islands(&self) -> usize {
+        usize::from(matches!(self, Self::Branching { .. }))
+    }
+
     /// The channel of that shape and period in x (length).
     ///
     /// # Errors

@@ -197,7 +197,8 @@ impl Boundary {
     }
 
     /// The sides, each with its start and end.
-    pub(super) fn sides(&self) -> &[[Vec2; 2]] {
+    #[must_use]
+    pub fn sides(&self) -> &[[Vec2; 2]] {
         &self.sides
     }
 

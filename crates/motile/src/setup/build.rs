@@ -53,6 +53,9 @@ impl Setup {
         let regions = solids().map(|(solid, k)| solid.enclosed(&self.region, 0.0).map_err(keyed(k)));
         let (regions, flow) = (regions.collect::<Result<Vec<_>, _>>()?, self.flow()?);
         self.check_places(&droplets, &regions, &flow.discretisation())?;
+        for (k, droplet) in droplets.iter().enumerate() {
+            self.check_walls(&self.key(k), droplet.markers(), &flow)?;
+        }
         let solids = solids().map(|(solid, k)| solid.build(self).map_err(keyed(k))).collect::<Result<Vec<_>, _>>()?;
         let mut scene = Scene::new(flow).with_step_size(self.step);
         if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
@@ -152,7 +155,11 @@ impl Setup {
     }
 
     fn integrals(&self, &IntegralMethod { nodes, .. }: &IntegralMethod, region: Region) -> Result<AnyFlow, SetupError> {
-        let flow = BoundaryIntegral::new(region.geometry(), self.viscosity, Settings { nodes, ..Settings::default() })?;
+        let settings = Settings { nodes, ..Settings::default() };
+        let mut flow = BoundaryIntegral::new(region.geometry(), self.viscosity, settings)?;
+        if !self.rigid.is_empty() {
+            flow = flow.with_walls(&self.rigid_walls()?)?;
+        }
         let perimeters = self.droplets.iter().map(|droplet| match &droplet.shape {
             &DropletShape::Round { radius } | &DropletShape::Squeezed { radius, .. } => Ok(TAU * radius),
             shape => Ok(shape.curve()?.0.perimeter()),
@@ -197,8 +204,14 @@ impl Setup {
         let below = sides().map(|(_, side)| side).filter(|side| *side < 0.0).fold(-0.5 * width, f64::max);
         let above = sides().map(|(_, side)| side).filter(|side| *side > 0.0).fold(0.5 * width, f64::min);
         let least = radius * (1.0 - 1e-12);
+        // Rigid walls of any shape leave what they leave around the middle of the droplet.
+        let centre = Vec2::new(droplet.centre[0], y);
+        let (room, film, to) = match self.room(centre)? {
+            Some(nearest) => (nearest.min(room), FILM, Squeezed::Ellipse),
+            None => (room, film, to),
+        };
         // Where the circle has room elsewhere in the channel it is misplaced, which is not for this to mend.
-        let misplaced = room < least && 0.5 * (above - below) >= least + film * radius;
+        let misplaced = self.rigid.is_empty() && room < least && 0.5 * (above - below) >= least + film * radius;
         if room >= least + film * radius || misplaced {
             return Ok(droplet.shape.clone());
         }

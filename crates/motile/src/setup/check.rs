@@ -1,12 +1,11 @@
 //! What descriptions must be, checked before any work.
 
-use elastic_solids::channel::ChannelShape;
 use ib_core::{AnyKernel, StepSize};
 use stokes_grid::Drive;
 
 use super::{
     Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion, Method,
-    Region, Setup, SolidOutline, SolidSetup, Start, Surface,
+    Region, RigidSetup, Setup, SolidOutline, SolidSetup, Start, Surface,
 };
 use crate::SetupError;
 
@@ -97,6 +96,9 @@ impl Setup {
         }
         for (number, solid) in self.solids.iter().enumerate() {
             solid.check(&format!("solids[{number}]"), self)?;
+        }
+        for (number, wall) in self.rigid.iter().enumerate() {
+            wall.check(&format!("rigid[{number}]"), self)?;
         }
         Ok(())
     }
@@ -283,6 +285,20 @@ impl DropletSetup {
     }
 }
 
+impl RigidSetup {
+    fn check(&self, place: &str, setup: &Setup) -> Result<(), SetupError> {
+        let checked = Checked { place };
+        checked.positive("spacing", self.spacing)?;
+        checked.not_negative("rounding", self.rounding)?;
+        let remedy = "rigid walls stand in a channel, wider than they are, without a grid: give such a region, and the \
+                      method of boundary integrals";
+        if !matches!((setup.region, &setup.method), (Region::Channel { .. }, Method::Integral(_))) {
+            checked.refuse("outline", &"a rigid wall", remedy)?;
+        }
+        Ok(())
+    }
+}
+
 impl SolidSetup {
     fn check(&self, place: &str, setup: &Setup) -> Result<(), SetupError> {
         let checked = Checked { place };
@@ -313,7 +329,7 @@ impl SolidSetup {
                 across(&key, height.max(setup.region.lengths()[0]))?;
                 let remedy = format!("give less than {height}, the width of the region, so that the walls have room");
                 checked.require(self.side().is_none() || width < height, &key, width, &remedy)?;
-                let islands = usize::from(matches!(shape, ChannelShape::Branching { .. }));
+                let islands = shape.islands();
                 if let SolidOutline::Island { number, .. } = self.outline {
                     let remedy = format!("a {} channel has {islands}, counted from 0", shape.name());
                     checked.require(number < islands, "outline.island.number", number as f64, &remedy)?;

@@ -9,12 +9,14 @@ mod method;
 mod particles_entry;
 mod places;
 mod region;
+mod rigid;
 mod solid;
 
 pub use build::{AnyFlow, Built};
 pub use droplet::{DropletSetup, DropletShape, Exclusion, MarkerMotion, Particles, Squeezed, Start};
 pub use method::{Contrast, GridMethod, IntegralMethod, Method, MethodKind};
 pub use region::Region;
+pub use rigid::RigidSetup;
 pub use solid::{Axis, Grading, Hold, Material, MeshKind, SolidOutline, SolidSetup, Surface};
 
 use ib_core::StepSize;
@@ -69,6 +71,9 @@ pub struct Setup {
     /// The elastic solids: walls, islands, nuclei.
     #[serde(default)]
     pub solids: Vec<SolidSetup>,
+    /// Rigid walls and obstacles in a channel, besides its straight walls; by boundary integrals only.
+    #[serde(default)]
+    pub rigid: Vec<RigidSetup>,
 }
 
 /// A short-range repulsion between different interfaces (see [`ib_core::Repulsion`]).
@@ -92,6 +97,7 @@ impl Default for Setup {
             repulsion: None,
             droplets: vec![DropletSetup::default()],
             solids: Vec::new(),
+            rigid: Vec::new(),
         }
     }
 }

@@ -242,7 +242,7 @@ impl SolidSetup {
     /// over the unit of length squared.
     #[must_use]
     pub fn walls(channel: &ChannelShape, material: &Material) -> Vec<Self> {
-        let islands = usize::from(matches!(channel, ChannelShape::Branching { .. }));
+        let islands = channel.islands();
         let wall = |name: &str, outline| Self { name: name.to_owned(), ..Self::new(outline, *material) };
         let mut solids = vec![
             wall("lower wall", SolidOutline::WallBelow(*channel)),
@@ -326,7 +326,6 @@ impl SolidSetup {
     /// What it fills, a wall set back by that much (length); islands are as they are.
     pub(super) fn enclosed(&self, region: &Region, set_back: f64) -> Result<Interior, SetupError> {
         let [period, height] = region.lengths();
-        let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
         let channel = |shape: &ChannelShape| {
             let channel = shape.channel(period)?;
             if set_back > 0.0 { channel.widened(2.0 * set_back) } else { Ok(channel) }
@@ -334,14 +333,7 @@ impl SolidSetup {
         let closed = match &self.outline {
             SolidOutline::WallBelow(shape) => return Ok(channel(shape)?.below(-0.5 * height)?),
             SolidOutline::WallAbove(shape) => return Ok(channel(shape)?.above(0.5 * height)?),
-            SolidOutline::Island { of, number } => of.channel(period)?.island(*number)?.clone(),
-            &SolidOutline::Disc { centre, radius } => Outline::circle(vector(centre), radius)?,
-            &SolidOutline::Ellipse { centre, half_axes } => Outline::ellipse(vector(centre), half_axes)?,
-            SolidOutline::Polygon { corners, fillet } => {
-                let corners: Vec<Vec2> = corners.iter().copied().map(vector).collect();
-                let outline = Outline::polygon(&corners)?;
-                if *fillet > 0.0 { outline.filleted(*fillet)? } else { outline }
-            }
+            outline => outline.line(period)?,
         };
         Ok(Interior::new([closed])?)
     }
@@ -370,6 +362,25 @@ impl SolidSetup {
             SolidOutline::WallAbove(shape) => Some(0.5 * shape.width()),
             _ => None,
         }
+    }
+}
+
+impl SolidOutline {
+    /// The side of the channel, or the closed outline, for a period along x (length).
+    pub(super) fn line(&self, period: f64) -> Result<Outline, SetupError> {
+        let vector = |[x, y]: [f64; 2]| Vec2::new(x, y);
+        Ok(match self {
+            Self::WallBelow(shape) => shape.channel(period)?.lower().clone(),
+            Self::WallAbove(shape) => shape.channel(period)?.upper().clone(),
+            Self::Island { of, number } => of.channel(period)?.island(*number)?.clone(),
+            &Self::Disc { centre, radius } => Outline::circle(vector(centre), radius)?,
+            &Self::Ellipse { centre, half_axes } => Outline::ellipse(vector(centre), half_axes)?,
+            Self::Polygon { corners, fillet } => {
+                let corners: Vec<Vec2> = corners.iter().copied().map(vector).collect();
+                let outline = Outline::polygon(&corners)?;
+                if *fillet > 0.0 { outline.filleted(*fillet)? } else { outline }
+            }
+        })
     }
 }
 

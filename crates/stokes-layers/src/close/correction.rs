@@ -27,6 +27,14 @@ struct CloseNode {
     stress_row: Option<usize>,
 }
 
+/// A node on the wrong side of a curve whose forces come later.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Crossing {
+    pub(crate) curve: usize,
+    pub(crate) node: usize,
+    pub(crate) wall: usize,
+}
+
 /// The corrections for the present positions.
 #[derive(Debug, Clone)]
 pub(crate) struct CloseCorrection {
@@ -39,12 +47,13 @@ pub(crate) struct CloseCorrection {
     rows: Vec<(f64, Complex64)>,
     fine: [Vec<Complex64>; 2],
     coarse: [Vec<Complex64>; 2],
+    crossing: Option<Crossing>,
 }
 
 impl CloseCorrection {
     pub(crate) fn new(tolerance: f64, symmetric: bool) -> Self {
         let (fine, coarse) = Default::default();
-        Self { reach: reach(tolerance), symmetric, close: Vec::new(), rows: Vec::new(), fine, coarse }
+        Self { reach: reach(tolerance), symmetric, close: Vec::new(), rows: Vec::new(), fine, coarse, crossing: None }
     }
 
     /// Looks for close nodes and prepares the fine nodes of the curves that have some.
@@ -96,11 +105,19 @@ impl CloseCorrection {
         out: &mut [Vectors],
     ) {
         self.rows.clear();
+        self.crossing = None;
         for index in 0..self.close.len() {
             let CloseNode { target, node, source, point, .. } = self.close[index];
             let curve = &curves[source];
             let plan = &mut plans[curve.plan];
-            plan.weights.find(curve, &mut plan.transforms, point, self.reach);
+            let left = plan.weights.find(curve, &mut plan.transforms, point, self.reach);
+            // Fluid is to the left of open walls and outside of closed ones; walls are outside of interfaces.
+            if kept.is_kept(target) != kept.is_kept(source)
+                && left.is_some_and(|left| left != (kept.is_kept(source) && curve.is_open()))
+            {
+                let (curve, wall) = if kept.is_kept(source) { (target, source) } else { (source, target) };
+                self.crossing = Some(Crossing { curve, node, wall });
+            }
             if kept.is_kept(source) {
                 self.close[index].force_row = Some(self.push_force_row(curve, plan, point));
                 continue;
@@ -119,6 +136,11 @@ impl CloseCorrection {
                 self.close[index].stress_row = Some(self.push_stress_row(curve, plan, point));
             }
         }
+    }
+
+    /// A node that the last look has found on the wrong side.
+    pub(crate) fn crossing(&self) -> Option<Crossing> {
+        self.crossing
     }
 
     /// The single layer at the point of the present weights as factors of the forces at the nodes.

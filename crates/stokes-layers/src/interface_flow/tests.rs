@@ -1,5 +1,4 @@
 use super::*;
-use crate::Forcing;
 
 const NODES: usize = 96;
 
@@ -24,7 +23,7 @@ fn errors(geometry: Geometry, second: Complex64, viscosities: [f64; 2]) -> [f64;
     let operator = Operator { contrasts, scales, normals: &normals, deflation: &[0.0; 2] };
     let mut apply = |v: &[f64]| {
         let mut out = vec![0.0; 4 * NODES];
-        operator.apply(layers, v, 1e-15, &mut out);
+        operator.apply(layers, None, v, 1e-15, &mut out);
         out
     };
     let outlines: Vec<Complex64> = (0..NODES).map(outline).collect();
@@ -95,7 +94,7 @@ fn growth_of_a_circle_has_the_eigenvalue_one() {
         let InterfaceFlow { layers, contrasts, scales, normals, deflation, .. } = &mut flow;
         let operator = Operator { contrasts, scales, normals, deflation };
         let mut out = vec![0.0; 2 * NODES];
-        operator.apply(layers, normals, 1e-14, &mut out);
+        operator.apply(layers, None, normals, 1e-14, &mut out);
         for (out, normal) in out.iter().zip(normals.iter()) {
             assert!((out - expected * normal).abs() < 1e-12, "{viscosity}: {out} {normal}");
         }

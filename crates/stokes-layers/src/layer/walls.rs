@@ -1,9 +1,6 @@
 //! What the walls of a channel add to layers, and the flow that its forcing drives.
 
-use std::{
-    f64::consts::{PI, TAU},
-    ops::Range,
-};
+use std::{f64::consts::TAU, ops::Range};
 
 use num_complex::Complex64;
 
@@ -29,7 +26,7 @@ const LEAST_GAP: f64 = 0.02;
 pub(crate) struct Walls {
     length: f64,
     half: f64,
-    forcing: Forcing,
+    pub(crate) forcing: Forcing,
     tolerance: f64,
     modes: WallModes,
     nodes: WallPoints,
@@ -202,24 +199,35 @@ impl Walls {
             Forcing::Gradient(gradient) => return gradient,
             Forcing::Flux(flux) => flux,
         };
+        let sum = self.force_moment(curves) - self.dipole_moment(curves, density);
+        1.5 / (h * h * h) * (sum / (2.0 * self.length) - viscosity * flux)
+    }
+
+    /// The sum of (h^2 - y^2) F_x: 2 l eta times the flux of the forces without a mean pressure gradient.
+    pub(crate) fn force_moment(&self, curves: &[Curve]) -> f64 {
+        let parabola = |y: f64| self.half * self.half - y * y;
+        let nodes = |curve: &Curve| -> f64 {
+            let terms = curve.nodes.position.iter().zip(&curve.nodes.force);
+            terms.map(|(z, force)| parabola(z.im + curve.centre.im) * force.re).sum()
+        };
+        curves.iter().map(nodes).sum()
+    }
+
+    /// The same of the double layer.
+    pub(crate) fn dipole_moment(&self, curves: &[Curve], density: Density<'_>) -> f64 {
         let mut sum = 0.0;
-        for (index, curve) in curves.iter().enumerate() {
-            let heights = curve.nodes.position.iter().map(|z| z.im + curve.centre.im);
-            sum += heights.zip(&curve.nodes.force).map(|(y, force)| (h * h - y * y) * force.re).sum::<f64>();
-            if density.contrast(index) == 0.0 {
-                continue;
-            }
+        for (index, (curve, contrast)) in curves.iter().zip(density.contrasts).enumerate() {
             let (vx, vy) = density.of(index);
-            let contrast = density.contrasts[index] * curve.weight();
+            let contrast = contrast * curve.weight();
             for (i, (z, t)) in curve.nodes.position.iter().zip(&curve.nodes.tangent).enumerate() {
                 let y = z.im + curve.centre.im;
                 let (nx, ny) = (t.im * contrast, -t.re * contrast);
                 let shear = vx[i] * ny + vy[i] * nx;
                 let flux = vx[i] * nx + vy[i] * ny;
-                sum += 2.0 * (y * shear - z.re * flux);
+                sum -= 2.0 * (y * shear - z.re * flux);
             }
         }
-        1.5 / (h * h * h) * (TAU / self.length / (4.0 * PI) * sum - viscosity * flux)
+        sum
     }
 
     /// Prepares for [`Walls::add_flow`] at these points, with velocities at the fine nodes.

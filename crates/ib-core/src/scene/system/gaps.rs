@@ -14,15 +14,23 @@ const RESOLVED_CELLS_CLOSED: f64 = 5.5;
 const RESOLVED_NODES: f64 = 0.3;
 
 impl<H: Hydrodynamics> System<H> {
-    /// The smallest distance of an interface to a rigid wall at the present state (length; negative beyond a wall, see
-    /// [`wall_gap`]); `None` without walls or interfaces. Solids ([`MarkerKind::Points`](crate::MarkerKind)) may stand
-    /// on a wall and do not count. Needs no evaluation.
+    /// The smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative beyond a
+    /// wall, see [`wall_gap`]); `None` without walls or interfaces. Solids
+    /// ([`MarkerKind::Points`](crate::MarkerKind)) may stand on a wall and do not count. Needs no evaluation.
     pub fn wall_gap(&mut self) -> Option<f64> {
-        let walls = self.hydrodynamics.discretisation().domain.walls?;
+        let domain = self.hydrodynamics.discretisation().domain;
+        let (straight, others) = (domain.walls, self.hydrodynamics.walls().is_some());
+        if straight.is_none() && !others {
+            return None;
+        }
         self.place_markers();
         let interfaces =
             self.markers.groups().iter().filter(|group| group.kind.is_interface() && !group.range.is_empty());
-        let gaps = interfaces.map(|group| wall_gap(&self.markers.positions[group.range.clone()], walls));
+        let gaps = interfaces.flat_map(|group| {
+            let positions = &self.markers.positions[group.range.clone()];
+            let others = self.hydrodynamics.walls().and_then(|walls| walls.smallest(positions, domain.periods));
+            [straight.map(|walls| wall_gap(positions, walls)), others.map(|(gap, _)| gap)].into_iter().flatten()
+        });
         gaps.reduce(|least, gap| if gap < least || gap.is_nan() { gap } else { least })
     }
 

@@ -1,0 +1,188 @@
+//! Rigid walls and obstacles at rest.
+
+use fourier::PeriodicSeries;
+use ib_core::Vec2;
+use ib_core::gap::Boundary;
+use ib_core::input::{all_points_finite, not_negative, positive, within};
+use num_complex::Complex64;
+use stokes_layers::{LayerCurve, LayerError};
+
+/// Fewest and most nodes of a wall.
+const NODES: [f64; 2] = [16.0, 3000.0];
+/// Most points that a wall is given by.
+const MOST_POINTS: f64 = 1_048_576.0;
+/// Corners of the boundary that gaps are measured from, per node.
+const CORNERS: usize = 4;
+
+/// On which side of a wall there is no fluid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Below,
+    Above,
+    Inside,
+}
+
+/// A rigid no-slip wall or obstacle of any shape, at rest in a channel: a smooth curve by points of equally spaced
+/// parameters.
+///
+/// ```
+/// use boundary_integral::{BoundaryIntegral, Forcing, Geometry, RigidWall, Settings};
+/// use ib_core::{FlowSample, Hydrodynamics, Markers, Vec2};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// // A wavy channel of length 12 between y = -1.5 - 0.3 cos(2 pi x/12) and its mirror image, in a straight one of
+/// // width 5, with a post in it. A unit pressure gradient drives fluid through.
+/// let side = |x: f64| 1.5 + 0.3 * (std::f64::consts::TAU * x / 12.0).cos();
+/// let walls = [
+///     RigidWall::below(12.0, 96, |x| -side(x))?,
+///     RigidWall::above(12.0, 96, side)?,
+///     RigidWall::post(Vec2::new(3.0, 0.0), 0.5, 48)?,
+/// ];
+/// let geometry = Geometry::Channel { length: 12.0, width: 5.0, forcing: Forcing::Gradient(-1.0) };
+/// let mut flow = BoundaryIntegral::new(geometry, 1.0, Settings::default())?.with_walls(&walls)?;
+/// let mut samples = [FlowSample::default(); 2];
+/// flow.sample(&Markers::new(), &[Vec2::new(-3.0, 0.0), Vec2::new(3.5 + 1e-9, 0.0)], &mut samples)?;
+/// println!("velocity in the middle {:.4}", samples[0].velocity.x);
+/// assert!((samples[0].velocity.x - 0.4223).abs() < 1e-4 && samples[1].velocity.length() < 1e-7);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidWall {
+    points: Vec<Vec2>,
+    period: Vec2,
+    nodes: usize,
+    side: Side,
+}
+
+impl RigidWall {
+    /// The lower side of a channel, `y = height(x)` (length) over one period (length), with so many nodes, equally
+    /// spaced in x.
+    ///
+    /// # Errors
+    /// A period that is not positive and finite, heights that are not finite, fewer than 16 or more than 3000 nodes.
+    pub fn below(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Self, LayerError> {
+        Self::of_line(Side::Below, profile(period, nodes, height)?, period, nodes)
+    }
+
+    /// The upper side of a channel, `y = height(x)`, as [`RigidWall::below`].
+    ///
+    /// # Errors
+    /// As for the lower side.
+    pub fn above(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Self, LayerError> {
+        Self::of_line(Side::Above, profile(period, nodes, height)?, period, nodes)
+    }
+
+    /// A round post (lengths).
+    ///
+    /// # Errors
+    /// A radius that is not positive and finite, a centre that is not finite, too few or too many nodes.
+    pub fn post(centre: Vec2, radius: f64, nodes: usize) -> Result<Self, LayerError> {
+        positive("the radius of a post", radius)?;
+        within("the number of nodes of a wall", nodes as f64, NODES[0], NODES[1])?;
+        let angle = |k: usize| std::f64::consts::TAU * k as f64 / nodes as f64;
+        Self::obstacle((0..nodes).map(|k| centre + radius * Vec2::from_angle(angle(k))).collect(), nodes)
+    }
+
+    /// The lower side of a channel through points of one period (length), to the right, at equally spaced values of
+    /// some parameter; the line may overhang.
+    ///
+    /// # Errors
+    /// As [`RigidWall::below`]; fewer points than nodes, or more than a million.
+    pub fn line_below(points: Vec<Vec2>, period: f64, nodes: usize) -> Result<Self, LayerError> {
+        Self::of_line(Side::Below, points, period, nodes)
+    }
+
+    /// The upper side of a channel, as [`RigidWall::line_below`].
+    ///
+    /// # Errors
+    /// As for the lower side.
+    pub fn line_above(points: Vec<Vec2>, period: f64, nodes: usize) -> Result<Self, LayerError> {
+        Self::of_line(Side::Above, points, period, nodes)
+    }
+
+    /// An obstacle with the fluid around it, through points (length), in either direction, at equally spaced values of
+    /// some parameter.
+    ///
+    /// # Errors
+    /// As [`RigidWall::line_below`].
+    pub fn obstacle(mut points: Vec<Vec2>, nodes: usize) -> Result<Self, LayerError> {
+        let next = points.iter().cycle().skip(1);
+        if points.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f64>() < 0.0 {
+            points.reverse();
+        }
+        Self::checked(Side::Inside, points, Vec2::ZERO, nodes)
+    }
+
+    fn of_line(side: Side, mut points: Vec<Vec2>, period: f64, nodes: usize) -> Result<Self, LayerError> {
+        positive("the period of a wall", period)?;
+        let mut direction = 1.0;
+        if side == Side::Above {
+            // The fluid is to the left of the curve.
+            points.reverse();
+            direction = -1.0;
+        }
+        Self::checked(side, points, Vec2::new(direction * period, 0.0), nodes)
+    }
+
+    fn checked(side: Side, points: Vec<Vec2>, period: Vec2, nodes: usize) -> Result<Self, LayerError> {
+        within("the number of nodes of a wall", nodes as f64, NODES[0], NODES[1])?;
+        within("the number of points of a wall", points.len() as f64, nodes as f64, MOST_POINTS)?;
+        all_points_finite("the points of a wall", &points)?;
+        Ok(Self { points, period, nodes, side })
+    }
+
+    /// The same wall with its corners rounded: smoothed over this length by a Gaussian of that standard deviation along
+    /// the line, for points of equal distance. Straight stretches stay where they are, a bend of radius R moves inwards
+    /// by `length^2/(2 R)`. Nodes resolve corners if they are no farther apart than 0.8 times the length.
+    ///
+    /// # Errors
+    /// A length that is negative or not finite.
+    pub fn rounded(mut self, length: f64) -> Result<Self, LayerError> {
+        not_negative("the length over which corners are rounded", length)?;
+        if length == 0.0 {
+            return Ok(self);
+        }
+        let count = self.points.len();
+        let step = self.period / count as f64;
+        let ends = self.points.iter().skip(1).copied().chain([self.points[0] + self.period]);
+        let perimeter: f64 = self.points.iter().zip(ends).map(|(a, b)| a.distance(b)).sum();
+        let mut series = PeriodicSeries::new(count);
+        series.analyse(self.points.iter().enumerate().map(|(k, x)| {
+            let x = *x - step * k as f64;
+            Complex64::new(x.x, x.y)
+        }))?;
+        let decay = std::f64::consts::TAU * length / perimeter;
+        series.scale(|index| (-0.5 * (decay * index as f64).powi(2)).exp());
+        for (k, (point, value)) in self.points.iter_mut().zip(series.values()).enumerate() {
+            *point = Vec2::new(value.re, value.im) + step * k as f64;
+        }
+        Ok(self)
+    }
+
+    /// The wall as a curve of layers.
+    pub(crate) fn curve(&self) -> LayerCurve<'_> {
+        LayerCurve { positions: &self.points, period: self.period, nodes: self.nodes }
+    }
+
+    /// Adds its sides to a boundary, what is rigid to their left.
+    pub fn add_to(&self, boundary: &mut Boundary) {
+        let stride = (self.points.len() / (CORNERS * self.nodes)).max(1);
+        let corners: Vec<Vec2> = self.points.iter().copied().step_by(stride).collect();
+        if self.side == Side::Inside {
+            boundary.push_loop(&corners);
+            return;
+        }
+        let ends = corners.iter().skip(1).copied().chain([corners[0] + self.period]);
+        corners.iter().zip(ends).for_each(|(&start, end)| boundary.push(end, start));
+    }
+}
+
+/// Points of a line over a period, several per node.
+fn profile(period: f64, nodes: usize, height: impl Fn(f64) -> f64) -> Result<Vec<Vec2>, LayerError> {
+    positive("the period of a wall", period)?;
+    within("the number of nodes of a wall", nodes as f64, NODES[0], NODES[1])?;
+    let count = CORNERS * nodes;
+    let x = |k: usize| period * (k as f64 / count as f64 - 0.5);
+    Ok((0..count).map(x).map(|x| Vec2::new(x, height(x))).collect())
+}

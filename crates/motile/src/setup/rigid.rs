@@ -1,0 +1,143 @@
+//! Descriptions of rigid walls and obstacles.
+
+use boundary_integral::RigidWall;
+use elastic_solids::{Outline, channel::ChannelShape};
+use ib_core::gap::Boundary;
+use ib_core::{Hydrodynamics, Vec2};
+use serde::{Deserialize, Serialize};
+
+use super::{Setup, SolidOutline};
+use crate::SetupError;
+
+/// Points per node by which corners are rounded.
+const FINER: f64 = 16.0;
+/// Most nodes of a wall.
+const MOST_NODES: f64 = 3000.0;
+/// Fewest nodes of a wall.
+const LEAST_NODES: f64 = 16.0;
+
+/// A rigid wall or obstacle at rest in a channel, by boundary integrals.
+///
+/// ```
+/// use motile::prelude::*;
+///
+/// // A wavy channel of width 3 -+ 0.6 in a region of 12 x 5.
+/// let shape = ChannelShape::Sinusoidal { width: 3.0, amplitude: 0.3, waves: 1, phase: 0.0 };
+/// let setup = Setup {
+///     region: Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient },
+///     method: Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
+///     rigid: RigidSetup::walls(&shape, 0.15),
+///     ..Setup::default()
+/// };
+/// let Built { mut scene, droplets, .. } = setup.build()?;
+/// scene.run(0.5).go()?;
+/// println!("speed {:.3}", scene.observe(droplets[0])?.speed());
+/// let gap = scene.system().minimum_wall_gap().unwrap();
+/// assert!(gap > 0.75 && gap < 0.8);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RigidSetup {
+    /// What it bounds: the sides of channels, islands, closed outlines.
+    pub outline: SolidOutline,
+    /// Distance of its nodes (length).
+    pub spacing: f64,
+    /// Length over which its corners are rounded, no less than the spacing for accurate flow there; see
+    /// [`RigidWall::rounded`]. 0 for outlines that are smooth, as in a file that gives none.
+    #[serde(default)]
+    pub rounding: f64,
+}
+
+impl RigidSetup {
+    /// The sides and islands of a channel, with nodes at that distance (length).
+    #[must_use]
+    pub fn walls(channel: &ChannelShape, spacing: f64) -> Vec<Self> {
+        let wall = |outline| Self { outline, spacing, rounding: 0.0 };
+        let mut walls = vec![wall(SolidOutline::WallBelow(*channel)), wall(SolidOutline::WallAbove(*channel))];
+        let island = |number| wall(SolidOutline::Island { of: *channel, number });
+        walls.extend((0..channel.islands()).map(island));
+        walls
+    }
+
+    /// The wall of this description in a region of that period along x (length).
+    fn build(&self, period: f64) -> Result<RigidWall, SetupError> {
+        let outline = self.outline.line(period)?;
+        let nodes = (outline.length() / self.spacing).max(LEAST_NODES);
+        if nodes.is_nan() || nodes > MOST_NODES {
+            return Err(SetupError::Value {
+                key: "spacing".to_owned(),
+                value: self.spacing.to_string(),
+                remedy: format!("the wall would have {nodes:.1e} nodes: give more than that"),
+            });
+        }
+        let nodes = 2 * (0.5 * nodes).ceil() as usize;
+        let points = points(&outline, (FINER * nodes as f64) as usize)?;
+        let wall = match self.outline {
+            SolidOutline::WallBelow(_) => RigidWall::line_below(points, period, nodes)?,
+            SolidOutline::WallAbove(_) => RigidWall::line_above(points, period, nodes)?,
+            _ => RigidWall::obstacle(points, nodes)?,
+        };
+        Ok(wall.rounded(self.rounding)?)
+    }
+}
+
+/// Points of an outline at equal distances along it.
+fn points(outline: &Outline, count: usize) -> Result<Vec<Vec2>, SetupError> {
+    let length = outline.length();
+    let end = |points: &[Vec2]| points[0] + Vec2::new(outline.period().unwrap_or(0.0), 0.0);
+    // Corners divide an outline into parts, each with a number of its own.
+    let fine = outline.resampled(0.25 * length / count as f64)?;
+    let mut points = Vec::with_capacity(count);
+    let ends = fine.iter().skip(1).copied().chain([end(&fine)]);
+    let pieces: Vec<[Vec2; 2]> = fine.iter().copied().zip(ends).map(|(a, b)| [a, b]).collect();
+    let total: f64 = pieces.iter().map(|[a, b]| a.distance(*b)).sum();
+    let (mut before, mut pieces) = (0.0, pieces.into_iter().peekable());
+    while points.len() < count {
+        let Some(&[a, b]) = pieces.peek() else { break };
+        let wanted = total * points.len() as f64 / count as f64;
+        let piece = a.distance(b);
+        if wanted <= before + piece {
+            points.push(a + (b - a) * ((wanted - before) / piece.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0));
+        } else {
+            before += piece;
+            pieces.next();
+        }
+    }
+    Ok(points)
+}
+
+impl Setup {
+    /// The rigid walls of this scene, for scenes that are put together by hand.
+    ///
+    /// # Errors
+    /// Outlines that cannot be, more than 3000 nodes of a wall.
+    pub fn rigid_walls(&self) -> Result<Vec<RigidWall>, SetupError> {
+        let [period, _] = self.region.lengths();
+        let walls = self.rigid.iter().enumerate();
+        walls.map(|(k, wall)| wall.build(period).map_err(|error| error.of(&format!("rigid[{k}]")))).collect()
+    }
+
+    /// Refuses a droplet that starts beyond a rigid wall.
+    pub(super) fn check_walls(&self, key: &str, markers: &[Vec2], flow: &dyn Hydrodynamics) -> Result<(), SetupError> {
+        let periods = flow.discretisation().domain.periods;
+        let Some((gap, marker)) = flow.walls().and_then(|walls| walls.smallest(markers, periods)) else {
+            return Ok(());
+        };
+        if gap > 0.0 {
+            return Ok(());
+        }
+        let [x, y] = markers[marker].into();
+        let (key, other) = (key.to_owned(), "a rigid wall".to_owned());
+        Err(SetupError::Overlap { key, other, x, y, depth: -gap, allowed: 0.0 })
+    }
+
+    /// Distance of a place from the nearest rigid wall (length).
+    pub(super) fn room(&self, place: Vec2) -> Result<Option<f64>, SetupError> {
+        let mut boundary = Boundary::default();
+        self.rigid_walls()?.iter().for_each(|wall| wall.add_to(&mut boundary));
+        boundary.sort();
+        let [length, _] = self.region.lengths();
+        Ok((!boundary.is_empty()).then(|| boundary.distance(place, [Some(length), None])))
+    }
+}

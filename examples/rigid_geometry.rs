@@ -1,0 +1,159 @@
+//! An active droplet swims between rigid walls of some shape, or past fixed posts.
+//!
+//! `cargo run --release --example rigid_geometry -- --case sinusoidal` simulates it, prints what was measured, and writes
+//! to `out/rigid_geometry/` what the example `rigid_channel` writes. Cases are `sinusoidal`, with the half width
+//! `--width`/2 + `--amplitude` cos(2 pi x/`--length`), `constriction`, that of the example `constriction` with its
+//! corners rounded over `--rounding`, `ratchet`, `branch`, around an island, and `posts`. `--help` lists the flags.
+
+use std::process::ExitCode;
+
+use anyhow::{Result, ensure};
+use clap::{Parser, ValueEnum};
+use motile::{ChannelShape, MethodKind, Region, RigidSetup, Setup, SolidOutline};
+use motile_examples::{ChannelFlags, MethodFlags, SceneFlags, WatchedRun, not_negative, positive};
+
+/// How far beyond the walls of a case the straight ones of the region are, behind them (R0).
+const BEHIND: f64 = 0.5;
+
+/// Shapes of rigid geometry.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Case {
+    /// Sinusoidal sides; the droplet starts where the channel is widest
+    Sinusoidal,
+    /// A narrow passage, as in the example of that name
+    Constriction,
+    /// Asymmetric teeth
+    Ratchet,
+    /// Two branches around an island
+    Branch,
+    /// Two posts in a straight channel
+    Posts,
+}
+
+/// An active droplet swims between rigid walls of some shape.
+#[derive(Debug, Parser)]
+struct Flags {
+    /// The shape
+    #[arg(long, value_enum, default_value_t = Case::Sinusoidal)]
+    case: Case,
+    /// Amplitude of sinusoidal sides (R0)
+    #[arg(long, default_value_t = 0.3, value_parser = not_negative, allow_hyphen_values = true)]
+    amplitude: f64,
+    /// Width of the constriction, or at the tips of the ratchet (R0); without it 1 and three quarters of the width
+    #[arg(long, value_parser = positive, allow_hyphen_values = true)]
+    throat: Option<f64>,
+    /// Length of the constriction (R0)
+    #[arg(long, default_value_t = 4.0, value_parser = positive, allow_hyphen_values = true)]
+    throat_length: f64,
+    /// Length of ramps (R0)
+    #[arg(long, default_value_t = 1.0, value_parser = positive, allow_hyphen_values = true)]
+    ramp: f64,
+    /// Length over which the corners of the constriction and of the ratchet are rounded (R0)
+    #[arg(long, default_value_t = 0.06, value_parser = not_negative, allow_hyphen_values = true)]
+    rounding: f64,
+    /// Distance of the nodes of walls (R0)
+    #[arg(long, default_value_t = 0.05, value_parser = positive, allow_hyphen_values = true)]
+    wall_spacing: f64,
+    #[command(flatten)]
+    scene: SceneFlags<ChannelFlags>,
+}
+
+impl Flags {
+    /// The shape of the sides, none where they are straight; and where the droplet starts (R0).
+    fn shape(&self) -> (Option<ChannelShape>, f64) {
+        let (width, length) = (self.scene.region.width, self.scene.region.along.length);
+        match self.case {
+            Case::Sinusoidal => {
+                (Some(ChannelShape::Sinusoidal { width, amplitude: self.amplitude, waves: 1, phase: 0.0 }), 0.0)
+            }
+            Case::Constriction => {
+                let throat = self.throat.unwrap_or(1.0);
+                let (throat_length, ramp, centre) = (self.throat_length, self.ramp, 0.0);
+                (Some(ChannelShape::Constriction { width, throat, throat_length, ramp, centre }), -0.5 * length)
+            }
+            Case::Ratchet => {
+                let throat = self.throat.unwrap_or(0.75 * width);
+                (Some(ChannelShape::Ratchet { width, throat, teeth: 3, rise: 0.8, sharp: true }), -0.5 * length)
+            }
+            Case::Branch => {
+                let shape = ChannelShape::Branching {
+                    width,
+                    branches: [0.8 * width; 2],
+                    island_length: 0.3 * length,
+                    island_thickness: 0.4 * width,
+                    ramp: 0.25 * length,
+                };
+                (Some(shape), -0.5 * length)
+            }
+            Case::Posts => (None, 0.0),
+        }
+    }
+
+    /// The scene.
+    fn setup(&self) -> Result<Setup> {
+        let flags = &self.scene;
+        ensure!(
+            flags.method.method != Some(MethodKind::Grid),
+            "rigid walls of any shape have no grid: leave --method immersed-boundary out"
+        );
+        let method = MethodFlags { method: Some(MethodKind::Integral), ..flags.method.clone() };
+        let mut setup = method.setup(&flags.droplet, None)?;
+        let (shape, x) = self.shape();
+        flags.region.apply(&mut setup)?;
+        setup.droplets[0].centre[0] = x;
+        let (spacing, [period, width]) = (self.wall_spacing, setup.region.lengths());
+        let Some(shape) = shape else {
+            // One close to each wall, so that there is room on the other side.
+            let post = |[x, y]: [f64; 2]| RigidSetup {
+                outline: SolidOutline::Disc { centre: [x * period, y * width], radius: 0.12 * width },
+                spacing,
+                rounding: 0.0,
+            };
+            setup.rigid = [[0.25, 0.3], [-0.25, -0.3]].map(post).into();
+            return Ok(setup);
+        };
+        let channel = shape.channel(period)?;
+        let extent = |outline: &motile::elastic_solids::Outline| -> Result<f64> {
+            Ok(outline.resampled(spacing)?.iter().map(|point| point.y.abs()).fold(0.0, f64::max))
+        };
+        let half = extent(channel.lower())?.max(extent(channel.upper())?) + BEHIND;
+        if let Region::Channel { width, .. } = &mut setup.region {
+            *width = 2.0 * half;
+        }
+        setup.rigid = RigidSetup::walls(&shape, spacing);
+        if matches!(self.case, Case::Constriction | Case::Ratchet) {
+            setup.rigid.iter_mut().for_each(|wall| wall.rounding = self.rounding);
+        }
+        Ok(setup)
+    }
+}
+
+fn main() -> ExitCode {
+    motile_examples::run(swim)
+}
+
+fn swim(flags: &Flags) -> Result<()> {
+    // The droplet and the walls.
+    let setup = flags.setup()?;
+    let length = flags.scene.region.along.length;
+
+    // The run, with all that watches it.
+    let mut run = WatchedRun::new(setup.build()?, &setup, &flags.scene, "rigid_geometry")?;
+    run.go(None)?;
+
+    // The results, also of a run that broke off.
+    let mut summary = run.summary()?;
+    let track = run.track();
+    let advance = |x: f64| x - track.first().map_or(x, |(_, start)| start.x);
+    let (end, now) = track.last().map_or((0.0, 0.0), |(time, place)| (*time, advance(place.x)));
+    summary.put("passed", now >= length, "whether it has come by all of the geometry, a period");
+    // When it was last a period behind where it is.
+    let before = track.iter().rev().find(|(_, place)| now - advance(place.x) >= length);
+    let mean = before.map(|(time, place)| (now - advance(place.x)) / (end - time));
+    summary.put("mean_speed", mean, "over the last period (R0 per time), if it has passed");
+    let last = run.last()?.clone();
+    summary.put("pressure_gradient", last.pressure_gradient, "mean along the channel");
+    summary.put("gap", last.gap, "to walls and obstacles, in the end (R0)");
+    summary.put("minimum_gap", run.scene.system().minimum_wall_gap(), "to walls and obstacles, over the run (R0)");
+    run.finish(&summary)
+}

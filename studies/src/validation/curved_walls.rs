@@ -1,0 +1,61 @@
+//! Rigid walls of any shape.
+
+use motile_tests::validation::{Table, curved_walls, order};
+
+use super::Tables;
+
+/// Droplets between curved walls against exact values and in films, and flow along wavy walls against its limits.
+pub(super) fn curved_walls(quick: bool) -> Tables {
+    let mut exact = Table::new(
+        "Droplets of fixed shape in a wavy channel: largest error of velocity on the interface and off it, flux, force \
+         of a wall",
+        &["nodes of the droplet", "nodes of a wall", "on the interface", "off it", "flux", "force"],
+    );
+    for (droplet, wall) in [(24, 32), (32, 48), (48, 64), (72, 96), (96, 128)] {
+        let errors = curved_walls::fixed(droplet, wall)?;
+        let values = [errors.markers, errors.field, errors.flux, errors.force];
+        exact
+            .push([droplet, wall].map(|count| count.to_string()).into_iter().chain(values.map(|e| format!("{e:.1e}"))));
+    }
+    let mut films = Table::new(
+        "Films beside a curved wall: largest error of velocity on the interface, relative",
+        &["film", "viscosity inside", "32 and 64 nodes", "64 and 96", "96 and 160", "128 and 240"],
+    );
+    for film in [0.1, 0.05, 0.02, 0.01] {
+        for inside in [1.0, 0.1, 10.0] {
+            let errors = [(32, 64), (64, 96), (96, 160), (128, 240)]
+                .into_iter()
+                .take(if quick { 2 } else { 4 })
+                .map(|(droplet, wall)| Ok(format!("{:.1e}", curved_walls::film(film, inside, droplet, wall)?)))
+                .collect::<Result<Vec<_>, motile_tests::validation::StudyError>>()?;
+            films.push([film.to_string(), inside.to_string()].into_iter().chain(errors));
+        }
+    }
+    let mut limits = Table::new(
+        "Flow along wavy walls y = 1 + a cos(2 pi x/l): relative difference of the pressure gradient of a flux from \
+         its limits",
+        &["limit", "a", "l", "difference", "order"],
+    );
+    let mut series = |name: &str, cases: [(f64, f64); 3], steps: [f64; 3], limit: &dyn Fn(f64, f64) -> f64| {
+        let mut errors = Vec::new();
+        for (k, (amplitude, length)) in cases.into_iter().enumerate() {
+            let found = curved_walls::gradient(length, amplitude, 96.max((8.0 * length) as usize))?;
+            errors.push((limit(length, amplitude) / found - 1.0).abs());
+            let order =
+                if k == 0 { String::new() } else { format!("{:.2}", order(&steps[k - 1..=k], &errors[k - 1..=k])) };
+            limits.push([
+                name.to_owned(),
+                amplitude.to_string(),
+                length.to_string(),
+                format!("{:.2e}", errors[k]),
+                order,
+            ]);
+        }
+        Ok::<(), motile_tests::validation::StudyError>(())
+    };
+    let small = [0.2, 0.1, 0.05];
+    series("second power of a", small.map(|a| (a, 6.0)), small, &curved_walls::small_amplitude)?;
+    let long = [12.0, 24.0, 48.0];
+    series("lubrication", long.map(|l| (0.3, l)), long.map(|l| 1.0 / l), &|_, a| curved_walls::lubrication(a))?;
+    Ok(vec![exact, films, limits])
+}
