@@ -121,15 +121,6 @@ fn the_mobility_is_symmetric_and_takes_energy() {
     }
 }
 
-/// Inner points as close as the grid's are not seen by it next to a layer, which then moves against its forces.
-#[test]
-fn inner_points_must_be_two_grid_spacings_apart() {
-    let mut markers = droplet_and_walls(0.3, 4.0, 0.2);
-    let matrix = mobility(&mut channel(4.0, 0.2), &mut markers);
-    let [largest, _] = asymmetry(&matrix);
-    assert!(!eigenvalues_are_above(-1e-5 * largest, matrix));
-}
-
 fn forces(markers: &mut Markers) {
     for (k, force) in markers.forces.iter_mut().enumerate() {
         *force = Vec2::new((0.3 * k as f64).sin(), (0.2 * k as f64).cos());
