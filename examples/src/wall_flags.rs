@@ -4,9 +4,11 @@ use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::SetupError;
 use motile::elastic_solids::Moduli;
-use motile::{ChannelShape, MeshKind, MethodKind, Setup, SolidOutline, SolidSetup, Surface};
+use motile::{
+    ChannelShape, GridMethod, IntegralMethod, MeshKind, Method, MethodKind, Setup, SolidOutline, SolidSetup, Surface,
+};
 
-use crate::parse::{one_of, positive};
+use crate::parse::{nodes, one_of, positive};
 use crate::{AlongFlags, MethodFlags, Preset, RegionFlags, SceneFlags};
 
 /// Spring constant of Cowley's softest walls.
@@ -58,6 +60,10 @@ pub struct ElasticFlags {
     /// Spacing of the points of the walls (R0); without it that of the grid
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub mesh_spacing: Option<f64>,
+    /// Droplet and surfaces of the walls as layers, exact in films between them, with so many nodes of the droplet
+    /// [72 if no number is given]; only the inside of the walls is on the grid
+    #[arg(long, value_parser = nodes, num_args = 0..=1, default_missing_value = "72", value_name = "NODES")]
+    pub layers: Option<usize>,
     /// Thickness of each wall (R0)
     #[arg(long, default_value_t = 1.5, value_parser = positive, allow_hyphen_values = true)]
     pub wall_thickness: f64,
@@ -86,6 +92,10 @@ impl SceneFlags<ElasticFlags> {
         );
         let method = MethodFlags { method: Some(MethodKind::Grid), ..method.clone() };
         let mut setup = method.setup(droplet, None)?;
+        if let (Some(nodes), Method::Grid(grid)) = (walls.layers, &mut setup.method) {
+            let layers = Some(IntegralMethod { nodes, cells: 4 * nodes });
+            *grid = GridMethod { corrected: false, filter: false, layers, ..*grid };
+        }
         setup.solids = SolidSetup::walls(shape, &walls.material()?);
         for solid in &mut setup.solids {
             if method.preset == Preset::Thesis {

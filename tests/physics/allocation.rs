@@ -60,7 +60,8 @@ fn steps_allocate_nothing() {
 
 #[test]
 fn steps_between_elastic_walls_allocate_nothing() {
-    for setup in [elastic(), viscous(elastic())] {
+    let layers = Setup { method: Method::Grid(GridMethod::with_layers(0.1)), ..elastic() };
+    for setup in [elastic(), viscous(elastic()), layers] {
         assert_eq!(allocations(setup.build().unwrap().scene), 0, "{:?}", setup.droplets[0].viscosity);
     }
 }

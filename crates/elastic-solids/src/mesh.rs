@@ -1,5 +1,6 @@
 //! Triangle meshes of the reference state.
 
+mod finer_boundary;
 pub(crate) mod gmsh;
 pub(crate) mod lattice;
 mod quality;

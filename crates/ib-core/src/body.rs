@@ -9,7 +9,8 @@ pub use step_limit::{StepCause, StepLimit};
 use std::any::Any;
 
 use crate::{
-    BodyError, Discretisation, MarkerKind, Vec2, Warning, checkpoint::SavedState, gap::Boundary, scene::BodyFlow,
+    BodyError, Discretisation, MarkerKind, Vec2, Warning, checkpoint::SavedState, gap::Boundary,
+    hydrodynamics::SurfaceCurve, scene::BodyFlow,
 };
 
 /// What can be seen of a body beyond its markers: the speed of a droplet, say.
@@ -120,6 +121,12 @@ pub trait Body: Any + std::fmt::Debug + Send {
         if self.kind().is_interface() {
             boundary.push_loop(markers);
         }
+    }
+
+    /// The curves that markers of a solid trace, as far as they move; by default none. They are asked for once, when
+    /// the body joins a scene.
+    fn surfaces(&self) -> Vec<SurfaceCurve> {
+        Vec::new()
     }
 
     /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive):

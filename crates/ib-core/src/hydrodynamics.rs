@@ -2,7 +2,7 @@
 
 mod markers;
 
-pub use markers::{MarkerGroup, MarkerKind, Markers};
+pub use markers::{MarkerGroup, MarkerKind, Markers, SurfaceCurve};
 
 use std::{borrow::Cow, sync::Arc};
 

@@ -1,7 +1,7 @@
 //! The immersed boundary method: a grid between markers.
 
 mod contrast_flow;
-mod sampling;
+pub(crate) mod sampling;
 mod smeared_contrast;
 
 pub use smeared_contrast::SmearedContrast;
@@ -20,7 +20,7 @@ use crate::{
 use contrast_flow::ContrastFlow;
 
 /// How far beyond a wall a marker may lie, in grid spacings.
-const WALL_TOLERANCE: f64 = 0.25;
+pub(crate) const WALL_TOLERANCE: f64 = 0.25;
 
 /// Velocities of markers by spreading their forces to a grid, solving the Stokes equations there and interpolating
 /// (Cowley section 2.2.2), with the mobility correction on interfaces of equally spaced markers (on by default).

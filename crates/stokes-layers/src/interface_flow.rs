@@ -144,7 +144,7 @@ impl InterfaceFlow {
             geometry,
             viscosity,
             settings,
-            layers: Layers::new(geometry, settings.tolerance),
+            layers: Layers::new(geometry, settings.tolerance, false),
             gmres: Gmres::recycling(),
             viscosities: Vec::new(),
             contrasts: Vec::new(),
@@ -178,7 +178,7 @@ impl InterfaceFlow {
         let Geometry::Channel { length, width, forcing } = self.geometry else { return Err(LayerError::NoChannel) };
         // What is forced is the flow between the walls.
         let geometry = Geometry::Channel { length, width, forcing: Forcing::Gradient(0.0) };
-        self.layers = Layers::new(geometry, self.settings.tolerance);
+        self.layers = Layers::new(geometry, self.settings.tolerance, false);
         let rigid = RigidWalls::new(&mut self.layers, [length, width], forcing, self.viscosity, walls)?;
         self.rigid = Some(Box::new(rigid));
         self.placed = false;

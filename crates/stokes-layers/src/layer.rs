@@ -87,7 +87,8 @@ pub(crate) struct Layers {
 }
 
 impl Layers {
-    pub(crate) fn new(geometry: Geometry, tolerance: f64) -> Self {
+    /// Where `symmetric`, corrections of the single layer for close nodes are the same in both directions.
+    pub(crate) fn new(geometry: Geometry, tolerance: f64, symmetric: bool) -> Self {
         let walls = if let Geometry::Channel { length, width, forcing } = geometry {
             Some(Walls::new(length, width, forcing, tolerance))
         } else {
@@ -104,7 +105,7 @@ impl Layers {
             direct: DirectSums::default(),
             multipoles: Multipoles::new(geometry, tolerance),
             walls,
-            close: CloseCorrection::new(tolerance),
+            close: CloseCorrection::new(tolerance, symmetric),
             out: Vec::new(),
             fine: Vec::new(),
             points: points::PointSums::new(tolerance),
@@ -206,8 +207,7 @@ impl Layers {
     }
 
     /// Computes the single layer of forces that came later, at the nodes of their curves, x then y, curve after curve.
-    /// Where `symmetric`, the corrections for close nodes are the same in both directions.
-    pub(crate) fn kept_layer(&mut self, forces: &[f64], symmetric: bool) {
+    pub(crate) fn kept_layer(&mut self, forces: &[f64]) {
         self.set_kept(forces, self.walls.as_ref().is_some_and(Walls::is_refined));
         self.clear();
         let Self { direct, walls, close, curves, plans, out, kept, .. } = self;
@@ -215,7 +215,7 @@ impl Layers {
         if let Some(walls) = walls {
             walls.add_forces(curves, kept.first..curves.len(), out);
         }
-        close.add_kept(curves, symmetric, out);
+        close.add_kept(curves, out);
     }
 
     /// Interpolates forces that came later to the fine nodes.

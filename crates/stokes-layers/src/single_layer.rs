@@ -32,8 +32,8 @@ pub enum Reciprocity {
     /// In each direction by itself: velocities are spectrally accurate at every node. The operator is symmetric to the
     /// accuracy to which the nodes resolve the forces.
     Accurate,
-    /// At the nodes of the curve that has fewer of them, of two with as many those of the first one; the other curve
-    /// gets the transpose. The operator is symmetric to round-off and accurate for what moves with the nodes' smooth
+    /// At the nodes of the curve whose nodes are closer together, of two with the same spacing those of the first one;
+    /// the other curve gets the transpose. The operator is symmetric to round-off and accurate for what moves with the nodes' smooth
     /// fields, such as power.
     Exact,
 }
@@ -64,10 +64,10 @@ pub enum Reciprocity {
 /// let forces: Vec<f64> =
 ///     (0..2 * nodes).map(|i| if i < nodes { x(i).cos() * length / nodes as f64 } else { 0.0 }).collect();
 ///
-/// let mut layer = SingleLayer::new(geometry, 1e-10)?;
+/// let mut layer = SingleLayer::new(geometry, 1e-10, Reciprocity::Accurate)?;
 /// layer.load([LayerCurve { positions: &positions, period: Vec2::new(length, 0.0), nodes }].into_iter())?;
 /// let mut out = vec![0.0; 2 * nodes];
-/// layer.apply(&forces, Reciprocity::Accurate, &mut out)?;
+/// layer.apply(&forces, &mut out)?;
 /// assert!((0..nodes).all(|i| (out[i] - 0.25 * x(i).cos()).abs() < 1e-10));
 /// # Ok(())
 /// # }
@@ -83,13 +83,13 @@ impl SingleLayer {
     /// # Errors
     /// Lengths of the region that are not positive and finite, periods of which one is more than 20 times the other, a
     /// tolerance outside of 1e-15 to 1e-3.
-    pub fn new(geometry: Geometry, tolerance: f64) -> Result<Self, LayerError> {
+    pub fn new(geometry: Geometry, tolerance: f64, reciprocity: Reciprocity) -> Result<Self, LayerError> {
         geometry.check()?;
         if let Geometry::Box { lengths: [lx, ly] } = geometry {
             within("the ratio of the periods", lx.max(ly) / lx.min(ly), 1.0, LARGEST_RATIO)?;
         }
         within("the tolerance", tolerance, 1e-15, 1e-3)?;
-        Ok(Self { layers: Layers::new(geometry, tolerance) })
+        Ok(Self { layers: Layers::new(geometry, tolerance, reciprocity == Reciprocity::Exact) })
     }
 
     /// Takes over curves, truncated to the modes that their nodes carry, and computes the layer between all nodes.
@@ -140,11 +140,11 @@ impl SingleLayer {
     ///
     /// # Errors
     /// Slices of another length than there are entries, forces that are not finite.
-    pub fn apply(&mut self, forces: &[f64], reciprocity: Reciprocity, out: &mut [f64]) -> Result<(), LayerError> {
+    pub fn apply(&mut self, forces: &[f64], out: &mut [f64]) -> Result<(), LayerError> {
         same_length("the forces", self.entry_count(), forces.len())?;
         same_length("out", self.entry_count(), out.len())?;
         input_checks::all_finite("the forces", forces)?;
-        self.layers.kept_layer(forces, reciprocity == Reciprocity::Exact);
+        self.layers.kept_layer(forces);
         let mut first = 0;
         for flow in self.layers.flow() {
             for values in [&flow.x, &flow.y] {

@@ -1,7 +1,7 @@
 //! Elastic solids against exact results.
 
 use motile_tests::validation::solids::{
-    Layer, Material, Sample, balance, energies, largest_stress_error, laws, meshes, moduli, patch,
+    Layer, Material, Sample, Surface, balance, energies, largest_stress_error, laws, meshes, moduli, patch,
 };
 use motile_tests::validation::{StudyError, Table, order};
 
@@ -67,20 +67,20 @@ fn layers(quick: bool) -> Result<Table, StudyError> {
         &format!("A sheared layer relaxing below a fluid (Kelvin-Voigt): error of the rate at h = {spacings:?}, %"),
         &["material", "mesh", "surface", "errors", "order"],
     );
-    for corrected in [false, true] {
+    for (surface, called) in [(Surface::Plain, "plain"), (Surface::Corrected, "corrected")] {
         for (material, unstructured) in [
             (Material::Springs, false),
             (Material::Springs, true),
             (Material::NeoHookean, false),
             (Material::NeoHookean, true),
         ] {
-            let layer = Layer { material, unstructured, corrected };
+            let layer = Layer { material, unstructured, surface };
             let errors = spacings.iter().map(|&h| layer.error(h)).collect::<Result<Vec<_>, _>>()?;
             let list: Vec<String> = errors.iter().map(|&error| per_cent(error)).collect();
             table.push([
                 name(material).to_owned(),
                 if unstructured { "unstructured" } else { "lattice" }.to_owned(),
-                if corrected { "corrected" } else { "plain" }.to_owned(),
+                called.to_owned(),
                 list.join(", "),
                 format!("{:.2}", order(spacings, &errors)),
             ]);

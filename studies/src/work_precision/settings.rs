@@ -127,6 +127,7 @@ impl Settings {
                 corrected: self.corrected,
                 filter,
                 contrast,
+                layers: None,
             }),
         };
         Setup { method, step: self.step, ..base }

@@ -7,7 +7,7 @@ use motile::elastic_solids::{
     material::{DeformationGradient, Mat2, MooneyRivlin, SaintVenantKirchhoff},
     mesh::{equilateral_block, equilateral_strip, fitted_strip},
 };
-use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
+use motile::ib_core::{CubicQuadratic, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Grid};
 
 use crate::validation::StudyError;
@@ -150,11 +150,26 @@ pub struct Layer {
     pub material: Material,
     /// Whether its mesh is no lattice.
     pub unstructured: bool,
-    /// Whether its surface has the mobility correction.
-    pub corrected: bool,
+    /// What is done about the smearing of its surface over the grid.
+    pub surface: Surface,
+}
+
+/// What is done about the smearing of a surface over the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Surface {
+    /// Nothing.
+    Plain,
+    /// The mobility correction.
+    Corrected,
+    /// It is a layer with points as far apart as the grid's, those below it twice as far.
+    Layer,
 }
 
 const LENGTH: f64 = 1.6;
+/// Where the surface is a layer, which needs 16 points.
+const LAYER_LENGTH: f64 = 3.2;
+/// Of interfaces, of which there are none.
+const NODES: usize = 16;
 const HEIGHT: f64 = 2.0;
 /// With this thickness a lattice is exactly equilateral at spacings 0.2, 0.1, 0.05 and 0.025.
 const THICKNESS: f64 = 0.866_025_403_784_438_6;
@@ -184,21 +199,34 @@ impl Layer {
     }
 
     fn mesh(&self, h: f64) -> Result<TriangleMesh, SolidError> {
-        let bottom = -0.5 * HEIGHT;
-        if !self.unstructured {
-            return fitted_strip(Vec2::new(0.0, bottom), [LENGTH, THICKNESS], h);
-        }
-        let sides = [Outline::flat(0.0, LENGTH, bottom)?, Outline::flat(0.0, LENGTH, bottom + THICKNESS)?];
-        Mesher::new(h)?.turned(TURN)?.mesh(&Interior::new(sides)?)
+        let (bottom, length) = (-0.5 * HEIGHT, self.length());
+        let spacing = if self.surface == Surface::Layer { 2.0 * h } else { h };
+        let mesh = if self.unstructured {
+            let sides = [Outline::flat(0.0, length, bottom)?, Outline::flat(0.0, length, bottom + THICKNESS)?];
+            Mesher::new(spacing)?.turned(TURN)?.mesh(&Interior::new(sides)?)?
+        } else {
+            fitted_strip(Vec2::new(0.0, bottom), [length, THICKNESS], spacing)?
+        };
+        if self.surface == Surface::Layer { mesh.with_finer_boundary(|s| s.y > bottom + 1e-9) } else { Ok(mesh) }
+    }
+
+    fn length(&self) -> f64 {
+        if self.surface == Surface::Layer { LAYER_LENGTH } else { LENGTH }
     }
 
     fn relaxation(&self, solid: Solid, h: f64, shear: f64) -> Result<f64, StudyError> {
-        let grid = Grid::channel((LENGTH / h).round() as usize, (HEIGHT / h).round() as usize, h)?;
+        let grid = Grid::channel((self.length() / h).round() as usize, (HEIGHT / h).round() as usize, h)?;
         let solver = ChannelStokes::new(grid, VISCOSITY)?;
-        let mut scene = Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default()));
+        let flow: Box<dyn Hydrodynamics> = if self.surface == Surface::Layer {
+            Box::new(ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, 1e-8)?)
+        } else {
+            Box::new(ImmersedBoundary::new(solver, CubicQuadratic::default()))
+        };
+        let mut scene = Scene::new(flow);
         let above = |s: Vec2| s.y + 0.5 * HEIGHT;
         let solid = solid.pinned(|s| above(s) < 1e-9)?.deformed(|s| s + Vec2::new(shear * above(s), 0.0))?;
-        let handle = scene.add(if self.corrected { solid.surface_corrected() } else { solid });
+        let corrected = self.surface == Surface::Corrected;
+        let handle = scene.add(if corrected { solid.surface_corrected() } else { solid });
         let start = slide(scene.body(handle)?);
         let time = VISCOSITY / LAYER_SHEAR;
         for _ in 0..50 {

@@ -53,10 +53,11 @@ impl ActiveDroplet {
     }
 }
 
-/// The length below which the flow no longer responds to forces along an interface: the grid spacing, or 2/q for the
-/// largest resolved wave number q, of which the interface's stiffness is a quarter.
+/// The length below which the flow no longer responds to forces along an interface: the grid spacing, or, where the
+/// flow resolves a number of modes, 2/q for the largest wave number q, of which the interface's stiffness is a quarter.
 pub(crate) fn finest_response(discretisation: &Discretisation) -> f64 {
-    discretisation.spacing.unwrap_or(0.5 / discretisation.interface_stiffness)
+    let grid = discretisation.spacing.filter(|_| discretisation.shape_modes.is_none());
+    grid.unwrap_or(0.5 / discretisation.interface_stiffness)
 }
 
 #[cfg(test)]

@@ -87,36 +87,37 @@ impl<E: EnergyDensity> ElasticForces for Hyperelastic<E> {
 
 /// A triangle with what its deformation gradient needs: `A = [X1 - X0, X2 - X0] [s1 - s0, s2 - s0]^-1` (4.10).
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Element {
+pub(super) struct Element {
     corners: [u32; 3],
     /// What to add to x of the second and third corner across the seam of a periodic mesh.
     shifts: [f64; 2],
     /// Inverse of the matrix of the reference sides.
     inverse: Mat2,
     /// Reference area.
-    area: f64,
+    pub(super) area: f64,
 }
 
 impl Element {
     /// All triangles of a mesh.
     fn all(mesh: &TriangleMesh) -> Vec<Self> {
-        (0..mesh.triangles().len())
-            .map(|number| {
-                let at = mesh.raw_corners(number, mesh.points());
-                let home = mesh.triangles()[number];
-                Self {
-                    corners: home.map(|point| point as u32),
-                    shifts: [1, 2].map(|k| at[k].x - mesh.points()[home[k]].x),
-                    inverse: Mat2::from_cols(at[1] - at[0], at[2] - at[0]).inverse(),
-                    area: mesh.areas()[number],
-                }
-            })
-            .collect()
+        (0..mesh.triangles().len()).map(|number| Self::of(mesh, number)).collect()
+    }
+
+    /// A triangle of a mesh.
+    pub(super) fn of(mesh: &TriangleMesh, number: usize) -> Self {
+        let at = mesh.raw_corners(number, mesh.points());
+        let home = mesh.triangles()[number];
+        Self {
+            corners: home.map(|point| point as u32),
+            shifts: [1, 2].map(|k| at[k].x - mesh.points()[home[k]].x),
+            inverse: Mat2::from_cols(at[1] - at[0], at[2] - at[0]).inverse(),
+            area: mesh.areas()[number],
+        }
     }
 
     /// The deformation gradient A.
     #[inline]
-    fn gradient(&self, positions: &[Vec2]) -> Mat2 {
+    pub(super) fn gradient(&self, positions: &[Vec2]) -> Mat2 {
         let [a, b, c] = self.corners.map(|point| positions[point as usize]);
         let first = Vec2::new(b.x + self.shifts[0] - a.x, b.y - a.y);
         let second = Vec2::new(c.x + self.shifts[1] - a.x, c.y - a.y);
@@ -125,7 +126,7 @@ impl Element {
 
     /// Adds the forces (4.12) of the stress P on the three corners; they sum to zero exactly as far as numbers can.
     #[inline]
-    fn add_forces(&self, stress: &Mat2, forces: &mut [Vec2]) {
+    pub(super) fn add_forces(&self, stress: &Mat2, forces: &mut [Vec2]) {
         let pull = stress * self.inverse.transpose() * self.area;
         let (first, second) = (pull.x_axis, pull.y_axis);
         let [a, b, c] = self.corners.map(|point| point as usize);

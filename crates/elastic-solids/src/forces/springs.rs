@@ -3,6 +3,7 @@
 use ib_core::Vec2;
 use ib_core::input::{positive, same_length};
 
+use super::hyperelastic::Element;
 use crate::material::Mat2;
 use crate::{ElasticForces, Moduli, SolidError, TriangleMesh};
 
@@ -15,14 +16,22 @@ use crate::{ElasticForces, Moduli, SolidError, TriangleMesh};
 /// ```
 /// makes the mesh an isotropic material of shear modulus mu and bulk modulus 2 mu, free edges included; on the
 /// equilateral lattice K = 4 mu/sqrt(3). Cowley's (4.2) has the mean area of the edge's two points instead of the
-/// two triangles', which is too soft next to free edges. All this holds for meshes of almost equal edges.
+/// two triangles', which is too soft next to free edges. All this holds for triangles of almost equal sides. One whose
+/// longest side is more than 1.8 times the shortest, as in a [finer boundary](TriangleMesh::with_finer_boundary), has
+/// no springs along its sides but the energy that its deformation gives springs along its longest side and at 60
+/// degrees to it, as if it were part of an equilateral one.
 #[derive(Debug, Clone)]
 pub struct Springs {
     springs: Vec<Spring>,
-    /// Sides of the triangles in the reference state and shear modulus of each, for stresses.
+    /// Triangles of uneven sides.
+    uneven: Vec<(usize, Element)>,
+    /// Springs of the triangles in the reference state, by direction, and shear modulus of each.
     sides: Vec<([Vec2; 3], f64)>,
     points: usize,
 }
+
+/// Longest over shortest side of a triangle from which on it has no springs along its sides.
+const UNEVEN: f64 = 1.8;
 
 #[derive(Debug, Clone, Copy)]
 struct Spring {
@@ -59,18 +68,31 @@ impl Springs {
     /// # Errors
     /// A shear modulus that is not positive and finite.
     pub fn graded(mesh: &TriangleMesh, mut shear: impl FnMut(Vec2) -> f64) -> Result<Self, SolidError> {
+        let mut uneven = Vec::new();
         let sides = (0..mesh.triangles().len())
             .map(|triangle| {
                 let [a, b, c] = mesh.raw_corners(triangle, mesh.points());
-                Ok(([b - a, c - b, a - c], positive("the shear modulus", shear(mesh.centroid(triangle)))?))
+                let mut sides = [b - a, c - b, a - c];
+                let (longest, shortest) =
+                    sides.iter().fold((Vec2::ZERO, f64::INFINITY), |(longest, shortest), side| {
+                        let further = side.length() > longest.length();
+                        (if further { *side } else { longest }, shortest.min(side.length()))
+                    });
+                if longest.length() > UNEVEN * shortest {
+                    uneven.push((triangle, Element::of(mesh, triangle)));
+                    sides = [0.0, 1.0, 2.0].map(|k| Vec2::from_angle(k * std::f64::consts::FRAC_PI_3).rotate(longest));
+                }
+                Ok((sides, positive("the shear modulus", shear(mesh.centroid(triangle)))?))
             })
             .collect::<Result<Vec<_>, SolidError>>()?;
+        let even = |triangle: usize| uneven.binary_search_by_key(&triangle, |(number, _)| *number).is_err();
         let springs = mesh
             .edges()
             .iter()
             .map(|edge| {
                 let span = mesh.edge_vector(edge, mesh.points());
-                let weight = |triangle: usize| sides[triangle].1 * mesh.areas()[triangle];
+                let weight =
+                    |triangle: usize| if even(triangle) { sides[triangle].1 * mesh.areas()[triangle] } else { 0.0 };
                 let (left, right) = edge.triangles;
                 let rest = span.length();
                 Spring {
@@ -81,7 +103,7 @@ impl Springs {
                 }
             })
             .collect();
-        Ok(Self { springs, sides, points: mesh.points().len() })
+        Ok(Self { springs, uneven, sides, points: mesh.points().len() })
     }
 }
 
@@ -105,16 +127,25 @@ impl ElasticForces for Springs {
             forces[spring.ends[0] as usize] += force;
             forces[spring.ends[1] as usize] -= force;
         }
+        for (triangle, element) in &self.uneven {
+            if let Some(stress) = self.stress(*triangle, &element.gradient(positions)) {
+                element.add_forces(&stress, forces);
+            }
+        }
         Ok(())
     }
 
     fn energy(&self, positions: &[Vec2]) -> Result<f64, SolidError> {
         same_length("the positions", self.points, positions.len())?;
-        Ok(self
-            .springs
-            .iter()
-            .map(|spring| 0.5 * spring.stiffness * (spring.span(positions).1 - spring.rest).powi(2))
-            .sum())
+        let springs = self.springs.iter();
+        let even = springs.map(|spring| 0.5 * spring.stiffness * (spring.span(positions).1 - spring.rest).powi(2));
+        let uneven = self.uneven.iter().map(|(triangle, element)| {
+            let (sides, shear) = self.sides[*triangle];
+            let gradient = element.gradient(positions);
+            let strain = |side: Vec2| (gradient * side).length() / side.length() - 1.0;
+            4.0 / 3.0 * shear * element.area * sides.iter().map(|side| strain(*side).powi(2)).sum::<f64>()
+        });
+        Ok(even.sum::<f64>() + uneven.sum::<f64>())
     }
 
     /// A triangle's share of the springs along its sides, which is a material of its own with the energy

@@ -184,3 +184,23 @@ fn an_inverted_triangle_is_named() {
     assert!(matches!(Springs::new(&mesh, -1.0), Err(SolidError::Input(InputError::NotPositive { .. }))));
     assert!(matches!(Springs::graded(&mesh, |s| s.x), Err(SolidError::Input(InputError::NotPositive { .. }))));
 }
+
+/// Springs of equilateral triangles whose sides on the boundary are divided are still the same material: a uniform
+/// strain leaves inner points without forces and has the energy of the undivided lattice.
+#[test]
+fn springs_of_a_finer_boundary_are_the_same_material() {
+    let lattice = equilateral_strip(Vec2::ZERO, 20, 6, 0.1).unwrap();
+    let finer = lattice.with_finer_boundary(|s| s.y > 0.1).unwrap();
+    let strained = |mesh: &TriangleMesh| -> Vec<Vec2> {
+        mesh.points().iter().map(|s| Vec2::new(s.x + 0.1 * s.y, 1.05 * s.y)).collect()
+    };
+    let energy = |mesh: &TriangleMesh| Springs::new(mesh, 1.3).unwrap().energy(&strained(mesh)).unwrap();
+    assert!((energy(&finer) / energy(&lattice) - 1.0).abs() < 1e-12);
+    let law = Springs::new(&finer, 1.3).unwrap();
+    let found = forces(&law, &strained(&finer));
+    let inner = finer.inner_points();
+    let largest = found.iter().zip(&inner).filter(|(_, inner)| **inner).map(|(f, _)| f.length()).fold(0.0, f64::max);
+    assert!(largest < 1e-13 && finer.points().len() == lattice.points().len() + 20, "{largest:e}");
+    // A periodic mesh has no torque.
+    assert!(force_balance(&law, &strained(&finer)).unwrap().sum < 1e-12);
+}

@@ -132,3 +132,27 @@ fn bad_meshes_are_refused() {
         Err(SolidError::Input(InputError::NotPositive { .. }))
     ));
 }
+
+#[test]
+fn a_finer_boundary_has_twice_as_many_points_and_the_same_shape() {
+    let strip = equilateral_strip(v(-1.0, -1.0), 20, 6, 0.1).unwrap();
+    let finer = strip.with_finer_boundary(|s| s.y > -0.9).unwrap();
+    assert!((finer.area() - strip.area()).abs() < 1e-12);
+    let counts: Vec<usize> = finer.boundary_loops().iter().map(|boundary| boundary.points.len()).collect();
+    assert_eq!(counts, [20, 40]);
+    let upper: Vec<Vec2> = finer.raw_polygon(&finer.boundary_loops()[1], finer.points());
+    assert!(upper.windows(2).all(|pair| (pair[0] - pair[1] - v(0.05, 0.0)).length() < 1e-12), "{upper:?}");
+    // Corners stay where they are, sides straight.
+    let frame = frame();
+    let finer = frame.with_finer_boundary(|_| true).unwrap();
+    assert_eq!(finer.points().len(), 16);
+    assert!((finer.area() - 12.0).abs() < 1e-12);
+    // New points of a circle lie on it to fourth order.
+    let errors = [0.2, 0.1].map(|spacing| {
+        let disc = crate::Outline::circle(v(0.3, 0.1), 1.0).unwrap().mesh(spacing).unwrap();
+        let finer = disc.with_finer_boundary(|_| true).unwrap();
+        let points = finer.boundary_loops()[0].points.iter();
+        points.map(|point| (finer.points()[*point].distance(v(0.3, 0.1)) - 1.0).abs()).fold(0.0, f64::max)
+    });
+    assert!(errors[0] < 1e-4 && (errors[0] / errors[1]).log2() > 3.5, "{errors:?}");
+}

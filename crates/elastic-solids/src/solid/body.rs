@@ -2,7 +2,7 @@
 
 use ib_core::{
     Body, BodyError, Discretisation, MarkerKind, Vec2, body::StepLimit, checkpoint::SavedState, gap::Boundary,
-    input::same_length,
+    hydrodynamics::SurfaceCurve, input::same_length,
 };
 
 use crate::solid::surface_correction::SurfaceCorrection;
@@ -100,6 +100,26 @@ impl Body for Solid {
                 boundary.push(self.positions[start], self.positions[start] + along);
             }
         }
+    }
+
+    /// The loops of the boundary without pinned points.
+    fn surfaces(&self) -> Vec<SurfaceCurve> {
+        let places = self.mesh.points();
+        let mut surfaces = Vec::new();
+        for outline in self.mesh.boundary_loops() {
+            // Reference places decide, so that the deformation cannot change the image.
+            let (mut shift, mut last) = (0, places[outline.points[0]].x);
+            let markers = outline.points.iter().map(|point| {
+                let x = places[*point].x;
+                shift -= self.mesh.period().map_or(0, |period| ((x - last) / period).round() as i32);
+                last = x;
+                self.free.binary_search(point).map(|marker| (marker, shift))
+            });
+            if let Ok(markers) = markers.collect() {
+                surfaces.push(SurfaceCurve { markers, periods: outline.periods });
+            }
+        }
+        surfaces
     }
 
     /// The mesh at rest, and what it takes to shear and stretch it.

@@ -40,6 +40,17 @@ impl MarkerKind {
     }
 }
 
+/// A curve that markers of a solid trace: a loop of its surface, along which they follow each other at roughly equal
+/// distances, the solid to its left.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct SurfaceCurve {
+    /// The markers in order, by their numbers in the body, each with the periods in x that are added to its place so
+    /// that the curve is continuous.
+    pub markers: Vec<(usize, i32)>,
+    /// Periods in x after which it meets itself: 0 for a closed curve, 1 or -1 for a wall's.
+    pub periods: i32,
+}
+
 /// The markers of one body within [`Markers`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct MarkerGroup {
@@ -47,6 +58,8 @@ pub struct MarkerGroup {
     pub range: Range<usize>,
     /// What they are.
     pub kind: MarkerKind,
+    /// The surfaces of a solid, as far as they move.
+    pub surfaces: Vec<SurfaceCurve>,
     /// Viscosity of the fluid around them (stress times time) where they lie inside an interface; `None` where it is
     /// that of the exterior fluid.
     pub viscosity_outside: Option<f64>,
@@ -84,8 +97,13 @@ impl Markers {
 
     /// Adds a group of `count` markers, with positions, forces and velocities zero.
     pub fn push_group(&mut self, count: usize, kind: MarkerKind) {
+        self.push_solid(count, kind, Vec::new());
+    }
+
+    /// The same with curves that some of them trace.
+    pub fn push_solid(&mut self, count: usize, kind: MarkerKind, surfaces: Vec<SurfaceCurve>) {
         let start = self.positions.len();
-        self.groups.push(MarkerGroup { range: start..start + count, kind, viscosity_outside: None });
+        self.groups.push(MarkerGroup { range: start..start + count, kind, surfaces, viscosity_outside: None });
         self.resize(start + count);
     }
 

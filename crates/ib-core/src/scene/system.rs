@@ -83,7 +83,7 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     pub(crate) fn push<B: Body>(&mut self, body: B) -> Handle<B> {
-        self.markers.push_group(body.marker_count(), body.kind());
+        self.markers.push_solid(body.marker_count(), body.kind(), body.surfaces());
         self.bodies.push(Box::new(body));
         self.around.push(None);
         self.outside.push(None);
@@ -276,7 +276,7 @@ impl<H: Hydrodynamics> System<H> {
         if !fits {
             self.markers.clear();
             for body in &self.bodies {
-                self.markers.push_group(body.marker_count(), body.kind());
+                self.markers.push_solid(body.marker_count(), body.kind(), body.surfaces());
             }
             self.markers.set_outside(&self.outside);
         }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use active_interface::{ActiveDroplet, Curve, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::Solid;
-use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, Scene, SmearedContrast, Vec2};
+use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
@@ -28,6 +28,8 @@ pub struct Built {
     pub solids: Vec<Handle<Solid>>,
 }
 
+/// Accuracy of layers beside solids, whose inner points see them through a grid.
+const LAYER_TOLERANCE: f64 = 1e-6;
 /// Film that is left beside a droplet squeezed to fit, over its radius.
 const FILM: f64 = 0.05;
 /// A squeezed droplet's least half height, over its radius.
@@ -77,6 +79,8 @@ impl Setup {
         };
         let curve = placed(curve, turned);
         let count = match &self.method {
+            Method::Grid(GridMethod { layers: Some(IntegralMethod { nodes, cells }), .. })
+            | Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
             Method::Grid(grid) => {
                 let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
                 let wanted = curve.perimeter() / spacing;
@@ -87,7 +91,6 @@ impl Setup {
                 }
                 fast_count(wanted)
             }
-            Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
         };
         let markers = curve.markers(count)?;
         let made = match &droplet.particles {
@@ -171,7 +174,9 @@ impl Setup {
     /// Takes a boxed solver, for which the method is compiled once, not once for each kind.
     fn coupled(&self, grid: &GridMethod, solver: Box<dyn StokesSolver>) -> Result<AnyFlow, SetupError> {
         let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
-        Ok(if differs && grid.contrast == Contrast::Arithmetic {
+        Ok(if let Some(IntegralMethod { nodes, .. }) = grid.layers {
+            Box::new(ImmersedLayers::new(solver, grid.kernel, nodes, LAYER_TOLERANCE)?)
+        } else if differs && grid.contrast == Contrast::Arithmetic {
             Box::new(SmearedContrast::new(solver, grid.kernel)?)
         } else if grid.corrected {
             Box::new(ImmersedBoundary::new(solver, grid.kernel))

@@ -1,6 +1,6 @@
 //! What descriptions must be, checked before any work.
 
-use ib_core::StepSize;
+use ib_core::{AnyKernel, StepSize};
 use stokes_grid::Drive;
 
 use super::{
@@ -103,16 +103,8 @@ impl Setup {
         Ok(())
     }
 
-    fn check_integral(&self, &IntegralMethod { nodes, cells }: &IntegralMethod) -> Result<(), SetupError> {
-        let checked = Checked { place: "method.integral" };
-        let [least, most] = IntegralMethod::NODES;
-        if !(least..=most).contains(&nodes) {
-            checked.refuse("nodes", &nodes, format!("give a number from {least} to {most}"))?;
-        }
-        if cells < nodes || cells as f64 > MARKERS[1] {
-            let remedy = format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]);
-            checked.refuse("cells", &cells, remedy)?;
-        }
+    fn check_integral(&self, integral: &IntegralMethod) -> Result<(), SetupError> {
+        integral.check("method.integral")?;
         if !self.solids.is_empty() {
             return Err(SetupError::needs_a_grid("solids"));
         }
@@ -126,6 +118,9 @@ impl Setup {
             checked.positive("marker-spacing", spacing)?;
         }
         self.cells(grid, self.region.lengths())?;
+        if let Some(layers) = &grid.layers {
+            return self.check_layers(grid, layers);
+        }
         let (with_fluid, equal): (Vec<_>, Vec<_>) =
             self.droplets.iter().partition(|droplet| droplet.motion == MarkerMotion::WithFluid);
         if !with_fluid.is_empty() && equal.is_empty() {
@@ -141,6 +136,48 @@ impl Setup {
         if differs && grid.corrected && grid.contrast == Contrast::Arithmetic {
             let remedy = "an arithmetic contrast has no mobility correction: give false, or a sharp contrast";
             checked.refuse("corrected", &true, remedy)?;
+        }
+        Ok(())
+    }
+
+    fn check_layers(&self, grid: &GridMethod, layers: &IntegralMethod) -> Result<(), SetupError> {
+        let checked = Checked { place: "method.grid" };
+        layers.check("method.grid.layers")?;
+        for (key, set) in [("corrected", grid.corrected), ("filter", grid.filter)] {
+            if set {
+                checked.refuse(key, &true, "layers need none: give false")?;
+            }
+        }
+        if let Some(spacing) = grid.marker_spacing {
+            checked.refuse("marker-spacing", &spacing, "layers have a number of cells: leave it out")?;
+        }
+        if grid.contrast == Contrast::Arithmetic {
+            checked.refuse("contrast", &"arithmetic", "layers have none: give sharp")?;
+        }
+        if let AnyKernel::Peskin4 | AnyKernel::Roma3 | AnyKernel::Gaussian6 = grid.kernel {
+            let remedy = "solids lose volume to layers with it: give a composite B-spline, such as bspline4";
+            checked.refuse("kernel", &format!("{:?}", grid.kernel), remedy)?;
+        }
+        for (number, droplet) in self.droplets.iter().enumerate() {
+            if let Some(viscosity) = droplet.viscosity.filter(|inside| *inside != self.viscosity) {
+                let place = Checked { place: &format!("droplets[{number}]") };
+                place.refuse(
+                    "viscosity",
+                    &viscosity,
+                    "layers have one viscosity: leave it or method.grid.layers out",
+                )?;
+            }
+        }
+        for (number, solid) in self.solids.iter().enumerate() {
+            let place = Checked { place: &format!("solids[{number}]") };
+            if solid.surface == Surface::SetBack {
+                place.refuse("surface", &"set-back", "layers stand where they are: give corrected")?;
+            }
+            let least = 2.0 * grid.spacing;
+            if let Some(spacing) = solid.mesh_spacing.filter(|spacing| *spacing < least * (1.0 - 1e-9)) {
+                let remedy = format!("the grid hardly sees inner points so close to a layer: give {least} or more");
+                place.refuse("mesh-spacing", &spacing, remedy)?;
+            }
         }
         Ok(())
     }
@@ -170,6 +207,21 @@ impl Setup {
             }
         }
         Ok(counts.map(|cells| cells.round() as usize))
+    }
+}
+
+impl IntegralMethod {
+    fn check(&self, place: &str) -> Result<(), SetupError> {
+        let (checked, Self { nodes, cells }) = (Checked { place }, *self);
+        let [least, most] = Self::NODES;
+        if !(least..=most).contains(&nodes) {
+            checked.refuse("nodes", &nodes, format!("give a number from {least} to {most}"))?;
+        }
+        if cells < nodes || cells as f64 > MARKERS[1] {
+            let remedy = format!("give a number from {nodes}, that of the nodes, to {}", MARKERS[1]);
+            checked.refuse("cells", &cells, remedy)?;
+        }
+        Ok(())
     }
 }
 

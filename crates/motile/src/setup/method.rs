@@ -85,6 +85,11 @@ pub struct GridMethod {
     pub filter: bool,
     /// How interfaces between fluids of different viscosity are treated.
     pub contrast: Contrast,
+    /// Interfaces and the surfaces of solids as layers of this resolution ([`ib_core::ImmersedLayers`]), for scenes with
+    /// solids: exact in films between them. Points of solids are then twice the grid spacing apart unless their
+    /// description says otherwise, on surfaces half of that. Takes the place of corrections, filter and marker spacing,
+    /// and needs a composite B-spline.
+    pub layers: Option<IntegralMethod>,
 }
 
 impl Default for GridMethod {
@@ -96,6 +101,7 @@ impl Default for GridMethod {
             corrected: true,
             filter: true,
             contrast: Contrast::Sharp,
+            layers: None,
         }
     }
 }
@@ -118,6 +124,12 @@ impl GridMethod {
     #[must_use]
     pub fn of_spacing(spacing: f64) -> Self {
         Self { spacing, ..Self::default() }
+    }
+
+    /// A grid of this spacing (length) with interfaces and surfaces of solids as layers of the default resolution.
+    #[must_use]
+    pub fn with_layers(spacing: f64) -> Self {
+        Self { corrected: false, filter: false, layers: Some(IntegralMethod::default()), ..Self::of_spacing(spacing) }
     }
 }
 

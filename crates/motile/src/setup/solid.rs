@@ -42,7 +42,7 @@ pub struct SolidSetup {
     /// How its points are arranged.
     #[serde(default)]
     pub mesh: MeshKind,
-    /// Spacing of its points (length); `None` for that of the grid.
+    /// Spacing of its points (length); `None` for that of the grid, twice that where its surface is a layer.
     #[serde(default)]
     pub mesh_spacing: Option<f64>,
     /// What is done about the smearing of its surface over the grid.
@@ -182,7 +182,8 @@ pub enum MeshKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Surface {
-    /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order. A round droplet that
+    /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order, and none where it is a
+    /// layer ([`GridMethod::layers`]), which needs none. A round droplet that
     /// would start in contact with the walls starts squeezed a little, beside a film.
     #[default]
     Corrected,
@@ -278,7 +279,8 @@ impl SolidSetup {
     /// # Errors
     /// A spacing that is no length.
     pub fn mesher(&self, grid: &GridMethod) -> Result<Mesher, SetupError> {
-        let mesher = Mesher::new(self.mesh_spacing.unwrap_or(grid.spacing))?;
+        let usual = if grid.layers.is_some() { 2.0 * grid.spacing } else { grid.spacing };
+        let mesher = Mesher::new(self.mesh_spacing.unwrap_or(usual))?;
         Ok(if self.mesh == MeshKind::Unstructured { mesher.turned(TURN)? } else { mesher })
     }
 
@@ -310,7 +312,15 @@ impl SolidSetup {
     pub(super) fn build(&self, setup: &Setup) -> Result<Solid, SetupError> {
         let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
         let enclosed = self.enclosed(&setup.region, self.set_back(grid))?;
-        self.on_mesh(self.mesher(grid)?.mesh(&enclosed)?, &setup.region)
+        let mesh = self.mesher(grid)?.mesh(&enclosed)?;
+        let half = 0.5 * setup.region.lengths()[1];
+        let moves = |s: Vec2| self.hold != Hold::Pinned || s.y.abs() < half * (1.0 - 1e-9);
+        if grid.layers.is_some() {
+            // Layers are exact as they are.
+            let plain = Self { surface: Surface::Plain, ..self.clone() };
+            return plain.on_mesh(mesh.with_finer_boundary(moves)?, &setup.region);
+        }
+        self.on_mesh(mesh, &setup.region)
     }
 
     /// What it fills, a wall set back by that much (length); islands are as they are.

@@ -99,6 +99,40 @@ fn what_makes_no_scene_is_refused_with_its_key() {
 }
 
 #[test]
+fn layers_that_make_no_scene_are_refused() {
+    let method = GridMethod::with_layers(0.1);
+    let base = Setup { method: Method::Grid(method), ..elastic(3.0, Surface::Corrected) };
+    let grid = |grid: GridMethod| Setup { method: Method::Grid(grid), ..base.clone() };
+    let nodes = |nodes, cells| grid(GridMethod { layers: Some(IntegralMethod { nodes, cells }), ..method });
+    let solid = |solid: SolidSetup| Setup { solids: vec![solid], ..base.clone() };
+    let wall = base.solids[0].clone();
+    let cases = [
+        ("method.grid.layers.nodes = 4", nodes(4, 64)),
+        ("method.grid.layers.cells = 32", nodes(64, 32)),
+        ("method.grid.corrected = true", grid(GridMethod { corrected: true, ..method })),
+        ("method.grid.filter = true", grid(GridMethod { filter: true, ..method })),
+        ("method.grid.marker-spacing = 0.05", grid(GridMethod { marker_spacing: Some(0.05), ..method })),
+        ("method.grid.contrast = arithmetic", grid(GridMethod { contrast: Contrast::Arithmetic, ..method })),
+        ("method.grid.kernel = Peskin4", grid(GridMethod { kernel: ib_core::AnyKernel::Peskin4, ..method })),
+        ("droplets[0].viscosity = 10", {
+            let droplet = DropletSetup { viscosity: Some(10.0), ..DropletSetup::default() };
+            Setup { droplets: vec![droplet], ..base.clone() }
+        }),
+        ("solids[0].surface = set-back", solid(SolidSetup { surface: Surface::SetBack, ..wall.clone() })),
+        ("solids[0].mesh-spacing = 0.1", solid(SolidSetup { mesh_spacing: Some(0.1), ..wall.clone() })),
+    ];
+    for (start, setup) in cases {
+        assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
+    }
+    let Built { mut scene, solids, .. } = base.build().unwrap();
+    scene.step(1e-3).unwrap();
+    // Points on the surface as far apart as the grid's, those below it twice as far.
+    let mesh = scene.body(solids[0]).unwrap().mesh();
+    let [lower, upper] = [0, 1].map(|k| mesh.boundary_loops()[k].points.len());
+    assert!(lower.abs_diff(30) < 4 && upper == 2 * lower, "{lower} {upper}");
+}
+
+#[test]
 fn solids_that_make_no_scene_are_refused() {
     let base = elastic(3.0, Surface::Corrected);
     let wall = base.solids[0].clone();
@@ -366,6 +400,7 @@ mod file {
             ..Particles::default()
         });
         let graded = Grading::Along { axis: Axis::X, factors: vec![[0.0, 1.0], [3.0, 2.0]] };
+        setup.method = Method::Grid(GridMethod::with_layers(0.1));
         setup.solids.push(SolidSetup {
             hold: Hold::Tethered { stiffness: 20.0 },
             grading: graded,

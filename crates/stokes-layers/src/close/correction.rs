@@ -40,6 +40,8 @@ pub(crate) struct Crossing {
 pub(crate) struct CloseCorrection {
     /// Distance in spacings below which a node is close.
     reach: f64,
+    /// Whether corrections between two curves are found on one of them only.
+    symmetric: bool,
     close: Vec<CloseNode>,
     /// Factors of v and conj v, v a force or a velocity, at the nodes of the source, for each close node.
     rows: Vec<(f64, Complex64)>,
@@ -49,9 +51,9 @@ pub(crate) struct CloseCorrection {
 }
 
 impl CloseCorrection {
-    pub(crate) fn new(tolerance: f64) -> Self {
+    pub(crate) fn new(tolerance: f64, symmetric: bool) -> Self {
         let (fine, coarse) = Default::default();
-        Self { reach: reach(tolerance), close: Vec::new(), rows: Vec::new(), fine, coarse, crossing: None }
+        Self { reach: reach(tolerance), symmetric, close: Vec::new(), rows: Vec::new(), fine, coarse, crossing: None }
     }
 
     /// Looks for close nodes and prepares the fine nodes of the curves that have some.
@@ -62,7 +64,7 @@ impl CloseCorrection {
             let reach = self.reach * curve.spacing();
             let first = self.close.len();
             for (target, other) in curves.iter().enumerate() {
-                if !kept.pair(target, source) {
+                if !kept.pair(target, source) || self.symmetric && !finer(curves, target, source) {
                     continue;
                 }
                 let apart = images.wrap(other.centre - curve.centre);
@@ -217,26 +219,22 @@ impl CloseCorrection {
         }
     }
 
-    /// Adds the corrections of the single layer that were kept, for forces at the nodes. Where `symmetric`, those of
-    /// two curves are found on the one with fewer nodes, or else the first one, and the other one gets their transpose.
-    pub(crate) fn add_kept(&self, curves: &[Curve], symmetric: bool, out: &mut [Vectors]) {
+    /// Adds the corrections of the single layer that were kept, for forces at the nodes. Where they are symmetric the
+    /// curve that they were not found on gets their transpose.
+    pub(crate) fn add_kept(&self, curves: &[Curve], out: &mut [Vectors]) {
         for close in &self.close {
             let Some(row) = close.force_row else { continue };
             let (target, source) = (&curves[close.target], &curves[close.source]);
             let row = &self.rows[row..row + source.len()];
-            let rank = |index: usize| (curves[index].len(), index);
             // Each of two images of the same curve gives half.
-            let share = if symmetric && close.target == close.source { 0.5 } else { 1.0 };
-            if symmetric && rank(close.target) > rank(close.source) {
-                continue;
-            }
+            let share = if self.symmetric && close.target == close.source { 0.5 } else { 1.0 };
             let mut sum = Complex64::default();
             for ((c, d), force) in row.iter().zip(&source.nodes.force) {
                 sum += force * *c + force.conj() * d;
             }
             out[close.target].x[close.node] += share * sum.re;
             out[close.target].y[close.node] += share * sum.im;
-            if symmetric {
+            if self.symmetric {
                 let force = share * target.nodes.force[close.node];
                 for (j, (c, d)) in row.iter().enumerate() {
                     // The factors act on the components of a force by a symmetric matrix.
@@ -247,6 +245,12 @@ impl CloseCorrection {
             }
         }
     }
+}
+
+/// Whether the nodes of a curve are closer together than those of another one, of two with the same spacing whether it
+/// is the first one: they resolve best what is between the two.
+fn finer(curves: &[Curve], one: usize, other: usize) -> bool {
+    curves[one].spacing().total_cmp(&curves[other].spacing()).then(one.cmp(&other)).is_le()
 }
 
 /// The product of a row with vectors at the nodes.

@@ -78,7 +78,7 @@ impl RigidWalls {
         let mut forces = DVector::zeros(count);
         for column in 0..count {
             forces[column] = 1.0;
-            layers.kept_layer(forces.as_slice(), false);
+            layers.kept_layer(forces.as_slice());
             write_walls(layers, matrix.column_mut(column).as_mut_slice(), 1.0);
             forces[column] = 0.0;
         }
@@ -134,7 +134,7 @@ impl RigidWalls {
             self.driven.0.copy_from(&self.forces);
             self.driven.1 = self.gradient;
         }
-        layers.kept_layer(self.forces.as_slice(), false);
+        layers.kept_layer(self.forces.as_slice());
         let factor = -TAU * self.gradient;
         let interfaces = layers.kept.first;
         for (curve, out) in layers.curves[..interfaces].iter().zip(&mut layers.out) {

@@ -88,7 +88,11 @@ impl<H: Hydrodynamics> System<H> {
         for (gap, body, other) in between.into_iter().chain(walls).filter(|(gap, ..)| *gap < resolved) {
             let message = format!(
                 "a gap of {gap:.2e} from {other}, below {resolved:.2e}, what is resolved: use a finer {}",
-                if discretisation.spacing.is_some() { "grid, or boundary integrals" } else { "interface (more nodes)" }
+                if on_grid(&discretisation).is_some() {
+                    "grid, or boundary integrals"
+                } else {
+                    "interface (more nodes)"
+                }
             );
             warnings.push(Warning { body, cause: "thin film", excess: resolved / gap.max(1e-3 * resolved), message });
         }
@@ -101,7 +105,7 @@ impl<H: Hydrodynamics> System<H> {
         let closed = matches!(self.hydrodynamics.drive(), Some(Drive::ZeroFlux | Drive::Flux(_)));
         let cells = if closed { RESOLVED_CELLS_CLOSED } else { RESOLVED_CELLS };
         let nodes = || RESOLVED_NODES * self.node_spacing(&discretisation);
-        discretisation.spacing.map_or_else(nodes, |spacing| cells * spacing)
+        on_grid(&discretisation).map_or_else(nodes, |spacing| cells * spacing)
     }
 
     /// The largest distance of neighbouring nodes of an interface (length).
@@ -224,6 +228,11 @@ impl<H: Hydrodynamics> System<H> {
             self.minimum_wall_gap = Some(self.minimum_wall_gap.map_or(gap, |least| least.min(gap)));
         }
     }
+}
+
+/// The grid spacing (length) where films are on the grid: where interfaces have modes of their own they are not.
+fn on_grid(discretisation: &Discretisation) -> Option<f64> {
+    discretisation.spacing.filter(|_| discretisation.shape_modes.is_none())
 }
 
 #[cfg(test)]

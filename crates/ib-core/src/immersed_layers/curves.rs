@@ -1,0 +1,231 @@
+//! The curves that layers lie on: points that bodies give, nodes of layers, and nodes that the grid sees.
+
+use fourier::{PeriodicSeries, spectrum::largest_wave};
+use input_checks::at_least;
+use num_complex::Complex64;
+use stokes_layers::LayerCurve;
+
+use crate::{FlowError, Markers, Vec2, hydrodynamics::MarkerGroup};
+
+/// Where their own nodes are equally spaced, grid nodes of a curve are at most a grid spacing over this apart.
+const FINER: f64 = 1.2;
+/// Fewest points of a curve.
+const LEAST_POINTS: usize = 16;
+
+/// A closed curve or one that is periodic in x.
+#[derive(Debug, Clone)]
+struct Curve {
+    /// Markers and the periods that are added to their places.
+    markers: Vec<(usize, i32)>,
+    /// How far it goes on in a turn of the parameter (length).
+    advance: f64,
+    /// Where its points, its nodes and its grid nodes start in the lists of all curves.
+    starts: [usize; 3],
+    /// Series through values at its points, its nodes and its grid nodes.
+    series: [PeriodicSeries; 3],
+    length: f64,
+}
+
+/// The curves of all bodies.
+#[derive(Debug, Clone)]
+pub(super) struct LayerCurves {
+    period: f64,
+    spacing: f64,
+    nodes: usize,
+    groups: Vec<MarkerGroup>,
+    curves: Vec<Curve>,
+    interfaces: usize,
+    /// Markers that are on no curve.
+    pub(super) inner: Vec<usize>,
+    /// At the points.
+    points: Vec<Vec2>,
+    values: Vec<Vec2>,
+    /// Velocities at the nodes of a curve.
+    sums: Vec<Complex64>,
+    /// Forces at the nodes, x then y, curve after curve.
+    pub(super) forces: Vec<f64>,
+    /// Velocities there.
+    pub(super) velocities: Vec<f64>,
+    /// Positions, forces and velocities at the grid nodes.
+    pub(super) grid: [Vec<Vec2>; 3],
+}
+
+impl LayerCurves {
+    /// For a region of that period in x and a grid of that spacing (length); so many nodes of an interface.
+    pub(super) fn new(period: f64, spacing: f64, nodes: usize) -> Self {
+        Self {
+            period,
+            spacing,
+            nodes,
+            groups: Vec::new(),
+            curves: Vec::new(),
+            interfaces: 0,
+            inner: Vec::new(),
+            points: Vec::new(),
+            values: Vec::new(),
+            sums: Vec::new(),
+            forces: Vec::new(),
+            velocities: Vec::new(),
+            grid: Default::default(),
+        }
+    }
+
+    /// The length of the shortest interface (length).
+    pub(super) fn shortest_interface(&self) -> Option<f64> {
+        self.curves[..self.interfaces].iter().map(|curve| curve.length).reduce(f64::min)
+    }
+
+    /// The curves as layers want them.
+    pub(super) fn layers(&self) -> impl Iterator<Item = LayerCurve<'_>> + Clone {
+        self.curves.iter().map(|curve| {
+            let positions = &self.points[curve.starts[0]..][..curve.markers.len()];
+            LayerCurve { positions, period: Vec2::new(curve.advance, 0.0), nodes: curve.series[1].len() }
+        })
+    }
+
+    /// Finds out which markers are on which curve.
+    fn arrange(&mut self, groups: &[MarkerGroup]) -> Result<(), FlowError> {
+        self.groups = groups.to_vec();
+        self.curves.clear();
+        let mut starts = [0; 3];
+        let mut curve = |markers: Vec<(usize, i32)>, periods: i32, nodes: usize| {
+            let series = [markers.len(), nodes, nodes].map(PeriodicSeries::new);
+            let curve = Curve { advance: f64::from(periods) * self.period, starts, series, length: 0.0, markers };
+            starts[0] += curve.markers.len();
+            starts[1] += nodes;
+            curve
+        };
+        for group in groups.iter().filter(|group| group.kind.is_interface()) {
+            at_least("the markers of an interface", group.range.len(), self.nodes)?;
+            self.curves.push(curve(group.range.clone().map(|marker| (marker, 0)).collect(), 0, self.nodes));
+        }
+        self.interfaces = self.curves.len();
+        for group in groups {
+            for surface in &group.surfaces {
+                let count = at_least("the points of a solid's surface", surface.markers.len(), LEAST_POINTS)?;
+                let largest = surface.markers.iter().map(|(marker, _)| *marker).max().unwrap_or(0);
+                at_least("the markers of a solid with a surface", group.range.len(), largest + 1)?;
+                let absolute = |&(marker, shift): &(usize, i32)| (group.range.start + marker, shift);
+                self.curves.push(curve(surface.markers.iter().map(absolute).collect(), surface.periods, count));
+            }
+        }
+        let mut free = vec![true; groups.last().map_or(0, |group| group.range.end)];
+        self.curves.iter().flat_map(|curve| &curve.markers).for_each(|(marker, _)| free[*marker] = false);
+        self.inner = (0..free.len()).filter(|marker| free[*marker]).collect();
+        let [points, nodes, _] = starts;
+        self.points.resize(points, Vec2::ZERO);
+        let most = self.curves.iter().map(|curve| curve.markers.len()).max();
+        self.values.resize(most.unwrap_or(0), Vec2::ZERO);
+        self.forces.resize(2 * nodes, 0.0);
+        self.velocities.resize(2 * nodes, 0.0);
+        Ok(())
+    }
+
+    /// Takes over positions and forces.
+    pub(super) fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
+        for (body, group) in markers.groups().iter().enumerate() {
+            for (what, list) in [("the position", &markers.positions), ("the force", &markers.forces)] {
+                let wrong = |v: &Vec2| !(v.x.is_finite() && v.y.is_finite());
+                if let Some(marker) = list[group.range.clone()].iter().position(wrong) {
+                    let v = list[group.range.start + marker];
+                    return Err(FlowError::NonFinite { what, body, marker, x: v.x, y: v.y });
+                }
+            }
+        }
+        if self.groups != markers.groups() {
+            self.arrange(markers.groups())?;
+        }
+        let mut first = 0;
+        for curve in &mut self.curves {
+            curve.starts[2] = first;
+            let count = curve.markers.len();
+            let points = &mut self.points[curve.starts[0]..][..count];
+            let forces = &mut self.values[..count];
+            for (((marker, shift), point), force) in curve.markers.iter().zip(&mut *points).zip(&mut *forces) {
+                *point = markers.positions[*marker] + Vec2::new(f64::from(*shift) * self.period, 0.0);
+                *force = markers.forces[*marker];
+            }
+            first += curve.fit(points, self.spacing);
+            for list in &mut self.grid {
+                list.resize(first.max(list.len()), Vec2::ZERO);
+            }
+            curve.load([points, forces], &mut self.forces, &mut self.grid)?;
+        }
+        self.grid.iter_mut().for_each(|list| list.truncate(first));
+        Ok(())
+    }
+
+    /// Writes the velocities of the markers on curves: those at the nodes, times a factor, and those of the grid.
+    pub(super) fn write(&mut self, factor: f64, out: &mut [Vec2]) -> Result<(), FlowError> {
+        for curve in &mut self.curves {
+            let [points, nodes, grid] = &mut curve.series;
+            grid.analyse_vectors(&self.grid[2][curve.starts[2]..][..grid.len()])?;
+            nodes.resample(grid);
+            let count = nodes.len();
+            let (x, y) = self.velocities[2 * curve.starts[1]..][..2 * count].split_at(count);
+            self.sums.clear();
+            let sum = nodes.values().iter().zip(x).zip(y);
+            self.sums.extend(sum.map(|((grid, x), y)| grid + factor * Complex64::new(*x, *y)));
+            nodes.analyse(self.sums.iter().copied())?;
+            drop_unpaired(nodes);
+            points.resample(nodes);
+            for ((marker, _), velocity) in curve.markers.iter().zip(points.values()) {
+                out[*marker] = Vec2::new(velocity.re, velocity.im);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Curve {
+    /// Measures it and says how many grid nodes it has.
+    fn fit(&mut self, points: &[Vec2], spacing: f64) -> usize {
+        let count = points.len();
+        let closing = points[count - 1].distance(points[0] + Vec2::new(self.advance, 0.0));
+        self.length = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() + closing;
+        let nodes = self.series[1].len();
+        let times = (FINER * self.length / (nodes as f64 * spacing)).ceil() as usize;
+        let fine = nodes * times.max(1);
+        if self.series[2].len() != fine {
+            self.series[2] = PeriodicSeries::new(fine);
+        }
+        fine
+    }
+
+    /// Takes over positions and forces at the points: forces to the nodes, both to the grid nodes.
+    fn load(
+        &mut self,
+        [positions, values]: [&[Vec2]; 2],
+        forces: &mut [f64],
+        out: &mut [Vec<Vec2>; 3],
+    ) -> Result<(), FlowError> {
+        let [points, nodes, grid] = &mut self.series;
+        let (count, on_grid) = (points.len(), self.starts[2]..self.starts[2] + grid.len());
+        let ramp = |k: usize, count: usize| self.advance * k as f64 / count as f64;
+        points.analyse(positions.iter().enumerate().map(|(k, v)| Complex64::new(v.x - ramp(k, count), v.y)))?;
+        nodes.resample(points);
+        grid.resample(nodes);
+        let fine = grid.len();
+        grid.write_vectors(&mut out[0][on_grid.clone()])?;
+        out[0][on_grid.clone()].iter_mut().enumerate().for_each(|(k, v)| v.x += ramp(k, fine));
+
+        points.analyse_vectors(values)?;
+        nodes.resample(points);
+        grid.resample(nodes);
+        grid.scale(|_| count as f64 / fine as f64);
+        grid.write_vectors(&mut out[1][on_grid])?;
+        let share = count as f64 / nodes.len() as f64;
+        let at_nodes = nodes.len();
+        let (x, y) = forces[2 * self.starts[1]..][..2 * at_nodes].split_at_mut(at_nodes);
+        for ((x, y), force) in x.iter_mut().zip(y).zip(nodes.values()) {
+            (*x, *y) = (share * force.re, share * force.im);
+        }
+        Ok(())
+    }
+}
+
+/// Leaves out the wave of a zigzag, which stands for both signs.
+fn drop_unpaired(series: &mut PeriodicSeries) {
+    let largest = largest_wave(series.len());
+    series.scale(|m| if m <= largest { 1.0 } else { 0.0 });
+}

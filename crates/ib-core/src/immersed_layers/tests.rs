@@ -1,0 +1,217 @@
+use std::f64::consts::TAU;
+
+use stokes_grid::{ChannelStokes, PeriodicStokes};
+use stokes_layers::{Interface, InterfaceFlow, Settings};
+
+use super::*;
+use crate::{CubicQuadratic, MarkerKind, hydrodynamics::SurfaceCurve};
+
+const NODES: usize = 64;
+const HEIGHT: f64 = 6.0;
+const TOLERANCE: f64 = 1e-8;
+
+type Flow<S> = ImmersedLayers<S, CubicQuadratic>;
+
+fn channel(length: f64, h: f64) -> Flow<ChannelStokes> {
+    let cells = |length: f64| (length / h).round() as usize;
+    let solver = ChannelStokes::new(Grid::channel(cells(length), cells(HEIGHT), h).unwrap(), 2.0).unwrap();
+    ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, TOLERANCE).unwrap()
+}
+
+fn circle(centre: Vec2, radius: f64, count: usize) -> Vec<Vec2> {
+    let at = |k: usize| centre + radius * Vec2::from_angle(TAU * k as f64 / count as f64);
+    (0..count).map(at).collect()
+}
+
+fn closed(count: usize) -> SurfaceCurve {
+    SurfaceCurve { markers: (0..count).map(|k| (k, 0)).collect(), periods: 0 }
+}
+
+fn droplet() -> Markers {
+    let mut markers = Markers::new();
+    markers.push_group(NODES, MarkerKind::Interface { viscosity_inside: None });
+    markers.positions = circle(Vec2::ZERO, 1.0, NODES);
+    markers
+}
+
+/// A solid of surface points and inner points.
+fn push(markers: &mut Markers, surface: SurfaceCurve, points: &[Vec2]) {
+    let mut positions = markers.positions.clone();
+    positions.extend_from_slice(points);
+    markers.push_solid(points.len(), MarkerKind::Points, vec![surface]);
+    markers.positions = positions;
+}
+
+/// A droplet and a disc beside it, whose inner points are `lattice` apart, those of the surface half of that.
+fn droplet_and_disc(gap: f64, lattice: f64) -> Markers {
+    let (centre, count) = (Vec2::new(0.3, 1.7 + gap), (0.7 * TAU / (0.5 * lattice)) as usize);
+    let rows = (0.7 / lattice) as i32;
+    let place = |i: i32, j: i32| Vec2::new(f64::from(i), f64::from(j)) * lattice;
+    let inner = (-rows..=rows).flat_map(|i| (-rows..=rows).map(move |j| place(i, j)));
+    let inner = inner.filter(|x| x.length() < 0.7 - 0.8 * lattice).map(|x| x + centre);
+    let mut markers = droplet();
+    let points: Vec<Vec2> = circle(centre, 0.7, count).into_iter().chain(inner).collect();
+    push(&mut markers, closed(count), &points);
+    markers
+}
+
+/// A droplet between the surfaces of two walls.
+fn droplet_and_walls(gap: f64, length: f64, lattice: f64) -> Markers {
+    let mut markers = droplet();
+    let columns = (length / lattice).round() as usize;
+    for side in [-1.0, 1.0] {
+        let at = |x: f64, depth: f64| Vec2::new(x, side * (1.0 + gap + depth));
+        let count = 2 * columns;
+        let surface = (0..count).map(|k| at(0.5 * lattice * k as f64, 0.0));
+        let rows = (1..4).flat_map(|row| (0..columns).map(move |k| (row, k)));
+        let inner =
+            rows.map(|(row, k)| at(lattice * (k as f64 + 0.5 * f64::from(row % 2)), 0.866 * lattice * f64::from(row)));
+        let curve = SurfaceCurve { markers: (0..count).map(|k| (k, 0)).collect(), periods: 1 };
+        push(&mut markers, curve, &surface.chain(inner).collect::<Vec<_>>());
+    }
+    markers
+}
+
+/// The mobility, column by column.
+fn mobility(flow: &mut impl Hydrodynamics, markers: &mut Markers) -> Vec<Vec<f64>> {
+    let count = 2 * markers.len();
+    let column = |column: usize| {
+        markers.forces.fill(Vec2::ZERO);
+        markers.forces[column / 2][column % 2] = 1.0;
+        flow.velocities(markers).unwrap();
+        markers.velocities.iter().flat_map(Vec2::to_array).collect()
+    };
+    (0..count).map(column).collect()
+}
+
+/// Whether all eigenvalues of a symmetric matrix are above a bound, by Cholesky's decomposition.
+fn eigenvalues_are_above(bound: f64, mut matrix: Vec<Vec<f64>>) -> bool {
+    let count = matrix.len();
+    matrix.iter_mut().enumerate().for_each(|(k, row)| row[k] -= bound);
+    for k in 0..count {
+        let (above, below) = matrix.split_at_mut(k + 1);
+        let row = &above[k];
+        if row[k] <= 0.0 {
+            return false;
+        }
+        for (i, other) in (k + 1..).zip(below) {
+            let factor = row[i] / row[k];
+            other[i..].iter_mut().zip(&row[i..]).for_each(|(entry, pivot)| *entry -= factor * pivot);
+        }
+    }
+    true
+}
+
+/// Largest entry, and how far the matrix is from being symmetric.
+fn asymmetry(matrix: &[Vec<f64>]) -> [f64; 2] {
+    let entries = || (0..matrix.len()).flat_map(|i| (0..matrix.len()).map(move |j| (i, j)));
+    let largest = entries().map(|(i, j)| matrix[i][j].abs()).fold(0.0, f64::max);
+    [largest, entries().map(|(i, j)| (matrix[i][j] - matrix[j][i]).abs()).fold(0.0, f64::max)]
+}
+
+#[test]
+fn the_mobility_is_symmetric_and_takes_energy() {
+    for gap in [0.3, 0.05] {
+        for mut markers in [droplet_and_disc(gap, 0.2), droplet_and_walls(gap, 4.0, 0.2)] {
+            let matrix = mobility(&mut channel(4.0, 0.1), &mut markers);
+            let [largest, difference] = asymmetry(&matrix);
+            assert!(difference < 1e-13 * largest, "{gap}: {difference:e} of {largest:e}");
+            assert!(eigenvalues_are_above(-1e-7 * largest, matrix), "{gap}");
+        }
+    }
+}
+
+fn forces(markers: &mut Markers) {
+    for (k, force) in markers.forces.iter_mut().enumerate() {
+        *force = Vec2::new((0.3 * k as f64).sin(), (0.2 * k as f64).cos());
+    }
+}
+
+#[test]
+fn interfaces_alone_move_as_without_a_grid() {
+    let mut markers = droplet();
+    forces(&mut markers);
+    let mut flow = channel(4.0, 0.2);
+    flow.velocities(&mut markers).unwrap();
+    let geometry = Geometry::Channel { length: 4.0, width: HEIGHT, forcing: Forcing::default() };
+    let settings = Settings { nodes: NODES, tolerance: TOLERANCE, ..Settings::default() };
+    let mut exact = InterfaceFlow::new(geometry, 2.0, settings).unwrap();
+    let (positions, forces) = (&markers.positions[..], &markers.forces[..]);
+    exact.load([Interface::closed(positions, forces, [2.0; 2])].into_iter()).unwrap();
+    exact.solve().unwrap();
+    let mut expected = vec![Vec2::ZERO; NODES];
+    exact.velocities(0, &mut expected).unwrap();
+    for (found, expected) in markers.velocities.iter().zip(expected) {
+        assert!((found - expected).length() < 1e-7, "{found} {expected}");
+    }
+}
+
+/// The flow of layers at inner points away from them is of second order.
+#[test]
+fn inner_points_move_with_the_flow_of_the_layers() {
+    let places = [Vec2::new(0.2, 2.1), Vec2::new(-0.3, 1.9)];
+    let errors = [0.2, 0.1, 0.05].map(|h| {
+        let mut markers = droplet();
+        for (force, x) in markers.forces.iter_mut().zip(&markers.positions) {
+            *force = 0.1 * Vec2::new(x.x * x.y, x.x + 1.0);
+        }
+        markers.push_group(places.len(), MarkerKind::Points);
+        markers.positions[NODES..].copy_from_slice(&places);
+        let mut flow = channel(4.0, h);
+        flow.velocities(&mut markers).unwrap();
+        let mut exact = [FlowSample::default(); 2];
+        flow.layer.sample(2.0, &places, &mut exact).unwrap();
+        let errors = markers.velocities[NODES..].iter().zip(&exact).map(|(v, exact)| (v - exact.velocity).length());
+        errors.fold(0.0, f64::max) / exact[0].velocity.length()
+    });
+    println!("{errors:?}");
+    assert!(errors[2] < 2e-3 && (errors[0] / errors[2]).log2() > 2.0 * 1.8, "{errors:?}");
+}
+
+#[test]
+fn forces_inside_leave_the_area_of_a_solid() {
+    let mut markers = droplet_and_disc(0.1, 0.2);
+    let surface = NODES..NODES + markers.groups()[1].surfaces[0].markers.len();
+    forces(&mut markers);
+    markers.forces[..surface.end].fill(Vec2::ZERO);
+    channel(4.0, 0.1).velocities(&mut markers).unwrap();
+    let (positions, velocities) = (&markers.positions[surface.clone()], &markers.velocities[surface]);
+    let centre = Vec2::new(0.3, 1.8);
+    let flux: f64 = positions.iter().zip(velocities).map(|(x, v)| (x - centre).dot(*v)).sum();
+    let sizes: f64 = positions.iter().zip(velocities).map(|(x, v)| (x - centre).length() * v.length()).sum();
+    assert!(flux.abs() < 1e-5 * sizes, "{flux:e} of {sizes:e}");
+}
+
+#[test]
+fn a_box_has_them_too() {
+    let solver = PeriodicStokes::new(Grid::periodic(40, 60, 0.1).unwrap(), 2.0).unwrap();
+    let mut flow = ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, TOLERANCE).unwrap();
+    let mut markers = droplet_and_disc(0.1, 0.2);
+    let [largest, difference] = asymmetry(&mobility(&mut flow, &mut markers));
+    assert!(difference < 1e-13 * largest, "{difference:e} of {largest:e}");
+}
+
+#[test]
+fn what_has_no_layers_is_refused() {
+    let mut flow = channel(4.0, 0.2);
+    let mut refused = |kind: MarkerKind, count: usize, surface: usize| {
+        let mut markers = Markers::new();
+        markers.push_solid(count, kind, if surface > 0 { vec![closed(surface)] } else { Vec::new() });
+        markers.positions = circle(Vec2::ZERO, 1.0, count);
+        flow.velocities(&mut markers).unwrap_err().to_string()
+    };
+    let inside = MarkerKind::Interface { viscosity_inside: Some(3.0) };
+    assert!(refused(inside, NODES, 0).contains("another viscosity"));
+    let few = refused(MarkerKind::Interface { viscosity_inside: None }, 32, 0);
+    assert!(few.contains("markers of an interface"), "{few}");
+    let few = refused(MarkerKind::Points, 20, 10);
+    assert!(few.contains("points of a solid's surface"), "{few}");
+    let mut beyond = droplet_and_disc(0.3, 0.2);
+    beyond.positions[NODES + 50].y = 4.0;
+    let error = channel(4.0, 0.2).velocities(&mut beyond).unwrap_err();
+    assert!(matches!(error, FlowError::BeyondWall { body: 1, marker: 50, .. }), "{error}");
+    let moved = Grid::channel(20, 20, 0.2).unwrap().with_origin([0.0; 2]).unwrap();
+    let solver = ChannelStokes::new(moved, 1.0).unwrap();
+    let error = ImmersedLayers::new(solver, CubicQuadratic::default(), NODES, TOLERANCE).unwrap_err();
+    assert!(error.to_string().contains("middle"), "{error}");
+}
