@@ -1,6 +1,7 @@
 //! Steady swimmers, their stability and bifurcations: the tables of `docs/steady-states.md`.
 //!
-//! `cargo run --release -p studies -- steady_states TABLE` prints one of them.
+//! `cargo run --release -p studies -- steady_states TABLE` prints one of them; with `--write` it becomes a file of
+//! `docs/tables`.
 
 mod bifurcations;
 mod parameters;
@@ -12,19 +13,27 @@ use motile::stokes_grid::Drive;
 use motile::{DropletSetup, IntegralMethod, Method, Region, Setup};
 use motile_examples::say;
 
+use crate::tables;
+
 /// Prints a table of steady states.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
     /// The table
     #[arg(value_enum)]
-    table: Table,
+    table: Which,
     /// Nodes, where the table has no list of its own
     #[arg(long, default_value_t = 96)]
     nodes: usize,
+    /// Write the tables to docs/tables, with the commit and what they depend on
+    #[arg(long)]
+    write: bool,
 }
 
+/// What the tables depend on besides what every run does.
+const INPUTS: [&str; 2] = ["crates/steady-states/src", "studies/src/steady_states"];
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Table {
+enum Which {
     /// Swimmers of the reference: errors, residuals, seconds
     Swimmers,
     /// Growth rates of swings in channels
@@ -44,16 +53,25 @@ enum Table {
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    match flags.table {
-        Table::Swimmers => swimmers::swimmers(),
-        Table::Lateral => swimmers::lateral(),
-        Table::Cost => swimmers::cost(),
-        Table::Cycle => bifurcations::cycle(flags.nodes),
-        Table::Threshold => bifurcations::threshold(flags.nodes),
-        Table::Regimes => bifurcations::regimes(flags.nodes),
-        Table::Length => parameters::length(flags.nodes),
-        Table::Contrast => parameters::contrast(flags.nodes),
+    let Flags { table, nodes, write } = *flags;
+    let found = match table {
+        Which::Swimmers => swimmers::swimmers(),
+        Which::Lateral => swimmers::lateral(),
+        Which::Cost => swimmers::cost(),
+        Which::Cycle => bifurcations::cycle(nodes),
+        Which::Threshold => bifurcations::threshold(nodes),
+        Which::Regimes => bifurcations::regimes(nodes),
+        Which::Length => parameters::length(nodes),
+        Which::Contrast => parameters::contrast(nodes),
+    }?;
+    found.iter().for_each(say);
+    if write {
+        let name = table.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+        let command = format!("steady_states {name} --nodes {nodes} --write");
+        let inputs = [&tables::RUNS[..], &INPUTS].concat();
+        tables::write(&format!("steady-{name}"), &command, &inputs, &found)?;
     }
+    Ok(())
 }
 
 /// The method with so many nodes.
@@ -66,15 +84,4 @@ fn channel(length: f64, width: f64, activity: f64, excluded_volume: f64, count: 
     let region = Region::Channel { length, width, drive: Drive::ZeroGradient };
     let droplets = vec![DropletSetup::contractile(activity, excluded_volume)];
     Setup { region, method: nodes(count), droplets, ..Setup::default() }
-}
-
-/// The head of a table.
-fn head(names: &[&str]) {
-    say(format_args!("| {} |", names.join(" | ")));
-    say(format_args!("|{}", "---|".repeat(names.len())));
-}
-
-/// A row of a table.
-fn row(cells: &[String]) {
-    say(format_args!("| {} |", cells.join(" | ")));
 }

@@ -2,9 +2,10 @@
 //!
 //! `cargo run --release --example bifurcation_diagram -- --in activity --from -0.3 --to -4` follows the droplet at
 //! rest, and the swimmers that branch off where it polarises, and writes to `out/bifurcation_diagram/`:
-//! `branches.csv`, all points; `special.csv`, folds (kind 0), branch points (1) and Hopf points (2); `diagram.svg`
-//! (also as PNG), stable parts drawn through and unstable ones dashed. With `--swimmer` it starts from the swimmer at
-//! `--from`. It goes on with `--resume` where it was broken off. `--help` lists the flags.
+//! `branches.csv`, all points; `special.csv`, folds (kind 0), branch points (1), Hopf points (2) and the ends of
+//! branches (3); `summary.json`, why they end; `diagram.svg` (also as PNG), stable parts drawn through and unstable
+//! ones dashed. With `--swimmer` it starts from the swimmer at `--from`. It goes on with `--resume` where it was broken
+//! off. `--help` lists the flags.
 
 mod flags;
 
@@ -18,7 +19,7 @@ use motile::ib_core::Vec2;
 use motile_examples::{Summary, make_directory, say};
 use motile_output::{AxisScale, CsvTable, Figure, Marker, Plot, Progress, Series};
 use steady_states::{
-    BranchPoint, Continuation, Eigenmode, Parameter, Profile, SpecialKind, SpecialPoint, SteadyState, Symmetry,
+    Branch, BranchPoint, Continuation, Eigenmode, Parameter, Profile, SpecialKind, SpecialPoint, SteadyState, Symmetry,
 };
 
 /// A branch of steady states over a parameter, with its stability and special points.
@@ -61,8 +62,11 @@ fn parameter(text: &str) -> Result<Parameter, String> {
     found.map(|(_, parameter)| *parameter).ok_or_else(|| format!("must be one of {}", names()))
 }
 
+/// Kind of the end of a branch among special points.
+const END: f64 = 3.0;
+
 /// Columns of every table, before the observables that are asked for.
-const COLUMNS: [&str; 14] = [
+const COLUMNS: [&str; 15] = [
     "branch",
     "value",
     "speed",
@@ -77,6 +81,7 @@ const COLUMNS: [&str; 14] = [
     "growth_rate",
     "frequency",
     "antisymmetric",
+    "tail",
 ];
 
 fn main() -> ExitCode {
@@ -96,10 +101,12 @@ fn draw(flags: &Flags) -> Result<()> {
         let (state, upwards) = diagram.last(&setup)?;
         let rest = Continuation { upwards, ..settings };
         let mut first = true;
-        rest.follow(&state, |point, special| std::mem::take(&mut first) || diagram.see(point, special))?;
+        let branch = rest.follow(&state, |point, special| std::mem::take(&mut first) || diagram.see(point, special))?;
+        diagram.end(&branch)?;
     } else {
         let start = if flags.swimmer { SteadyState::find(&setup)? } else { SteadyState::uniform(&setup)? };
         let rest = settings.follow(&start, |point, special| diagram.see(point, special))?;
+        diagram.end(&rest)?;
         // What branches off first; from rest the swimmers along x, of which those along y are others by a turn.
         let wanted = |point: &SpecialPoint| {
             let along = point.critical.mode.symmetry == Symmetry::Symmetric;
@@ -107,7 +114,8 @@ fn draw(flags: &Flags) -> Result<()> {
         };
         if let Some(point) = rest.special.into_iter().find(wanted) {
             diagram.branch += 1;
-            settings.switch(&point, true, |point, special| diagram.see(point, special))?;
+            let branch = settings.switch(&point, true, |point, special| diagram.see(point, special))?;
+            diagram.end(&branch)?;
         }
     }
     diagram.finish()
@@ -121,6 +129,8 @@ struct Diagram<'a> {
     /// Kind, value and speed of special points, and frequency and symmetry of their modes.
     special: CsvTable,
     before: f64,
+    /// Why each branch ends.
+    ends: Vec<String>,
     progress: Progress,
 }
 
@@ -137,7 +147,15 @@ impl<'a> Diagram<'a> {
         let table = if resume { table } else { open("branches.csv", &names, false)? };
         let special = open("special.csv", &["kind", "value", "speed", "frequency", "antisymmetric"], resume)?;
         let progress = Progress::new(flags.quiet);
-        Ok(Self { flags, branch: if resume { branch } else { 0 }, table, special, before: flags.from, progress })
+        Ok(Self {
+            flags,
+            branch: if resume { branch } else { 0 },
+            table,
+            special,
+            before: flags.from,
+            ends: Vec::new(),
+            progress,
+        })
     }
 
     /// Takes over a point of a branch; whether to go on.
@@ -176,6 +194,7 @@ impl<'a> Diagram<'a> {
             value(|mode| mode.value.re),
             value(|mode| mode.value.im),
             value(|mode| f64::from(u8::from(mode.symmetry == Symmetry::Antisymmetric))),
+            point.state.tail(),
         ];
         if !observable.is_empty() {
             let all = point.state.observables()?;
@@ -189,6 +208,17 @@ impl<'a> Diagram<'a> {
         });
         self.before = point.value;
         Ok(())
+    }
+
+    /// Tells why a branch ends, and where.
+    fn end(&mut self, branch: &Branch) -> Result<()> {
+        let Some(last) = branch.points.last() else { return Ok(()) };
+        let end =
+            format!("branch {} ends at {} = {:.6}: {}", self.branch, branch.parameter.name(), last.value, branch.end);
+        self.progress.note(&end);
+        self.ends.push(end);
+        self.special.push(&[END, last.value, last.state.measured()?.speed, 0.0, 0.0])?;
+        Ok(self.special.flush()?)
     }
 
     /// Writes the last point, to go on from.
@@ -263,7 +293,9 @@ impl<'a> Diagram<'a> {
         figure.write(out, "diagram")?;
         let mut summary = Summary::default();
         summary.put("points", rows.len(), "of all branches");
-        summary.put("special_points", self.special.rows().len(), "folds, branch points, Hopf points");
+        let special = self.special.rows().iter().filter(|row| row[0] != END).count();
+        summary.put("special_points", special, "folds, branch points, Hopf points");
+        summary.put("ends", self.ends, "of branches");
         summary.put("seconds", seconds, "on one core");
         summary.write(&out.join("summary.json"))?;
         say(format_args!("{} points in {seconds:.1} s; results in {}", rows.len(), out.display()));

@@ -64,6 +64,7 @@ fn solve(flags: &Flags) -> Result<()> {
     summary.put("iterations", state.iterations(), "of Newton's method");
     summary.put("condition", state.condition(), "number of the linear equations");
     summary.put("neutral_rate", spectrum.neutral, "of rigid motions, which should have none (1/T)");
+    summary.put("tail", state.tail(), "of Fourier modes: above 1e-3 give more nodes");
     summary.put("seconds", seconds, "on one core");
     make_directory(&flags.out)?;
     let mut table = CsvTable::create(flags.out.join("spectrum.csv"), &["growth_rate", "frequency", "antisymmetric"])?;

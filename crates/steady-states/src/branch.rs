@@ -1,12 +1,13 @@
 //! Branches of steady states.
 
+use std::fmt;
+
 use nalgebra::DVector;
 
 use crate::modes::Part;
 use crate::newton::Outcome;
 use crate::profile::{Fields, Profile};
 use crate::spectrum::{Spectrum, Symmetry, eigenvector};
-use crate::state::CROWDING;
 use crate::system::{Along, Point, System};
 use crate::{Critical, Eigenmode, Parameter, SteadyError, SteadyState};
 
@@ -16,6 +17,8 @@ const LEAST_STEP: f64 = 1e-4;
 const AMPLITUDES: [f64; 3] = [0.05, 0.1, 0.02];
 /// A frequency below this part of D/R^2 is none.
 const LEAST_FREQUENCY: f64 = 1e-5;
+/// Special points that differ by less (relatively, or in units of D/R and D/R^2) are the same.
+const SAME: f64 = 1e-4;
 /// Iterations after which the next step is longer.
 const QUICK: usize = 6;
 /// Secants for a fold.
@@ -53,6 +56,24 @@ pub struct SpecialPoint {
     pub critical: Critical,
 }
 
+impl SpecialPoint {
+    /// Whether another one has been found twice.
+    fn is_same(&self, other: &Self, parameter: Parameter) -> bool {
+        let at = |point: &Self| {
+            let Critical { state, mode } = &point.critical;
+            let value = parameter.get(state.setup()).unwrap_or(f64::NAN);
+            (value, state.velocity().length() / state.diffusion_rate(), mode.value.im / state.diffusion_rate())
+        };
+        let ((a, u, f), (b, v, g)) = (at(self), at(other));
+        let oscillates = |point: &Self| point.kind == SpecialKind::Hopf;
+        oscillates(self) == oscillates(other)
+            && self.critical.mode.symmetry == other.critical.mode.symmetry
+            && (a - b).abs() < SAME * a.abs()
+            && (u - v).abs() < SAME
+            && (f - g).abs() < SAME
+    }
+}
+
 /// A point of a branch.
 #[derive(Debug, Clone)]
 pub struct BranchPoint {
@@ -64,8 +85,36 @@ pub struct BranchPoint {
     pub spectrum: Spectrum,
 }
 
+/// Why a branch ends.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum BranchEnd {
+    /// It has left the range of the parameter; the last point is at the end of the range.
+    Range,
+    /// The droplet has come to rest: what follows are the same droplets, swimming the other way.
+    Rest,
+    /// It has as many points as were wanted.
+    MostPoints,
+    /// The caller did not want more.
+    Stopped,
+    /// It could not be followed any further.
+    Failed(SteadyError),
+}
+
+impl fmt::Display for BranchEnd {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Range => f.write_str("end of the range"),
+            Self::Rest => f.write_str("the droplet is at rest"),
+            Self::MostPoints => f.write_str("the largest number of points"),
+            Self::Stopped => f.write_str("stopped"),
+            Self::Failed(error) => error.fmt(f),
+        }
+    }
+}
+
 /// A branch of steady states in one parameter.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub struct Branch {
     /// The parameter.
     pub parameter: Parameter,
@@ -73,6 +122,8 @@ pub struct Branch {
     pub points: Vec<BranchPoint>,
     /// Special points in the order of the branch.
     pub special: Vec<SpecialPoint>,
+    /// Why it ends.
+    pub end: BranchEnd,
 }
 
 /// How a branch is followed: pseudo-arclength continuation.
@@ -108,7 +159,7 @@ impl Continuation {
     ///
     /// # Errors
     /// A description without the parameter; a range that is empty or does not hold the start; no convergence at the
-    /// first step. Later failures end the branch.
+    /// first step. Later failures end the branch: [`Branch::end`].
     pub fn follow(
         &self,
         start: &SteadyState,
@@ -166,6 +217,13 @@ impl Continuation {
         follower.advance(amplitude.abs() * whole.norm())?;
         Ok(follower)
     }
+}
+
+/// A place that a branch has been at.
+struct Place {
+    point: Point,
+    setup: motile::Setup,
+    tangent: DVector<f64>,
 }
 
 /// A branch on its way.
@@ -262,7 +320,7 @@ impl Follower {
         };
         let ahead = profile(&self.system, &self.point, 1e-4, &self.tangent);
         let behind = profile(&self.system, &self.point, -1e-4, &self.tangent);
-        let mut point = self.system.rebased(&self.point, CROWDING)?;
+        let mut point = self.system.rebased(&self.point)?;
         self.outcome = self.system.newton(&mut point, self.part, None)?;
         // Both without the shift of the centre to x = 0, of which the tangent knows nothing.
         let shift = self.system.profile(&self.point).moments()?.centroid.x;
@@ -285,68 +343,117 @@ impl Follower {
     }
 
     fn go(&mut self, mut seen: impl FnMut(&BranchPoint, &[SpecialPoint]) -> bool) -> Result<Branch, SteadyError> {
+        let parameter = self.settings.parameter;
+        let mut branch = Branch { parameter, points: Vec::new(), special: Vec::new(), end: BranchEnd::MostPoints };
+        branch.end = match self.walk(&mut branch, &mut seen) {
+            Err(error) if branch.points.len() < 2 => return Err(error),
+            Err(error) => BranchEnd::Failed(error),
+            Ok(end) => end,
+        };
+        Ok(branch)
+    }
+
+    /// Adds points to a branch until it ends.
+    fn walk(
+        &mut self,
+        branch: &mut Branch,
+        seen: &mut dyn FnMut(&BranchPoint, &[SpecialPoint]) -> bool,
+    ) -> Result<BranchEnd, SteadyError> {
         let Continuation { parameter, range: [low, high], largest_step, most_points, .. } = self.settings;
-        let mut branch = Branch { parameter, points: Vec::new(), special: Vec::new() };
-        let (mut step, mut special) = (0.2 * largest_step, Vec::new());
+        let mut step = 0.2 * largest_step;
+        // Special points before the next one, and the end if it is the last.
+        let (mut special, mut end) = (Vec::<SpecialPoint>::new(), None);
         loop {
             let (point, tangent) = (self.point.clone(), self.tangent.clone());
             if self.rebase().is_err() {
                 (self.point, self.tangent) = (point, tangent);
             }
-            let state = self.state();
-            // What is not resolved any more ends a branch.
-            let Ok(state) = state else { return Ok(branch) };
+            let state = self.state()?;
             let spectrum = self.system.spectrum(&self.point, self.part == Part::Even)?;
             let next = BranchPoint { value: self.value(), state, spectrum };
-            special.extend(branch.points.last().map_or_else(Vec::new, |last| crossings(parameter, last, &next)));
+            if let (Some(last), None | Some(BranchEnd::Range)) = (branch.points.last(), &end) {
+                for point in crossings(parameter, last, &next) {
+                    if !branch.special.iter().chain(&special).any(|old| old.is_same(&point, parameter)) {
+                        special.push(point);
+                    }
+                }
+            }
             let goes_on = seen(&next, &special);
             branch.special.append(&mut special);
             branch.points.push(next);
-            let inside = (low..=high).contains(&self.value());
-            if !goes_on || branch.points.len() >= most_points || (!inside && branch.points.len() > 1) {
-                return Ok(branch);
+            if let Some(end) = end {
+                return Ok(end);
             }
-            let falling = self.tangent[self.size()];
-            let before = (self.point.clone(), self.system.model.setup.clone(), self.tangent.clone());
-            loop {
-                match self.advance(step) {
-                    Ok(()) => break,
-                    Err(_) if step > LEAST_STEP * largest_step => step *= 0.4,
-                    Err(error) if branch.points.len() < 2 => return Err(error),
-                    Err(_) => return Ok(branch),
+            if !goes_on {
+                return Ok(BranchEnd::Stopped);
+            }
+            if branch.points.len() >= most_points {
+                return Ok(BranchEnd::MostPoints);
+            }
+            let before = Place { point: self.point.clone(), setup: self.setup(), tangent: self.tangent.clone() };
+            while let Err(error) = self.advance(step) {
+                if step < LEAST_STEP * largest_step {
+                    return Err(error);
                 }
+                step *= 0.4;
             }
-            let tangent = self.tangent.clone();
-            let (taken, taken_iterations) = (step, self.outcome.iterations);
-            if taken_iterations <= QUICK {
+            let taken = step;
+            if self.outcome.iterations <= QUICK {
                 step = (1.5 * step).min(largest_step);
             }
+            if !(low..=high).contains(&self.value()) && branch.points.len() > 1 {
+                self.land(&before, if self.value() < low { low } else { high })?;
+                end = Some(BranchEnd::Range);
+                continue;
+            }
             // The sign of the parameter's part of the tangent there says whether there was a fold.
-            self.turn(&tangent)?;
-            if falling * self.tangent[self.size()] < 0.0 && branch.points.len() > 1 {
-                let after = (self.point.clone(), self.system.model.setup.clone(), self.tangent.clone(), self.outcome);
-                if let Ok(fold) = self.fold(before, taken, [falling, after.2[self.size()]]) {
-                    special.push(fold);
+            self.turn(&before.tangent)?;
+            let slopes = [before.tangent[self.size()], self.tangent[self.size()]];
+            if slopes[0] * slopes[1] < 0.0 && branch.points.len() > 1 {
+                let after = Place { point: self.point.clone(), setup: self.setup(), tangent: self.tangent.clone() };
+                let outcome = self.outcome;
+                let fold = self.fold(&before, taken, slopes);
+                if self.part == Part::Even && before.point.frame[0] * after.point.frame[0] < 0.0 {
+                    // No fold, but the branch at rest, which this one joins.
+                    special.push(SpecialPoint { kind: SpecialKind::BranchPoint, ..fold? });
+                    end = Some(BranchEnd::Rest);
+                    continue;
                 }
-                (self.point, self.system, self.tangent, self.outcome) =
-                    (after.0, System::new(&after.1)?, after.2, after.3);
+                special.extend(fold.ok());
+                self.outcome = outcome;
+                self.go_to(&after)?;
             }
         }
     }
 
+    fn setup(&self) -> motile::Setup {
+        self.system.model.setup.clone()
+    }
+
+    fn go_to(&mut self, place: &Place) -> Result<(), SteadyError> {
+        self.system = System::new(&place.setup)?;
+        (self.point, self.tangent) = (place.point.clone(), place.tangent.clone());
+        Ok(())
+    }
+
+    /// From beyond the range to the end of it.
+    fn land(&mut self, before: &Place, goal: f64) -> Result<(), SteadyError> {
+        let start = self.settings.parameter.get(&before.setup).unwrap_or(f64::NAN);
+        let beyond = (self.value() - goal) / (self.value() - start);
+        self.point.state = beyond * &before.point.state + (1.0 - beyond) * &self.point.state;
+        self.system = System::new(&self.settings.parameter.with(&before.setup, goal)?)?;
+        self.outcome = self.system.newton(&mut self.point, self.part, None)?;
+        Ok(())
+    }
+
     /// The fold within a step, by secants on the tangent's part of the parameter.
-    fn fold(
-        &mut self,
-        (point, setup, tangent): (Point, motile::Setup, DVector<f64>),
-        step: f64,
-        ends: [f64; 2],
-    ) -> Result<SpecialPoint, SteadyError> {
+    fn fold(&mut self, before: &Place, step: f64, ends: [f64; 2]) -> Result<SpecialPoint, SteadyError> {
         let (mut low, mut high) = ((0.0, ends[0]), (step, ends[1]));
         for _ in 0..MOST_SECANTS {
             let middle = low.0 - low.1 * (high.0 - low.0) / (high.1 - low.1);
-            (self.point, self.system, self.tangent) = (point.clone(), System::new(&setup)?, tangent.clone());
+            self.go_to(before)?;
             self.try_advance(middle)?;
-            self.turn(&tangent)?;
+            self.turn(&before.tangent)?;
             let slope = self.tangent[self.size()];
             if slope.abs() < 1e-7 {
                 break;
@@ -373,17 +480,25 @@ impl Follower {
 fn crossings(parameter: Parameter, before: &BranchPoint, after: &BranchPoint) -> Vec<SpecialPoint> {
     let mut found = Vec::new();
     for symmetry in [Symmetry::Symmetric, Symmetry::Antisymmetric, Symmetry::None] {
+        // Conjugate pairs count twice, so that one that parts into two real modes is no crossing.
         let of = |point: &BranchPoint| -> Vec<Eigenmode> {
-            point.spectrum.modes.iter().filter(|mode| mode.symmetry == symmetry).cloned().collect()
+            let modes = point.spectrum.modes.iter().filter(|mode| mode.symmetry == symmetry);
+            modes.flat_map(|mode| std::iter::repeat_n(mode.clone(), mode.multiplicity())).collect()
         };
         let (a, b) = (of(before), of(after));
-        let growing = |modes: &[Eigenmode]| modes.iter().filter(|mode| mode.value.re > 0.0).count();
+        let zero = before.spectrum.zero;
+        let growing = |modes: &[Eigenmode]| modes.iter().filter(|mode| mode.value.re > zero).count();
         let [first, last] = [growing(&a), growing(&b)];
+        let mut tried = Vec::new();
         for k in first.min(last)..first.max(last) {
             // From the end that is nearer to the crossing.
             let (Some(one), Some(other)) = (a.get(k), b.get(k)) else { continue };
             let (state, mode) =
                 if one.value.re.abs() < other.value.re.abs() { (&before.state, one) } else { (&after.state, other) };
+            if tried.contains(&mode) {
+                continue;
+            }
+            tried.push(mode);
             let Ok(critical) = state.critical(mode, parameter) else { continue };
             let at = parameter.get(critical.state.setup()).unwrap_or(f64::NAN);
             let width = (after.value - before.value).abs();

@@ -2,14 +2,12 @@
 
 use num_complex::Complex64;
 
-use crate::spectrum::eigenvector;
+use crate::spectrum::{NO_GROWTH, eigenvector};
 use crate::system::System;
 use crate::{Eigenmode, Parameter, SteadyError, SteadyState};
 
 /// Iterations before giving up.
 const MOST_ITERATIONS: usize = 30;
-/// A growth rate below this (in units of D/R^2) is zero.
-const NO_GROWTH: f64 = 1e-8;
 /// Relative step of a parameter to start with.
 const FIRST_STEP: f64 = 5e-3;
 /// Largest relative change of a parameter at once.

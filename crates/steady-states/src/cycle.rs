@@ -10,7 +10,7 @@ use crate::model::{Base, FrameMotion};
 use crate::modes::Part;
 use crate::spectrum::eigenvector;
 use crate::state::CROWDING;
-use crate::system::System;
+use crate::system::{Point, System};
 use crate::{Critical, Parameter, Profile, SteadyError, Symmetry};
 
 /// Newton iterations for a cycle.
@@ -20,6 +20,11 @@ const SMALLEST: f64 = 1e-8;
 /// Largest correction that is taken whole.
 const LARGEST: f64 = 0.5;
 
+/// Growth of a step after one that has converged.
+const LONGER: f64 = 1.3;
+/// Least step over the one before.
+const SHORTEST: f64 = 0.03;
+
 /// An oscillation of a droplet across a channel: after half a period it is the mirror image of itself.
 ///
 /// Shape and concentration are trigonometric polynomials in space and time. In time there are K instants over half a
@@ -27,15 +32,15 @@ const LARGEST: f64 = 0.5;
 /// moves and turns with the droplet.
 #[derive(Debug)]
 pub struct LimitCycle {
-    system: System,
+    pub(crate) system: System,
     /// The curve at rest, its own mirror image.
     shape: Profile,
     /// Where it is at each instant: x, y (length) and angle (radians).
     poses: Vec<[f64; 3]>,
-    states: Vec<DVector<f64>>,
+    pub(crate) states: Vec<DVector<f64>>,
     speed: f64,
     /// Period over 2 pi (time).
-    tau: f64,
+    pub(crate) tau: f64,
 }
 
 /// Derivatives of poses, states and so on at instants over half a period by the phase, for what is the same after half
@@ -115,6 +120,37 @@ impl LimitCycle {
         cycle.settled()
     }
 
+    /// Follows the branch of oscillations from a Hopf point, at first with two of about the amplitude (length) given and
+    /// one and a half times that: `seen` is told each, and the branch ends where it says false.
+    ///
+    /// # Errors
+    /// As [`LimitCycle::from_hopf`]; no convergence with the shortest step, after `seen` was told what could be reached.
+    pub fn follow(
+        hopf: &Critical,
+        parameter: Parameter,
+        amplitude: f64,
+        instants: usize,
+        mut seen: impl FnMut(&Self) -> bool,
+    ) -> Result<(), SteadyError> {
+        let mut before = Self::from_hopf(hopf, parameter, amplitude, instants)?;
+        if !seen(&before) {
+            return Ok(());
+        }
+        let mut last = Self::from_hopf(hopf, parameter, 1.5 * amplitude, instants)?;
+        let mut factor = 1.0;
+        while seen(&last) {
+            let next = loop {
+                match last.beyond(&before, parameter, factor) {
+                    Ok(next) => break next,
+                    Err(error) if factor < SHORTEST => return Err(error),
+                    Err(_) => factor *= 0.5,
+                }
+            };
+            (before, last, factor) = (last, next, LONGER);
+        }
+        Ok(())
+    }
+
     /// The oscillation at another value of a parameter, nearby.
     ///
     /// # Errors
@@ -130,7 +166,7 @@ impl LimitCycle {
     ///
     /// # Errors
     /// No convergence.
-    pub fn beyond(&self, before: &Self, parameter: Parameter, factor: f64) -> Result<Self, SteadyError> {
+    fn beyond(&self, before: &Self, parameter: Parameter, factor: f64) -> Result<Self, SteadyError> {
         let change = self.value(parameter) - before.value(parameter);
         let ahead = self.value(parameter) + factor * change;
         let mut next = self.copy(&parameter.with(&self.system.model.setup, ahead)?)?;
@@ -154,7 +190,7 @@ impl LimitCycle {
         Ok(self)
     }
 
-    fn copy(&self, setup: &motile::Setup) -> Result<Self, SteadyError> {
+    pub(crate) fn copy(&self, setup: &motile::Setup) -> Result<Self, SteadyError> {
         let Self { shape, poses, states, speed, tau, .. } = self;
         let (shape, poses, states) = (shape.clone(), poses.clone(), states.clone());
         Ok(Self { system: System::new(setup)?, shape, poses, states, speed: *speed, tau: *tau })
@@ -223,6 +259,16 @@ impl LimitCycle {
         (0..count).map(|j| [rate(&same, j, 0), rate(&turned, j, 1), rate(&turned, j, 2)]).collect()
     }
 
+    /// The droplet at each instant in the frame of the curve that it is over.
+    pub(crate) fn points(&self) -> Result<Vec<Point>, SteadyError> {
+        let point = |(j, pose_rate)| -> Result<Point, SteadyError> {
+            let [ux, uy, turn] = motion(pose_rate, self.poses[j]);
+            let frame: FrameMotion = [self.speed + ux / self.tau, uy / self.tau, turn / self.tau];
+            Ok(Point { base: self.base(j)?, state: self.states[j].clone(), frame })
+        };
+        self.pose_rates().into_iter().enumerate().map(point).collect()
+    }
+
     /// Derivatives of the states by the phase less their rates times the period over 2 pi, an instant after the other;
     /// and those derivatives over the period, which are the rates of a solution and smoother before there is one.
     fn residual(&mut self) -> Result<(DVector<f64>, Vec<DVector<f64>>), SteadyError> {
@@ -259,13 +305,9 @@ impl LimitCycle {
         let odd = self.system.modes.part(Part::Odd);
         let size = count * n;
         let mut matrix = DMatrix::zeros(size + 5, size + 5);
-        let (rates, (_, own)) = (self.pose_rates(), self.residual()?);
+        let (points, (_, own), tau) = (self.points()?, self.residual()?, self.tau);
         let mut lacks = [0.0; 2];
-        for (j, (pose_rate, own)) in rates.into_iter().zip(&own).enumerate() {
-            let (base, tau) = (self.base(j)?, self.tau);
-            let [ux, uy, turn] = motion(pose_rate, self.poses[j]);
-            let frame: FrameMotion = [self.speed + ux / tau, uy / tau, turn / tau];
-            let point = crate::system::Point { base, state: self.states[j].clone(), frame };
+        for (j, (point, own)) in points.into_iter().zip(&own).enumerate() {
             let jacobian = self.system.jacobian(&point, Part::Full)?;
             matrix.view_mut((j * n, j * n), (n, n)).copy_from(&(-tau * jacobian));
             for k in 0..count {

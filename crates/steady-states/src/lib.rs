@@ -51,6 +51,7 @@ mod branch;
 mod critical;
 mod cycle;
 mod error;
+mod floquet;
 mod model;
 mod modes;
 mod newton;
@@ -60,10 +61,11 @@ mod spectrum;
 mod state;
 mod system;
 
-pub use branch::{Branch, BranchPoint, Continuation, SpecialKind, SpecialPoint};
+pub use branch::{Branch, BranchEnd, BranchPoint, Continuation, SpecialKind, SpecialPoint};
 pub use critical::Critical;
 pub use cycle::LimitCycle;
 pub use error::SteadyError;
+pub use floquet::Multipliers;
 /// A growth rate and an angular frequency.
 pub use num_complex::Complex64;
 pub use parameter::Parameter;

@@ -136,9 +136,9 @@ impl Model {
         [PI * self.radius * self.radius, TAU * self.radius * self.concentration]
     }
 
-    /// Diffusion constant of the particles (length squared per time).
-    pub(crate) fn diffusion(&self) -> f64 {
-        self.diffusion
+    /// The rate D/R^2 (1/time).
+    pub(crate) fn diffusion_rate(&self) -> f64 {
+        self.diffusion / (self.radius * self.radius)
     }
 
     pub(crate) fn in_plane(&self) -> bool {

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::modes::Part;
+use crate::state::{CROWDING, with_nodes};
 use crate::system::{Along, Correction, Equations, Point, System};
 use crate::{Parameter, Profile, SteadyError};
 
@@ -20,16 +21,19 @@ const CONTRACTION: f64 = 0.1;
 const LARGEST: f64 = 0.3;
 /// Largest offset from the base, over the radius, before another base is taken.
 const FARTHEST: f64 = 0.15;
+/// Last modes of this part of all are small enough on the way to a steady state.
+const RESOLVED: f64 = 5e-4;
+/// Last modes of this part of all lead nowhere.
+const LOST: f64 = 0.1;
 /// First step in time, in units of R^2/D.
 const FIRST_STEP: f64 = 5e-3;
 /// Steps in time before giving up.
-const MOST_STEPS: usize = 150;
+const MOST_STEPS: usize = 80;
 /// Largest change of a coefficient in a step, and growth of the rates.
 const LARGEST_STEP: f64 = 0.35;
 const GROWTH: f64 = 3.0;
-/// A step changes the state by this much, or by less than the second where it is steady enough for Newton's method.
+/// A step changes the state by this much.
 const USUAL_STEP: f64 = 0.15;
-const STEADY: f64 = 0.02;
 
 /// What an iteration needed and found.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -40,7 +44,8 @@ pub(crate) struct Outcome {
     pub(crate) condition: f64,
 }
 
-const REMEDY: &str = "start from a run, from a neighbouring state or with more nodes";
+/// What to do where no state is found.
+pub(crate) const REMEDY: &str = "start from a run, from a neighbouring state or with more nodes";
 
 impl System {
     /// Newton's method from a point, within a part; with an equation for the parameter also in that. The model is then
@@ -62,7 +67,7 @@ impl System {
             }
             if iteration > 1 || along.is_none() {
                 // At a branch point the equations are singular, and a state that is there already is one.
-                let floor = ROUND_OFF * self.model.diffusion() / (self.model.radius * self.model.radius);
+                let floor = ROUND_OFF * self.model.diffusion_rate();
                 if residual < floor && self.lack() < ROUND_OFF {
                     return Ok(Outcome { iterations: iteration - 1, residual, condition });
                 }
@@ -148,6 +153,11 @@ impl System {
         Ok(())
     }
 
+    /// Size of the last modes over that of all, of shape or concentration.
+    fn tail(&self, point: &Point) -> Result<f64, SteadyError> {
+        Ok(self.profile(point).tails()?.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest)))
+    }
+
     /// Whether the droplet is far from its base.
     pub(crate) fn is_far(&self, point: &Point) -> bool {
         let (offsets, _) = self.modes.synthesise(&point.state);
@@ -155,16 +165,23 @@ impl System {
     }
 
     /// The same droplet over itself, with nodes placed anew.
-    pub(crate) fn rebased(&mut self, point: &Point, crowding: f64) -> Result<Point, SteadyError> {
+    pub(crate) fn rebased(&mut self, point: &Point) -> Result<Point, SteadyError> {
         let nodes = self.model.nodes();
-        let profile = centred(self.profile(point).resampled(nodes, crowding)?)?;
+        let profile = centred(self.profile(point).resampled(nodes, CROWDING)?)?;
         self.point(&profile, point.frame)
     }
 
-    /// Goes towards a steady state by implicit steps in time, which grow as the rates fall, until Newton's method takes
-    /// over.
-    pub(crate) fn settle(&mut self, point: &mut Point, part: Part, crowding: f64) -> Result<usize, SteadyError> {
-        let unit = self.model.radius * self.model.radius / self.model.diffusion();
+    /// Goes towards a steady state by implicit steps in time, which grow as the rates fall, until one of the time R^2/D
+    /// or more changes the state by less than `steady`; with more nodes, up to `most_nodes`, where they are needed on
+    /// the way (none: the nodes stay).
+    pub(crate) fn settle(
+        &mut self,
+        point: &mut Point,
+        part: Part,
+        most_nodes: usize,
+        steady: f64,
+    ) -> Result<usize, SteadyError> {
+        let unit = 1.0 / self.model.diffusion_rate();
         let mut step = FIRST_STEP * unit;
         let mut rates = self.residual(point)?;
         let mut last = rates.amax();
@@ -188,14 +205,25 @@ impl System {
                 match found {
                     Ok((next_rates, next)) if next_rates.amax().is_finite() && next_rates.amax() < GROWTH * last => {
                         let residual = next_rates.amax();
-                        if size < STEADY && step > unit {
-                            *point = self.rebased(&next, crowding)?;
+                        if size < steady && step > unit {
+                            *point = self.rebased(&next)?;
                             return Ok(count + 1);
                         }
                         step *= (USUAL_STEP / size).clamp(0.5, 2.0);
                         (*point, rates, last) = (next, next_rates, residual);
-                        if self.is_far(point) {
-                            *point = self.rebased(point, crowding)?;
+                        if self.is_far(point) || (most_nodes > 0 && self.tail(point)? > RESOLVED) {
+                            *point = self.rebased(point)?;
+                            while self.tail(point)? > RESOLVED && self.model.nodes() < most_nodes {
+                                let nodes = (self.model.nodes() / 8 * 10).min(most_nodes);
+                                let profile = self.profile(point).resampled(nodes, CROWDING)?;
+                                *self = Self::new(&with_nodes(&self.model.setup, nodes))?;
+                                *point = self.point(&profile, point.frame)?;
+                            }
+                            let tail = self.tail(point)?;
+                            if most_nodes > 0 && tail > LOST {
+                                let nodes = self.model.nodes();
+                                return Err(SteadyError::Unresolved { what: "droplet on its way", nodes, tail });
+                            }
                             rates = self.residual(point)?;
                             last = rates.amax();
                         }

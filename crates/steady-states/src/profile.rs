@@ -10,6 +10,8 @@ use crate::SteadyError;
 
 /// Newton iterations for a place on a curve.
 const MOST_ITERATIONS: usize = 50;
+/// Modes below this part of the mean are not worth resolving.
+const FLAT: f64 = 1e-3;
 /// Waves of the density of nodes that are kept.
 const SMOOTH_WAVES: f64 = 12.0;
 
@@ -324,7 +326,7 @@ impl Profile {
             let size = |m: usize| series.coefficients()[m].norm() + series.coefficients()[count - m].norm();
             let largest = (1..count / 2).map(size).fold(0.0, f64::max);
             let last = (count * 7 / 16..count / 2).map(size).fold(0.0, f64::max);
-            last / largest.max(1e-12 * series.coefficients()[0].norm()).max(f64::MIN_POSITIVE)
+            last / largest.max(FLAT * series.coefficients()[0].norm())
         };
         Ok([("shape", tail(&sampler.curve)), ("concentration", tail(&sampler.density))])
     }

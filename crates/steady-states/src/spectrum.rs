@@ -47,6 +47,13 @@ pub struct Eigenmode {
     pub symmetry: Symmetry,
 }
 
+impl Eigenmode {
+    /// One, or two for a conjugate pair.
+    pub(crate) fn multiplicity(&self) -> usize {
+        if self.value.im == 0.0 { 1 } else { 2 }
+    }
+}
+
 /// Eigenvalues of disturbances that keep area and number of particles, largest growth rate first, one of each
 /// conjugate pair. Rigid motions that change nothing are left out of them.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,7 +62,12 @@ pub struct Spectrum {
     pub modes: Vec<Eigenmode>,
     /// Largest growth rate (1/time) of a rigid motion, which should have none: an error estimate.
     pub neutral: f64,
+    /// Growth rates below this (1/time) are none: round-off.
+    pub zero: f64,
 }
+
+/// Growth rates below this part of D/R^2 are none.
+pub(crate) const NO_GROWTH: f64 = 1e-8;
 
 impl Spectrum {
     /// The mode that grows fastest.
@@ -67,8 +79,7 @@ impl Spectrum {
     /// Number of growing disturbances, conjugate pairs counting twice.
     #[must_use]
     pub fn unstable(&self) -> usize {
-        let growing = self.modes.iter().filter(|mode| mode.value.re > 0.0);
-        growing.map(|mode| if mode.value.im == 0.0 { 1 } else { 2 }).sum()
+        self.modes.iter().filter(|mode| mode.value.re > self.zero).map(Eigenmode::multiplicity).sum()
     }
 
     /// Those of a symmetry.
@@ -95,6 +106,26 @@ pub(crate) struct Reduced {
     neutral: f64,
 }
 
+/// Orthonormal columns that span what is at right angles to some vectors, by Householder reflections.
+pub(crate) fn complement(vectors: &[DVector<f64>], n: usize) -> DMatrix<f64> {
+    let mut q = DMatrix::identity(n, n);
+    for (k, vector) in vectors.iter().enumerate() {
+        let column = q.transpose() * vector;
+        let tail = column.rows(k, n - k);
+        let mut reflector = tail.into_owned();
+        reflector[0] += tail[0].signum() * tail.norm();
+        let norm = reflector.norm();
+        if norm == 0.0 {
+            continue;
+        }
+        reflector /= norm;
+        let mut right = q.columns_mut(k, n - k);
+        let product = &right * &reflector;
+        right -= 2.0 * product * reflector.transpose();
+    }
+    q.columns(vectors.len(), n - vectors.len()).into_owned()
+}
+
 impl System {
     /// Linearises about a steady state.
     pub(crate) fn reduced(&mut self, point: &Point, part: Part) -> Result<Reduced, SteadyError> {
@@ -108,27 +139,7 @@ impl System {
         let n = jacobian.nrows();
         // Disturbances that are orthogonal to all of them: for the conserved the equations take these to themselves,
         // rigid motions are taken to zero, so that the eigenvalues are those of the rest.
-        let mut columns = DMatrix::zeros(n, n);
-        for (k, vector) in removed.iter().enumerate() {
-            columns.set_column(k, vector);
-        }
-        let mut q = DMatrix::identity(n, n);
-        for k in 0..removed.len() {
-            // Householder reflections, accumulated.
-            let column = q.transpose() * columns.column(k);
-            let tail = column.rows(k, n - k);
-            let mut reflector = tail.into_owned();
-            reflector[0] += tail[0].signum() * tail.norm();
-            let norm = reflector.norm();
-            if norm == 0.0 {
-                continue;
-            }
-            reflector /= norm;
-            let mut right = q.columns_mut(k, n - k);
-            let product = &right * &reflector;
-            right -= 2.0 * product * reflector.transpose();
-        }
-        let basis = q.columns(removed.len(), n - removed.len()).into_owned();
+        let basis = complement(&removed, n);
         Ok(Reduced { matrix: basis.transpose() * jacobian * &basis, basis, neutral })
     }
 
@@ -147,7 +158,8 @@ impl System {
             modes.extend(values.into_iter().filter(|z| z.im >= 0.0).map(|value| Eigenmode { value, symmetry }));
         }
         modes.sort_by(|a, b| b.value.re.total_cmp(&a.value.re));
-        Ok(Spectrum { modes, neutral })
+        let zero = NO_GROWTH * self.model.diffusion_rate();
+        Ok(Spectrum { modes, neutral, zero })
     }
 }
 
@@ -190,7 +202,7 @@ impl System {
 const MOST_ITERATIONS: usize = 100_000;
 
 /// Eigenvalues of a real matrix.
-fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex64>, SteadyError> {
+pub(crate) fn eigenvalues(matrix: &DMatrix<f64>) -> Result<Vec<Complex64>, SteadyError> {
     let failed = SteadyError::Singular { what: "the eigenvalues", remedy: "use another number of nodes" };
     let schur = nalgebra::Schur::try_new(matrix.clone(), f64::EPSILON, MOST_ITERATIONS).ok_or(failed)?;
     Ok(schur.complex_eigenvalues().iter().map(|z| Complex64::new(z.re, z.im)).collect())

@@ -2,25 +2,34 @@
 
 use std::f64::consts::TAU;
 
-use motile::Setup;
 use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::{Convention, Observables, observe};
 use motile::ib_core::Vec2;
+use motile::{Region, Setup};
 
 use crate::model::FrameMotion;
 use crate::modes::Part;
-use crate::newton::{Outcome, centred};
+use crate::newton::{Outcome, REMEDY, centred};
 use crate::profile::Sampler;
 use crate::spectrum::{Eigenmode, ModeShape, Spectrum};
 use crate::system::{Point, System};
-use crate::{Profile, SteadyError};
+use crate::{Parameter, Profile, SteadyError};
 
 /// Points for observables between the nodes, for each node.
 const REFINEMENT: usize = 16;
 /// Size of the last modes over that of all from which on a state is not resolved.
-const LONGEST_TAIL: f64 = 0.02;
+const LONGEST_TAIL: f64 = 0.01;
 /// Nodes with which a state is looked for first.
 const COARSE: usize = 64;
+/// Part of the activity with which a state is looked for where it is not found directly, and the least step from
+/// there.
+const WEAKER: f64 = 0.5;
+const LEAST_STEP: f64 = 0.01;
+/// Most nodes on the way, and the change by a step in time after which Newton's method takes over: the first attempt is
+/// the quickest one.
+const ATTEMPTS: [(usize, f64); 3] = [(0, 0.02), (160, 0.02), (160, 0.003)];
+/// Largest relative change of the velocity by Newton's method.
+const SAME_SPEED: f64 = 0.3;
 
 /// A droplet that moves without changing, by Newton's method.
 ///
@@ -34,6 +43,9 @@ pub struct SteadyState {
     profile: Profile,
     outcome: Outcome,
     mirror: bool,
+    tail: f64,
+    /// D/R^2 (1/time).
+    rate: f64,
 }
 
 /// What is measured of a steady state.
@@ -57,20 +69,60 @@ pub struct Measured {
 
 impl SteadyState {
     /// The steady swimmer that a description leads to, its mirror image at the x axis if the start is: implicit steps
-    /// in time from the start that the description has, on few nodes, then Newton's method on its own.
+    /// in time from the start that the description has, on few nodes, then Newton's method on its own. Where that
+    /// fails, the same at a weaker activity and from there along the activity.
     ///
     /// # Errors
     /// A description of something else than one round active droplet without a grid; no convergence.
     pub fn find(setup: &Setup) -> Result<Self, SteadyError> {
+        Self::settled(setup).or_else(|error| {
+            let goal = Parameter::Activity.get(setup).unwrap_or(f64::NAN);
+            let weaker = |part: f64| Parameter::Activity.with(setup, part * goal);
+            let mut part = WEAKER;
+            let mut state = weaker(part).and_then(|setup| Self::settled(&setup)).map_err(|_| error)?;
+            let mut step = 0.5 * (1.0 - part);
+            while part < 1.0 {
+                let ahead = (part + step).min(1.0);
+                match Self::from_profile(&weaker(ahead)?, &state.profile, state.point.frame, state.mirror) {
+                    Ok(next) => (part, state) = (ahead, next),
+                    Err(_) if step > LEAST_STEP => step *= 0.5,
+                    Err(error) => return Err(error),
+                }
+            }
+            Ok(state)
+        })
+    }
+
+    /// By steps in time and Newton's method.
+    fn settled(setup: &Setup) -> Result<Self, SteadyError> {
+        let wanted = nodes_of(setup)?;
         let start = start(setup)?;
         let mirror = is_mirror(&start);
         let part = if mirror { Part::Even } else { Part::Full };
-        let wanted = nodes_of(setup)?;
-        let mut coarse = System::new(&with_nodes(setup, COARSE.min(wanted)))?;
-        let profile = centred(start.resampled(coarse.model.nodes(), 0.0)?)?;
-        let mut point = coarse.point(&profile, [0.0; 3])?;
-        coarse.settle(&mut point, part, CROWDING)?;
-        Self::from_profile(setup, &coarse.profile(&point), point.frame, mirror)
+        let mut failed = None;
+        for (most_nodes, steady) in ATTEMPTS {
+            let mut system = System::new(&with_nodes(setup, COARSE.min(wanted)))?;
+            let profile = centred(start.resampled(system.model.nodes(), 0.0)?)?;
+            has_room(setup, &profile)?;
+            let mut point = system.point(&profile, [0.0; 3])?;
+            let found = system
+                .settle(&mut point, part, most_nodes, steady)
+                .and_then(|_| Self::from_profile(setup, &system.profile(&point), point.frame, mirror));
+            let unit = system.model.radius * system.model.diffusion_rate();
+            let near = |a: f64, b: f64| (a - b).abs() < SAME_SPEED * (a.abs() + unit);
+            match found {
+                Ok(found) if found.point.frame.iter().zip(point.frame).take(2).all(|(a, b)| near(*a, b)) => {
+                    return Ok(found);
+                }
+                // Another state, far away.
+                Ok(found) => {
+                    let Outcome { residual, iterations, .. } = found.outcome;
+                    failed = Some(SteadyError::NoConvergence { residual, iterations, remedy: REMEDY });
+                }
+                Err(error) => failed = Some(error),
+            }
+        }
+        Err(failed.unwrap_or(SteadyError::Singular { what: "the start", remedy: REMEDY }))
     }
 
     /// The droplet of a description at rest: a circle with the same concentration everywhere, a steady state wherever
@@ -111,6 +163,7 @@ impl SteadyState {
     ) -> Result<Self, SteadyError> {
         let mut system = System::new(setup)?;
         let profile = centred(profile.resampled(system.model.nodes(), crowding)?)?;
+        has_room(setup, &profile)?;
         let mut point = system.point(&profile, frame)?;
         let part = if mirror { Part::Even } else { Part::Full };
         let outcome = system.newton(&mut point, part, None)?;
@@ -119,12 +172,13 @@ impl SteadyState {
 
     pub(crate) fn of(system: &System, point: Point, outcome: Outcome, mirror: bool) -> Result<Self, SteadyError> {
         let profile = system.profile(&point);
-        for (what, tail) in profile.tails()? {
-            if tail > LONGEST_TAIL {
-                return Err(SteadyError::Unresolved { what, nodes: profile.nodes(), tail });
-            }
+        let tails = profile.tails()?;
+        if let Some((what, tail)) = tails.into_iter().find(|(_, tail)| *tail > LONGEST_TAIL) {
+            return Err(SteadyError::Unresolved { what, nodes: profile.nodes(), tail });
         }
-        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror })
+        let tail = tails.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest));
+        let rate = system.model.diffusion_rate();
+        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror, tail, rate })
     }
 
     /// This state with another description, nearby, over the same nodes.
@@ -145,12 +199,7 @@ impl SteadyState {
 
     /// The rate D/R^2 (1/time).
     pub(crate) fn diffusion_rate(&self) -> f64 {
-        let droplet = &self.setup.droplets[0];
-        let radius = match droplet.shape {
-            motile::DropletShape::Round { radius } | motile::DropletShape::Squeezed { radius, .. } => radius,
-            _ => 1.0,
-        };
-        droplet.particles.map_or(1.0, |particles| particles.diffusion / (radius * radius))
+        self.rate
     }
 
     /// The description.
@@ -181,6 +230,13 @@ impl SteadyState {
     #[must_use]
     pub fn residual(&self) -> f64 {
         self.outcome.residual
+    }
+
+    /// Size of the last Fourier modes over that of all, of shape or concentration, whichever is larger: measured values
+    /// have errors of about a tenth of it or less.
+    #[must_use]
+    pub fn tail(&self) -> f64 {
+        self.tail
     }
 
     /// Newton iterations.
@@ -302,6 +358,26 @@ fn start(setup: &Setup) -> Result<Profile, SteadyError> {
     let fine = with_nodes(setup, nodes_of(setup)?.max(2 * COARSE));
     let droplet = fine.droplet(&fine.droplets[0])?;
     Profile::from_markers(droplet.markers(), droplet.particle_numbers())
+}
+
+/// Refuses a droplet that reaches beyond a wall or its own periodic image.
+fn has_room(setup: &Setup, profile: &Profile) -> Result<(), SteadyError> {
+    let extent = |way: Vec2| profile.positions.iter().map(|x| x.dot(way)).fold(f64::NEG_INFINITY, f64::max);
+    let [left, right, top, bottom] = [-Vec2::X, Vec2::X, Vec2::Y, -Vec2::Y].map(extent);
+    let fits = match setup.region {
+        Region::Plane => true,
+        Region::Box { lengths: [x, y] } => left + right < x && top + bottom < y,
+        Region::Channel { length, width, .. } => left + right < length && top.max(bottom) < 0.5 * width,
+    };
+    let refused = || SteadyError::Unsupported {
+        what: format!(
+            "the droplet does not fit: it reaches from {:.3} to {top:.3} across and is {:.3} long",
+            -bottom,
+            left + right
+        ),
+        remedy: "give a larger region, a smaller droplet or another place for it",
+    };
+    fits.then_some(()).ok_or_else(refused)
 }
 
 /// Whether a droplet is its own mirror image at the x axis.

@@ -1,7 +1,7 @@
 //! Branches and their special points against exact values.
 
 use motile::prelude::*;
-use steady_states::{Branch, Continuation, Parameter, SpecialKind, SteadyError, SteadyState, Symmetry};
+use steady_states::{Branch, BranchEnd, Continuation, Parameter, SpecialKind, SteadyError, SteadyState, Symmetry};
 
 fn setup(region: Region, activity: f64, nodes: usize) -> Setup {
     let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
@@ -49,7 +49,8 @@ fn the_branch_of_swimmers_leads_from_the_threshold_to_the_swimmer_that_a_run_fin
     let last = branch.points.last().unwrap();
     let direct = SteadyState::find(&setup(region, last.value, 64)).unwrap();
     let speeds = [&last.state, &direct].map(|state| state.measured().unwrap().speed);
-    assert!(last.value < -1.0 && (speeds[0] / speeds[1] - 1.0).abs() < 1e-4, "{}: {speeds:?}", last.value);
+    assert!((speeds[0] / speeds[1] - 1.0).abs() < 1e-4, "{speeds:?}");
+    assert!(matches!(branch.end, BranchEnd::Range) && (last.value + 1.0).abs() < 1e-12, "{}", last.value);
 }
 
 #[test]
@@ -68,4 +69,46 @@ fn swings_across_a_channel_begin_at_a_hopf_point() {
     let line = -2.55 - 0.03 * a / (a - b);
     let found = Parameter::Activity.get(hopf.critical.state.setup()).unwrap();
     assert!((found - line).abs() < 2e-3, "{found} {line}");
+}
+
+#[test]
+fn a_branch_of_swimmers_ends_at_rest_at_the_threshold_and_not_in_a_fold() {
+    let region = Region::Plane;
+    let rest = follow(&SteadyState::uniform(&setup(region, -0.35, 48)).unwrap(), -0.35, -0.5);
+    let swimmer = SteadyState::find(&setup(region, -0.45, 48)).unwrap();
+    let branch = follow(&swimmer, -0.45, -0.3);
+    assert!(matches!(branch.end, BranchEnd::Rest), "{}", branch.end);
+    let [point] = branch.special.as_slice() else { panic!("{:?}", branch.special.len()) };
+    let [found, exact] =
+        [point, &rest.special[0]].map(|point| Parameter::Activity.get(point.critical.state.setup()).unwrap());
+    assert!(point.kind == SpecialKind::BranchPoint && (found - exact).abs() < 1e-7, "{found} {exact}");
+}
+
+#[test]
+fn swimmers_across_branch_off_where_those_along_do_and_are_as_fast() {
+    let rest = follow(&SteadyState::uniform(&setup(Region::Plane, -0.35, 48)).unwrap(), -0.35, -0.5);
+    let across = rest.special.iter().find(|point| point.critical.mode.symmetry == Symmetry::Antisymmetric).unwrap();
+    let swimmers = Continuation { largest_step: 0.2, ..Continuation::new(Parameter::Activity, -0.35, -0.6) };
+    let branch = swimmers.switch(across, true, |_, _| true).unwrap();
+    let last = &branch.points.last().unwrap().state;
+    let along = SteadyState::find(&setup(Region::Plane, -0.6, 48)).unwrap();
+    assert!(!last.is_mirror_symmetric() && last.velocity().x.abs() < 1e-7, "{}", last.velocity());
+    let speeds = [last, &along].map(|state| state.measured().unwrap().speed);
+    // The error of 48 nodes, which stand elsewhere.
+    assert!((speeds[0] / speeds[1] - 1.0).abs() < 5e-6, "{speeds:?}");
+}
+
+#[test]
+fn the_threshold_over_the_excluded_volume_is_that_of_linear_theory() {
+    let rest = follow(&SteadyState::uniform(&setup(Region::Plane, -0.35, 32)).unwrap(), -0.35, -0.5);
+    let strengths = [12.0, 30.0, 100.0, 200.0];
+    let parameters = [Parameter::Activity, Parameter::ExcludedVolume];
+    let curve = rest.special[0].critical.curve(parameters, strengths, |_| {}).unwrap();
+    assert_eq!(curve.len(), strengths.len());
+    for (critical, strength) in curve.iter().zip(strengths) {
+        let activity = Parameter::Activity.get(critical.state.setup()).unwrap();
+        let law = DropletSetup::contractile(activity, strength).particles.unwrap().law(10.0).unwrap();
+        let slope = motile::active_interface::Tension::slope(&law, 100.0);
+        assert!((slope - 0.4).abs() < 1e-8, "{strength}: {activity}, {slope}");
+    }
 }

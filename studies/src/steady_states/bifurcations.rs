@@ -1,27 +1,23 @@
 //! Thresholds, Hopf points and limit cycles.
 
+use std::f64::consts::TAU;
+
 use anyhow::{Context, Result};
 use motile::{DropletSetup, Region, Setup};
-use motile_examples::say;
-use steady_states::{Continuation, Critical, LimitCycle, Parameter, SpecialKind, SpecialPoint, SteadyState, Symmetry};
+use motile_tests::validation::Table;
+use steady_states::{
+    Continuation, Critical, Eigenmode, LimitCycle, Parameter, SpecialKind, SpecialPoint, SteadyState, Symmetry,
+};
 
-use super::{channel, head, nodes, row};
+use super::{channel, nodes};
 
-/// The threshold of polarisation along x.
-fn polarisation(setup: &Setup) -> Result<SpecialPoint> {
+/// The threshold of polarisation along x: where the slowest symmetric mode of the droplet at rest neither grows nor
+/// decays.
+fn polarisation(setup: &Setup) -> Result<Critical> {
     let state = SteadyState::uniform(setup)?;
-    let diffusion = setup.droplets[0].particles.map_or(0.1, |particles| particles.diffusion);
-    // Where it crosses zero in the order of the activity: other modes have no say.
-    let range = Continuation {
-        largest_step: 0.01,
-        ..Continuation::new(Parameter::Activity, -2.0 * diffusion, -40.0 * diffusion)
-    };
-    let along = |point: &&SpecialPoint| {
-        point.kind == SpecialKind::BranchPoint && point.critical.mode.symmetry == Symmetry::Symmetric
-    };
-    let state = state.at(Parameter::Activity, -2.0 * diffusion)?;
-    let branch = range.follow(&state, |_, special| !special.iter().any(|point| along(&point)))?;
-    branch.special.into_iter().find(|point| along(&point)).context("no threshold")
+    let spectrum = state.spectrum()?;
+    let mode = spectrum.modes.iter().find(|mode| mode.symmetry == Symmetry::Symmetric).context("no modes")?;
+    Ok(state.critical(mode, Parameter::Activity)?)
 }
 
 fn activity(critical: &Critical) -> f64 {
@@ -30,99 +26,105 @@ fn activity(critical: &Critical) -> f64 {
 
 /// How the activity of the swimmers that branch off depends on their speed: its curvature at the threshold, relative to
 /// the threshold, in units of (D/R0)^2: positive for a stronger activity, which is a smooth onset.
-fn onset(point: &SpecialPoint, diffusion: f64) -> Result<f64> {
-    let threshold = activity(&point.critical);
-    let swimmers = Continuation { largest_step: 0.02, ..Continuation::new(Parameter::Activity, 0.0, 2.0 * threshold) };
-    let mut points = Vec::new();
-    swimmers.switch(point, true, |point, _| {
-        points.push(((point.state.velocity().x / diffusion).powi(2), point.value / threshold - 1.0));
-        points.len() < 3
-    })?;
-    // The straight line through the threshold and the curve's first two points, extrapolated to the threshold.
-    let [(u, p), (v, q), ..] = points.as_slice() else { anyhow::bail!("no branch") };
+fn onset(critical: Critical, diffusion: f64) -> Result<f64> {
+    let threshold = activity(&critical);
+    let range = Continuation::new(Parameter::Activity, 0.0, 3.0 * threshold);
+    let swimmers = Continuation { largest_step: 0.02, most_points: 3, ..range };
+    let point = SpecialPoint { kind: SpecialKind::BranchPoint, critical };
+    let branch = swimmers.switch(&point, true, |_, _| true)?;
+    let at = |k: usize| {
+        let point = branch.points.get(k).context("no branch")?;
+        anyhow::Ok(((point.state.velocity().x / diffusion).powi(2), point.value / threshold - 1.0))
+    };
+    // The straight line through the slopes of the curve's first two points from the threshold, at the threshold.
+    let ((u, p), (v, q)) = (at(0)?, at(1)?);
     Ok((p / u * v - q / v * u) / (v - u))
 }
 
-/// The threshold in plane, box and channels, and its onset.
-pub(super) fn threshold(count: usize) -> Result<()> {
-    head(&["region", "threshold", "over that of linear theory", "onset"]);
+/// The threshold in plane, box and channels and over A and D, and its onset.
+pub(super) fn threshold(count: usize) -> Result<Vec<Table>> {
+    let header = ["region", "A", "D", "threshold", "over that of the plane", "frequency", "onset"];
+    let mut table = Table::new("Threshold of polarisation, at c0", &header);
     let scene = |region: Region| {
         let droplets = vec![DropletSetup::contractile(-0.4, 10.0)];
         Setup { region, method: nodes(count), droplets, ..Setup::default() }
     };
     let mut exact = f64::NAN;
-    let boxes = [4.0, 6.0, 12.0].map(|side| (format!("box {side}"), scene(Region::Box { lengths: [side; 2] })));
-    let widths = [2.1, 2.2, 2.5, 3.0, 3.5, 4.0, 5.0];
-    let channels = widths.map(|width| (format!("channel {width}"), channel(12.0, width, -0.4, 10.0, count)));
-    for (name, setup) in [("plane".to_owned(), scene(Region::Plane))].into_iter().chain(boxes).chain(channels) {
-        let point = match polarisation(&setup) {
-            Ok(point) => point,
-            Err(error) => {
-                row(&[name, error.to_string()]);
-                continue;
+    let mut add = |name: String, setup: &Setup, strength: f64, diffusion: f64| {
+        let mut cells = vec![name, strength.to_string(), diffusion.to_string()];
+        match polarisation(setup) {
+            Ok(critical) => {
+                let (found, frequency) = (activity(&critical), critical.mode.value.im);
+                if exact.is_nan() {
+                    exact = found;
+                }
+                cells.extend([format!("{found:.7}"), format!("{:.6}", found / exact), format!("{frequency:.4}")]);
+                cells.push(onset(critical, diffusion).map_or_else(|_| "-".into(), |value| format!("{value:.4}")));
             }
-        };
-        let found = activity(&point.critical);
-        if setup.region == Region::Plane {
-            exact = found;
+            Err(_) => cells.extend(["not found", "", "", ""].map(String::from)),
         }
-        let onset = onset(&point, 0.1).map_or_else(|_| "-".into(), |value| format!("{value:.4}"));
-        row(&[name, format!("{found:.7}"), format!("{:.6}", found / exact), onset]);
+        table.push(cells);
+    };
+    add("plane".into(), &scene(Region::Plane), 10.0, 0.1);
+    for side in [4.0, 6.0, 12.0] {
+        add(format!("box {side}"), &scene(Region::Box { lengths: [side; 2] }), 10.0, 0.1);
     }
-    say("");
-    head(&["A (plane)", "D", "threshold", "onset"]);
+    for width in [2.1, 2.2, 2.3, 2.5, 3.0, 3.5, 4.0, 5.0] {
+        // From where swimming is about to set in.
+        let start = -0.4 - 0.3 / (width - 1.5_f64).powi(3);
+        add(format!("channel {width}"), &channel(12.0, width, start, 10.0, count), 10.0, 0.1);
+    }
     for (strength, diffusion) in [
         (0.0, 0.1),
         (1.0, 0.1),
-        (10.0, 0.1),
         (100.0, 0.1),
-        (300.0, 0.1),
         (1000.0, 0.1),
+        (3000.0, 0.1),
         (10.0, 0.02),
         (10.0, 0.5),
         (10.0, 2.0),
+        (300.0, 0.02),
     ] {
         let mut setup = scene(Region::Plane);
         setup.droplets = vec![DropletSetup::contractile(-4.0 * diffusion, strength)];
         setup.droplets[0].particles.iter_mut().for_each(|particles| particles.diffusion = diffusion);
-        let point = match polarisation(&setup) {
-            Ok(point) => point,
-            Err(error) => {
-                row(&[strength.to_string(), diffusion.to_string(), error.to_string()]);
-                continue;
-            }
-        };
-        let onset = onset(&point, diffusion).map_or_else(|_| "-".into(), |value| format!("{value:.4}"));
-        row(&[strength.to_string(), diffusion.to_string(), format!("{:.6}", activity(&point.critical)), onset]);
+        add("plane".into(), &setup, strength, diffusion);
     }
-    Ok(())
+    Ok(vec![table])
 }
 
 /// Hopf points of the straight swimmer over the width, for each A and period.
-pub(super) fn regimes(count: usize) -> Result<()> {
-    head(&["A", "l", "width", "activities of Hopf points (frequency)", "stable between -0.5 and -6 at"]);
-    for (strength, length) in [(10.0, 12.0), (13.5, 12.0), (10.0, 18.0), (10.0, 24.0)] {
+pub(super) fn regimes(count: usize) -> Result<Vec<Table>> {
+    let header = ["A", "l", "width", "Hopf points (frequency)", "other points", "stable at", "followed to"];
+    let mut table = Table::new("Straight swimmers: activities from -0.6 to -6", &header);
+    for (strength, length) in [10.0, 13.5].into_iter().flat_map(|a| [12.0, 18.0, 24.0].map(|l| (a, l))) {
         for width in [2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0] {
             let start = SteadyState::find(&channel(length, width, -0.6, strength, count))?;
             let settings = Continuation { largest_step: 0.06, ..Continuation::new(Parameter::Activity, -0.6, -6.0) };
-            let mut stable = Vec::new();
-            let branch = settings.follow(&start, |point, _| {
-                stable.push((point.value, point.spectrum.unstable() == 0));
-                true
-            })?;
-            let points = branch.special.iter().map(|point| {
-                let Critical { mode, .. } = &point.critical;
-                let at = activity(&point.critical);
+            let branch = settings.follow(&start, |_, _| true)?;
+            let (mut hopf, mut other) = (Vec::new(), Vec::new());
+            for point in &branch.special {
+                let (at, mode) = (activity(&point.critical), &point.critical.mode);
                 match point.kind {
-                    SpecialKind::Hopf => format!("{at:.4} ({:.4}, {})", mode.value.im, mode.symmetry.name()),
-                    kind => format!("{at:.4} ({})", kind.name()),
+                    SpecialKind::Hopf => hopf.push(format!("{at:.4} ({:.4})", mode.value.im)),
+                    kind => other.push(format!("{at:.4} ({}, {})", kind.name(), mode.symmetry.name())),
                 }
-            });
-            let points: Vec<String> = points.collect();
-            row(&[strength.to_string(), length.to_string(), width.to_string(), points.join("; "), intervals(&stable)]);
+            }
+            let stable: Vec<_> =
+                branch.points.iter().map(|point| (point.value, point.spectrum.unstable() == 0)).collect();
+            let last = stable.last().map_or(f64::NAN, |point| point.0);
+            table.push([
+                strength.to_string(),
+                length.to_string(),
+                width.to_string(),
+                hopf.join("; "),
+                other.join("; "),
+                intervals(&stable),
+                format!("{last:.2}"),
+            ]);
         }
     }
-    Ok(())
+    Ok(vec![table])
 }
 
 /// Stretches of a branch that are stable.
@@ -142,44 +144,46 @@ fn intervals(points: &[(f64, bool)]) -> String {
 }
 
 /// Instants over half a period.
-const INSTANTS: usize = 7;
+const INSTANTS: usize = 9;
 /// First amplitude of a cycle (R0).
 const AMPLITUDE: f64 = 0.2;
+/// Activity at which the reference has a cycle.
+const GOAL: f64 = -5.0;
 
 /// Limit cycles of width 5 and A = 10, from the Hopf point to an activity of -5.
-pub(super) fn cycle(count: usize) -> Result<()> {
+pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
     let parameter = Parameter::Activity;
     let state = SteadyState::find(&channel(12.0, 5.0, -2.5, 10.0, count))?;
     let spectrum = state.spectrum()?;
-    let swing = |mode: &&steady_states::Eigenmode| mode.value.im > 0.0 && mode.symmetry == Symmetry::Antisymmetric;
+    let swing = |mode: &&Eigenmode| mode.value.im > 0.0 && mode.symmetry == Symmetry::Antisymmetric;
     let mode = spectrum.modes.iter().find(swing).context("no swings")?;
     let hopf = state.critical(mode, parameter)?;
-    head(&["activity", "amplitude", "period", "mean speed"]);
-    row(&[
-        format!("{:.6}", activity(&hopf)),
-        "0".into(),
-        format!("{:.4}", std::f64::consts::TAU / hopf.mode.value.im),
-        format!("{:.6}", hopf.state.velocity().x),
-    ]);
-    let show = |cycle: &LimitCycle| -> Result<()> {
-        let amplitude = format!("{:.4}", cycle.amplitude()?);
-        let value = format!("{:.6}", cycle.value(parameter));
-        row(&[value, amplitude, format!("{:.4}", cycle.period()), format!("{:.6}", cycle.mean_speed())]);
-        Ok(())
+    let header = ["activity", "amplitude", "period", "mean speed", "largest multiplier", "of the shifts less 1"];
+    let mut table = Table::new("Limit cycles of width 5, l = 12 and A = 10", &header);
+    let mut push = |at: f64, amplitude: f64, period: f64, speed: f64, multipliers: [String; 2]| {
+        let cells = [format!("{at:.5}"), format!("{amplitude:.4}"), format!("{period:.3}"), format!("{speed:.6}")];
+        motile_examples::say(format_args!("{cells:?} {multipliers:?}"));
+        table.push(cells.into_iter().chain(multipliers));
     };
-    let mut before = LimitCycle::from_hopf(&hopf, parameter, AMPLITUDE, INSTANTS)?;
-    show(&before)?;
-    let mut last = LimitCycle::from_hopf(&hopf, parameter, 1.5 * AMPLITUDE, INSTANTS)?;
-    show(&last)?;
-    let mut factor = 1.0;
-    while last.value(parameter) > -5.1 && factor > 0.02 {
-        match last.beyond(&before, parameter, factor) {
-            Ok(next) => {
-                show(&next)?;
-                (before, last, factor) = (last, next, 1.15);
-            }
-            Err(_) => factor *= 0.5,
-        }
-    }
-    show(&last.at(parameter, -5.0)?)
+    push(activity(&hopf), 0.0, TAU / hopf.mode.value.im, hopf.state.velocity().x, [String::new(), String::new()]);
+    let mut show = |cycle: &LimitCycle| -> Result<[f64; 2]> {
+        let (at, amplitude) = (cycle.value(parameter), cycle.amplitude()?);
+        let multipliers = cycle.multipliers()?;
+        let largest = multipliers.values.first().map_or(f64::NAN, |value| value.norm());
+        let told = [format!("{largest:.4}"), format!("{:.0e}", multipliers.neutral)];
+        push(at, amplitude, cycle.period(), cycle.mean_speed(), told);
+        Ok([at, amplitude])
+    };
+    let mut points = Vec::new();
+    LimitCycle::follow(&hopf, parameter, AMPLITUDE, INSTANTS, |cycle| {
+        let shown = show(cycle).map(|point| points.push(point)).is_ok();
+        shown && cycle.value(parameter) > GOAL
+    })?;
+    // activity - Hopf = b amplitude^p through the first two.
+    let [[a, u], [b, v], ..] = points[..] else { anyhow::bail!("no branch") };
+    let exponent = ((b - activity(&hopf)) / (a - activity(&hopf))).ln() / (v / u).ln();
+    let mut growth =
+        Table::new("Growth from the Hopf point", &["activity less that of the point grows as amplitude to"]);
+    growth.push([format!("{exponent:.3}")]);
+    Ok(vec![table, growth])
 }

@@ -7,9 +7,10 @@ use std::time::Instant;
 use anyhow::{Context, Result};
 use motile::stokes_grid::Drive;
 use motile::{Built, DropletSetup, Region, Setup};
-use steady_states::{Complex64, SteadyState, Symmetry};
+use motile_tests::validation::Table;
+use steady_states::{Complex64, Continuation, Parameter, SteadyState, Symmetry};
 
-use super::{channel, head, nodes, row};
+use super::{channel, nodes};
 
 /// Nodes of the tables.
 const NODES: [usize; 4] = [72, 96, 128, 160];
@@ -47,15 +48,15 @@ fn scenes() -> Result<Vec<(String, Setup, Row)>> {
     Ok(scenes)
 }
 
-/// Errors, residuals and seconds at each number of nodes; beside them those of a run.
-pub(super) fn swimmers() -> Result<()> {
-    head(&["swimmer", "nodes", "speed", "stresslet", "aspect ratio", "c max", "residual", "condition", "seconds"]);
+/// Errors, residuals and seconds at each number of nodes; then those of runs.
+pub(super) fn swimmers() -> Result<Vec<Table>> {
+    let header =
+        ["swimmer", "nodes", "speed", "stresslet", "aspect ratio", "c max", "residual", "condition", "seconds"];
+    let mut table = Table::new("Steady swimmers: relative errors", &header);
     for (name, setup, reference) in scenes()? {
         let stresslet = if reference.contains_key("Sxx_f") { "Sxx_f" } else { "Sxx" };
         for count in NODES {
-            let started = Instant::now();
-            let state = SteadyState::find(&Setup { method: nodes(count), ..setup.clone() })?;
-            let seconds = started.elapsed().as_secs_f64();
+            let (state, seconds) = timed(|| Ok(SteadyState::find(&Setup { method: nodes(count), ..setup.clone() })?))?;
             let seen = state.measured()?;
             let mut cells = vec![name.clone(), count.to_string()];
             let values = [seen.speed, seen.stresslet, seen.aspect_ratio, seen.concentration[0]];
@@ -64,25 +65,49 @@ pub(super) fn swimmers() -> Result<()> {
             }
             cells.extend([format!("{:.0e}", state.residual()), format!("{:.0e}", state.condition())]);
             cells.push(format!("{seconds:.2}"));
-            row(&cells);
+            table.push(cells);
         }
     }
-    // A run of the first scene, for comparison.
-    let (name, setup, reference) = scenes()?.swap_remove(0);
-    let Built { mut scene, droplets, .. } = setup.build()?;
-    let started = Instant::now();
-    for end in [40.0, 80.0, 160.0] {
-        scene.run(end).go()?;
-        let error = (scene.observe(droplets[0])?.speed() / number(&reference, "speed")? - 1.0).abs();
-        let seconds = started.elapsed().as_secs_f64();
-        row(&[format!("{name}, run to {end}"), "72/288".into(), format!("{error:.0e}"), format!("{seconds:.1} s")]);
+    Ok(vec![table, beside_runs()?])
+}
+
+/// What an error of the speed of 1e-4 takes by a state of 48 nodes and by a run of 72 nodes and 288 cells, by turns.
+fn beside_runs() -> Result<Table> {
+    let header = ["swimmer", "error of the state", "seconds", "run to", "its error", "seconds of the run", "run/state"];
+    let mut table = Table::new("A state of 48 nodes beside a run of 72/288", &header);
+    for (name, setup, reference) in scenes()? {
+        if number(&reference, if reference.contains_key("zeta_dmu") { "zeta_dmu" } else { "activity" })? != -2.0 {
+            continue;
+        }
+        let error = |speed: f64| anyhow::Ok((speed / number(&reference, "speed")? - 1.0).abs());
+        let coarse = Setup { method: nodes(48), ..setup.clone() };
+        let (state, first) = timed(|| Ok(SteadyState::find(&coarse)?))?;
+        let Built { mut scene, droplets, .. } = Setup { method: nodes(72), ..setup }.build()?;
+        let (mut end, mut left, mut run) = (0.0, f64::INFINITY, 0.0);
+        while left > 1e-4 && end < 400.0 {
+            end += 20.0;
+            run += timed(|| Ok(scene.run(end).go()?))?.1;
+            left = error(scene.observe(droplets[0])?.speed())?;
+        }
+        let (_, second) = timed(|| Ok(SteadyState::find(&coarse)?))?;
+        let seconds = 0.5 * (first + second);
+        let [ours, theirs] = [error(state.measured()?.speed)?, left].map(|error| format!("{error:.0e}"));
+        let ratio = format!("{:.0}", run / seconds);
+        table.push([name, ours, format!("{seconds:.2}"), end.to_string(), theirs, format!("{run:.1}"), ratio]);
     }
-    Ok(())
+    Ok(table)
+}
+
+fn timed<T>(work: impl FnOnce() -> Result<T>) -> Result<(T, f64)> {
+    let started = Instant::now();
+    let value = work()?;
+    Ok((value, started.elapsed().as_secs_f64()))
 }
 
 /// Growth rates of swings in a channel of width 5.
-pub(super) fn lateral() -> Result<()> {
-    head(&["activity", "drive", "nodes", "growth rate", "error", "frequency", "error"]);
+pub(super) fn lateral() -> Result<Vec<Table>> {
+    let header = ["activity", "drive", "nodes", "growth rate", "error", "frequency", "error of the frequency"];
+    let mut table = Table::new("Swings across a channel of width 5: l = 12, A = 10", &header);
     for reference in rows("channel_lateral_stability.csv")? {
         let activity = number(&reference, "zeta_dmu")?;
         let mut setup = channel(12.0, 5.0, activity, number(&reference, "A")?, 72);
@@ -90,43 +115,90 @@ pub(super) fn lateral() -> Result<()> {
         if closed {
             setup.region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroFlux };
         }
-        for count in NODES {
-            let spectrum = SteadyState::find(&Setup { method: nodes(count), ..setup.clone() })?.spectrum()?;
-            let swing = spectrum.of(Symmetry::Antisymmetric).find(|z| z.im > 0.0).unwrap_or(Complex64::ZERO);
+        let mut push = |how: String, swing: Complex64| -> Result<()> {
             let error = |value: f64, name: &str| -> Result<String> {
                 Ok(format!("{:.0e}", (value / number(&reference, name)? - 1.0).abs()))
             };
-            row(&[
+            table.push([
                 activity.to_string(),
                 if closed { "zero flux" } else { "zero gradient" }.into(),
-                count.to_string(),
+                how,
                 format!("{:.7}", swing.re),
                 error(swing.re, "growth")?,
                 format!("{:.6}", swing.im),
                 error(swing.im, "freq")?,
             ]);
+            Ok(())
+        };
+        for count in NODES {
+            let spectrum = SteadyState::find(&Setup { method: nodes(count), ..setup.clone() })?.spectrum()?;
+            let swing = spectrum.of(Symmetry::Antisymmetric).find(|z| z.im > 0.0).unwrap_or(Complex64::ZERO);
+            push(count.to_string(), swing)?;
+        }
+        if activity < -3.0 {
+            push("a run of 72/288".into(), fitted(&setup)?)?;
         }
     }
-    Ok(())
+    Ok(vec![table])
 }
 
-/// Seconds of a state and its spectrum over the nodes.
-pub(super) fn cost() -> Result<()> {
-    head(&["nodes", "state from nothing (s)", "state from a neighbour (s)", "spectrum (s)", "Jacobian (MB)"]);
+/// Growth rate and frequency of the small swings of a run, from least squares of y(t + 2h) + p y(t + h) + q y(t) = 0.
+fn fitted(setup: &Setup) -> Result<Complex64> {
+    let mut setup = setup.clone();
+    setup.droplets[0].centre[1] = 5e-3;
+    let Built { mut scene, droplets, .. } = setup.build()?;
+    let mut heights = Vec::new();
+    for k in 0..=STEPS {
+        scene.run(FIRST + SPACING * k as f64).go()?;
+        heights.push(scene.observe(droplets[0])?.centroid.y);
+    }
+    let (mut aa, mut ab, mut bb, mut ay, mut by) = (0.0, 0.0, 0.0, 0.0, 0.0);
+    for three in heights.windows(2 * LAG + 1) {
+        let (a, b, y) = (three[LAG], three[0], -three[2 * LAG]);
+        (aa, ab, bb, ay, by) = (aa + a * a, ab + a * b, bb + b * b, ay + a * y, by + b * y);
+    }
+    let determinant = aa * bb - ab * ab;
+    let (p, q) = ((ay * bb - by * ab) / determinant, (by * aa - ay * ab) / determinant);
+    let root = Complex64::new(-0.5 * p, (q - 0.25 * p * p).max(0.0).sqrt());
+    Ok(root.ln() / (SPACING * LAG as f64))
+}
+
+/// Samples of a run: the first time, their spacing, their number, and how many a lag is.
+const FIRST: f64 = 60.0;
+const SPACING: f64 = 2.0;
+const STEPS: usize = 100;
+const LAG: usize = 12;
+
+/// Seconds of a state and its spectrum over the nodes, points of a branch per second, memory.
+pub(super) fn cost() -> Result<Vec<Table>> {
+    let header = [
+        "nodes",
+        "state from nothing (s)",
+        "from a neighbour (s)",
+        "spectrum (s)",
+        "points of a branch per second",
+        "matrix (MB)",
+        "largest memory of the program (MB)",
+    ];
+    let mut table = Table::new("Cost: channel of width 3, activity -2", &header);
     for count in [48, 72, 96, 128, 160, 192] {
         let setup = channel(12.0, 3.0, -2.0, 10.0, count);
-        let started = Instant::now();
-        let state = SteadyState::find(&setup)?;
-        let first = started.elapsed().as_secs_f64();
-        let started = Instant::now();
-        black_box(state.at(steady_states::Parameter::Activity, -2.05)?);
-        let neighbour = started.elapsed().as_secs_f64();
-        let started = Instant::now();
-        black_box(state.spectrum()?);
-        let spectrum = started.elapsed().as_secs_f64();
-        let memory = 8e-6 * (count * count) as f64;
-        let cells = [first, neighbour, spectrum, memory].map(|value| format!("{value:.2}"));
-        row(&[vec![count.to_string()], cells.to_vec()].concat());
+        let (state, first) = timed(|| Ok(SteadyState::find(&setup)?))?;
+        let (_, neighbour) = timed(|| Ok(black_box(state.at(Parameter::Activity, -2.05)?)))?;
+        let (_, spectrum) = timed(|| Ok(black_box(state.spectrum()?)))?;
+        let settings = Continuation { most_points: 6, ..Continuation::new(Parameter::Activity, -2.0, -3.0) };
+        let (branch, followed) = timed(|| Ok(settings.follow(&state, |_, _| true)?))?;
+        let (rate, matrix) = (branch.points.len() as f64 / followed, 8e-6 * (count * count) as f64);
+        let cells = [first, neighbour, spectrum, rate, matrix].map(|value| format!("{value:.2}"));
+        table.push([vec![count.to_string()], cells.to_vec(), vec![memory()]].concat());
     }
-    Ok(())
+    Ok(vec![table])
+}
+
+/// Most memory that this process has had (MB), where the system tells.
+fn memory() -> String {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let kilobytes =
+        status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse().ok());
+    kilobytes.map_or_else(String::new, |value: f64| format!("{:.0}", 1e-3 * value))
 }

@@ -1,0 +1,104 @@
+//! Stability of limit cycles.
+
+use std::f64::consts::PI;
+
+use nalgebra::DMatrix;
+use num_complex::Complex64;
+
+use crate::modes::Part;
+use crate::spectrum::{complement, eigenvalues};
+use crate::{LimitCycle, SteadyError};
+
+/// Steps over half a period.
+const STEPS: usize = 80;
+
+/// Floquet multipliers of a limit cycle: factors by which disturbances grow over a period.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Multipliers {
+    /// The multipliers, largest first, of disturbances that keep area and number of particles, but for the shifts in
+    /// time and along the channel.
+    pub values: Vec<Complex64>,
+    /// How far the multipliers of these two shifts are from 1: an error estimate.
+    pub neutral: f64,
+}
+
+impl Multipliers {
+    /// Whether all disturbances decay.
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.values.iter().all(|value| value.norm() < 1.0)
+    }
+}
+
+impl LimitCycle {
+    /// The multipliers: eigenvalues of what the linearised equations make of disturbances in half a period, mirrored
+    /// and squared. In time these are solved by the method Radau IIA of third order, which damps what decays fast,
+    /// their matrix being known between the instants by trigonometric interpolation.
+    ///
+    /// # Errors
+    /// Equations that cannot be solved.
+    pub fn multipliers(&self) -> Result<Multipliers, SteadyError> {
+        let mut own = self.copy(&self.system.model.setup)?;
+        let (count, n) = (own.states.len(), own.system.modes.len());
+        let odd = own.system.modes.part(Part::Odd);
+        let mut jacobians = Vec::new();
+        let mut conserved = None;
+        for point in own.points()? {
+            jacobians.push(own.tau * own.system.jacobian(&point, Part::Full)?);
+            if conserved.is_none() {
+                own.system.load(&point)?;
+                conserved = Some(own.system.conserved_gradients(&point.base, Part::Full)?);
+            }
+        }
+        let basis = complement(&conserved.unwrap_or_default(), n);
+        let matrix = |phase: f64| {
+            let weights: Vec<[f64; 2]> = (0..count).map(|k| weights(phase, k, count)).collect();
+            DMatrix::from_fn(n, n, |i, j| {
+                // What takes one symmetry to the other has changed its sign after half a period.
+                let which = usize::from(odd.contains(&i) != odd.contains(&j));
+                jacobians.iter().zip(&weights).map(|(jacobian, w)| w[which] * jacobian[(i, j)]).sum()
+            })
+        };
+        let step = PI / STEPS as f64;
+        let mut flow = basis.clone();
+        for k in 0..STEPS {
+            let start = step * k as f64;
+            let (first, second) = (step * matrix(start + step / 3.0), step * matrix(start + step));
+            let mut stages = DMatrix::identity(2 * n, 2 * n);
+            for (row, weights) in [[5.0 / 12.0, -1.0 / 12.0], [0.75, 0.25]].into_iter().enumerate() {
+                for (column, (weight, matrix)) in weights.into_iter().zip([&first, &second]).enumerate() {
+                    let mut block = stages.view_mut((row * n, column * n), (n, n));
+                    block -= weight * matrix;
+                }
+            }
+            let mut right = DMatrix::zeros(2 * n, flow.ncols());
+            right.rows_mut(0, n).copy_from(&flow);
+            right.rows_mut(n, n).copy_from(&flow);
+            let singular =
+                SteadyError::Singular { what: "the growth on a cycle", remedy: "use another number of nodes" };
+            flow = stages.lu().solve(&right).ok_or(singular)?.rows(n, n).into_owned();
+        }
+        for row in odd {
+            flow.row_mut(row).neg_mut();
+        }
+        let mut half = eigenvalues(&(basis.transpose() * flow))?;
+        let distance = |value: &Complex64| (value - 1.0).norm();
+        half.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let shifts: Vec<Complex64> = half.drain(..2.min(half.len())).collect();
+        let mut values: Vec<Complex64> = half.into_iter().map(|value| value * value).collect();
+        values.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
+        Ok(Multipliers { values, neutral: shifts.iter().map(distance).fold(0.0, f64::max) })
+    }
+}
+
+/// Weight of the instant `k` of half a period at a phase, for what is the same and what has changed its sign after half
+/// a period.
+fn weights(phase: f64, k: usize, count: usize) -> [f64; 2] {
+    let all = 2 * count;
+    let at = |k: usize| {
+        let angle = phase - PI * k as f64 / count as f64;
+        let tangent = (0.5 * angle).tan();
+        if tangent.abs() < 1e-12 { 1.0 } else { (0.5 * all as f64 * angle).sin() / (all as f64 * tangent) }
+    };
+    [at(k) + at(k + count), at(k) - at(k + count)]
+}
