@@ -1,7 +1,7 @@
 //! An active droplet swims between rigid walls of some shape, or past fixed posts.
 //!
-//! `cargo run --release --example rigid_geometry -- --case sinusoidal` simulates it, prints what was measured, and writes
-//! to `out/rigid_geometry/` what the example `rigid_channel` writes. Cases are `sinusoidal`, with the half width
+//! `cargo run --release --example rigid_geometry -- --case sinusoidal` simulates it, prints what was measured, and
+//! writes to `out/rigid_geometry/` what the example `rigid_channel` writes. Cases are `sinusoidal`, with the half width
 //! `--width`/2 + `--amplitude` cos(2 pi x/`--length`), `constriction`, that of the example `constriction` with its
 //! corners rounded over `--rounding`, `ratchet`, `branch`, around an island, and `posts`. `--help` lists the flags.
 

@@ -332,7 +332,8 @@ impl Curve {
         self.weight() * self.nodes.tangent.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt()
     }
 
-    /// Whether a point, relative to its centre, that is some spacings away from it lies on its left, by Cauchy's formula.
+    /// Whether a point, relative to its centre, that is some spacings away from it lies on its left, by Cauchy's
+    /// formula.
     pub(crate) fn winds_around(&self, point: Complex64) -> bool {
         let greens = self.greens();
         let terms = self.nodes.position.iter().zip(&self.nodes.tangent);

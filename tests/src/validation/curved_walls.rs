@@ -125,21 +125,25 @@ fn flux(flow: &mut BoundaryIntegral, markers: &Markers, x: f64) -> Result<f64, S
 
 /// Largest difference of marker velocities from those with 256 nodes of the droplet and 384 of a wall, over the largest
 /// velocity: a circle of radius 0.65 in a film of that width below the upper wall where the channel is widest, with
-/// numbers of nodes of the droplet that are multiples of 16.
+/// numbers of nodes of the droplet, each with that of a wall, that are multiples of 16.
 ///
 /// # Errors
 /// A scene that cannot be.
-pub fn film(width: f64, viscosity_inside: f64, droplet: usize, wall: usize) -> Result<f64, StudyError> {
-    let velocities = |droplet: usize, wall: usize| -> Result<Vec<Vec2>, StudyError> {
+pub fn film(width: f64, viscosity_inside: f64, nodes: &[[usize; 2]]) -> Result<Vec<f64>, StudyError> {
+    let velocities = |[droplet, wall]: [usize; 2]| -> Result<Vec<Vec2>, StudyError> {
         let centre = Vec2::new(0.1, side(0.1) - width - 0.65);
         let tension = |t: f64| 1.0 + 0.5 * (t - 0.7).cos();
         let mut markers = ellipse(centre, [0.65; 2], droplet, Some(viscosity_inside), tension)?;
         channel(Forcing::default(), droplet, wall)?.velocities(&mut markers)?;
         Ok(markers.velocities().iter().step_by(droplet / 16).copied().collect())
     };
-    let (found, reference) = (velocities(droplet, wall)?, velocities(256, 384)?);
+    let reference = velocities([256, 384])?;
     let largest = reference.iter().map(|v| v.length()).fold(0.0, f64::max);
-    Ok(found.iter().zip(&reference).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / largest)
+    let error = |nodes: &[usize; 2]| {
+        let found = velocities(*nodes)?;
+        Ok(found.iter().zip(&reference).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max) / largest)
+    };
+    nodes.iter().map(error).collect()
 }
 
 /// The pressure gradient that drives a unit flux of unit viscosity through a channel between
