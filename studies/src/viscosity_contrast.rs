@@ -3,8 +3,8 @@
 //!
 //! `cargo run --release -p studies -- viscosity_contrast` makes the runs, some minutes on two cores; `--full` makes
 //! more of them, longer and finer, an hour or so. Each finished run leaves a file in `out/viscosity_contrast/runs/` and
-//! is not made again. From all runs come `points.csv`, the figures (SVG and PNG) and a table, Cowley's statements beside
-//! what the runs say, which `--write` keeps in `docs/tables/viscosity-contrast.csv`.
+//! is not made again. From all runs come `points.csv`, the figures (SVG and PNG) and a table, Cowley's statements
+//! beside what the runs say, which `--write` keeps in `docs/tables/viscosity-contrast.csv`.
 
 mod figures;
 mod run;

@@ -2,9 +2,10 @@
 //!
 //! In two-dimensional Stokes flow a scene of droplets has all its forces on curves, so the flow needs to be known on
 //! these curves alone. [`BoundaryIntegral`] computes it to spectral accuracy in the plane, a periodic box or a channel
-//! ([`Geometry`]), between rigid walls and obstacles of any shape ([`RigidWall`]), for any viscosity inside and outside,
-//! and implements [`ib_core::Hydrodynamics`], so that a body does not notice which method moves it. Flow, gradient and
-//! pressure are available at any point, at any distance from an interface. The mathematics is in [`stokes_layers`].
+//! ([`Geometry`]), between rigid walls and obstacles of any shape ([`RigidWall`]), for any viscosity inside and
+//! outside, and implements [`ib_core::Hydrodynamics`], so that a body does not notice which method moves it. Flow,
+//! gradient and pressure are available at any point, at any distance from an interface. The mathematics is in
+//! [`stokes_layers`].
 //!
 //! # Example
 //!

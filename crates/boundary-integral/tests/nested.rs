@@ -28,9 +28,9 @@ fn centroid_velocity(markers: &Markers, group: usize) -> Vec2 {
     normals.zip(&markers.velocities()[range]).map(|(n, v)| 2.0 * v.dot(n) * n).sum::<Vec2>() / count
 }
 
-/// A droplet of radius 1 with the tension 1 + cos theta, exterior viscosity 1, around a concentric one of radius rho and
-/// constant tension: with beta = (core - middle)/(core + middle),
-/// `U = -1/(4 (1 + middle (1 + beta rho^4)/(1 - beta rho^4)))` and `V/U = (2 - rho^2 (1 + beta))/(1 - beta rho^4)`.
+/// A droplet of radius 1 with the tension 1 + cos theta, exterior viscosity 1, around a concentric one of radius rho
+/// and constant tension: with beta = (core - middle)/(core + middle), `U = -1/(4 (1 + middle (1 + beta rho^4)/(1 - beta
+/// rho^4)))` and `V/U = (2 - rho^2 (1 + beta))/(1 - beta rho^4)`.
 #[test]
 fn three_viscosities_around_one_centre() {
     for (middle, core) in [(10.0, 0.5), (0.1, 10.0), (3.0, 3.0), (1.0, 100.0), (100.0, 1.0), (30.0, 3e3)] {

@@ -18,9 +18,10 @@ use crate::{
 ///
 /// It holds numbers only: to resume, make the same scene again and give it to [`Scene::resume`]. What the scene is must
 /// be the same: the domain, what drives the fluid along it, the viscosities, the bodies and what they are made of
-/// ([`crate::Body::properties`], with the numbers of markers and points that they started with), the number of nodes
-/// of boundary integrals. How it is computed may be another then: time step, integrator and observers, grid spacing (with markers and meshes as before), kernel,
-/// corrections, transport of particles. The flow of the state is then recomputed.
+/// ([`crate::Body::properties`], with the numbers of markers and points that they started with), the number of nodes of
+/// boundary integrals. How it is computed may be another then: time step, integrator and observers, grid spacing (with
+/// markers and meshes as before), kernel, corrections, transport of particles. The flow of the state is then
+/// recomputed.
 ///
 /// ```
 /// use ib_core::{Checkpoint, CubicQuadratic, ImmersedBoundary, Scene};

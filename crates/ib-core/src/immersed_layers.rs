@@ -26,10 +26,10 @@ use curves::LayerCurves;
 ///
 /// The two mixed parts are transposes of each other, so that the whole is as symmetric as L. It is the mobility of the
 /// immersed boundary method and what regularisation takes from the layers, L - J_l G S_l, which is not negative: the
-/// whole takes energy in any state. Layers are spread and interpolated at nodes no more than a grid spacing apart, their
-/// Fourier series in between, so that the grid has the layers' long waves. The velocity of a surface is that of a flow
-/// without divergence through all of it, so that solids keep their volume, and nothing has to be corrected or set back
-/// beside them. Two solutions on the grid an evaluation.
+/// whole takes energy in any state. Layers are spread and interpolated at nodes no more than a grid spacing apart,
+/// their Fourier series in between, so that the grid has the layers' long waves. The velocity of a surface is that of a
+/// flow without divergence through all of it, so that solids keep their volume, and nothing has to be corrected or set
+/// back beside them. Two solutions on the grid an evaluation.
 ///
 /// Groups of interfaces are layers, and of other groups the markers on their surfaces
 /// ([`crate::hydrodynamics::MarkerGroup::surfaces`]). The inner points of a solid should be two or more grid spacings

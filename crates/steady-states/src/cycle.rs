@@ -120,11 +120,12 @@ impl LimitCycle {
         cycle.settled()
     }
 
-    /// Follows the branch of oscillations from a Hopf point, at first with two of about the amplitude (length) given and
-    /// one and a half times that: `seen` is told each, and the branch ends where it says false.
+    /// Follows the branch of oscillations from a Hopf point, at first with two of about the amplitude (length) given
+    /// and one and a half times that: `seen` is told each, and the branch ends where it says false.
     ///
     /// # Errors
-    /// As [`LimitCycle::from_hopf`]; no convergence with the shortest step, after `seen` was told what could be reached.
+    /// As [`LimitCycle::from_hopf`]; no convergence with the shortest step, after `seen` was told what could be
+    /// reached.
     pub fn follow(
         hopf: &Critical,
         parameter: Parameter,

@@ -94,11 +94,11 @@ pub struct WarmStart {
 /// ```
 ///
 /// with the Green's function G of the region and its stress T; n points outward, and eta_out is the viscosity of the
-/// fluid right outside of the interface, so that interfaces may lie inside one another. The single layer is integrated by the
-/// rule of Kress, the double layer by the trapezoidal rule, both on `nodes` equally spaced values of the parameter, so
-/// that errors fall faster than any power of the number of nodes. Where viscosities differ the equation is solved by
-/// GMRES. Nodes close to another interface get a quadrature of their own, so that gaps are limited by what the film
-/// between them needs, not by the kernel.
+/// fluid right outside of the interface, so that interfaces may lie inside one another. The single layer is integrated
+/// by the rule of Kress, the double layer by the trapezoidal rule, both on `nodes` equally spaced values of the
+/// parameter, so that errors fall faster than any power of the number of nodes. Where viscosities differ the equation
+/// is solved by GMRES. Nodes close to another interface get a quadrature of their own, so that gaps are limited by what
+/// the film between them needs, not by the kernel.
 ///
 /// [`InterfaceFlow::load`], [`InterfaceFlow::solve`], then [`InterfaceFlow::velocities`] on the interfaces and
 /// [`InterfaceFlow::sample`] anywhere. While the numbers of interfaces and points stay the same nothing is allocated.

@@ -281,8 +281,8 @@ impl Layers {
         self.close.crossing()
     }
 
-    /// What the flux through the channel of the forces of some curves, without a mean pressure gradient, is `1/(2 l eta)`
-    /// times of.
+    /// What the flux through the channel of the forces of some curves, without a mean pressure gradient, is `1/(2 l
+    /// eta)` times of.
     pub(crate) fn force_moment(&self, from: Range<usize>) -> f64 {
         self.walls.as_ref().map_or(0.0, |walls| walls.force_moment(&self.curves[from]))
     }

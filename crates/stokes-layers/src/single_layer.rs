@@ -33,8 +33,8 @@ pub enum Reciprocity {
     /// accuracy to which the nodes resolve the forces.
     Accurate,
     /// At the nodes of the curve whose nodes are closer together, of two with the same spacing those of the first one;
-    /// the other curve gets the transpose. The operator is symmetric to round-off and accurate for what moves with the nodes' smooth
-    /// fields, such as power.
+    /// the other curve gets the transpose. The operator is symmetric to round-off and accurate for what moves with the
+    /// nodes' smooth fields, such as power.
     Exact,
 }
 

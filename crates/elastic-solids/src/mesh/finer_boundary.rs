@@ -60,8 +60,8 @@ impl TriangleMesh {
     }
 }
 
-/// The middle of a side of a smooth line, from its start: on the cubic through its ends and the ends of the sides before
-/// and after it, with the lengths of the sides as parameter.
+/// The middle of a side of a smooth line, from its start: on the cubic through its ends and the ends of the sides
+/// before and after it, with the lengths of the sides as parameter.
 fn middle(before: Vec2, own: Vec2, after: Vec2) -> Vec2 {
     let [a, b, c] = [before, own, after].map(Vec2::length);
     let knots = [(-a, -before), (0.0, Vec2::ZERO), (b, own), (b + c, own + after)];

@@ -7,8 +7,8 @@ use crate::Vec2;
 /// Rigid motions of one droplet: along x, along y, and a rotation.
 pub(super) const RIGID: usize = 3;
 
-/// Rigid motions of droplets with all that is inside of them on the nodes of all, orthonormal in the product weighted by
-/// the arc length of the droplet; x components of all nodes first, then y components.
+/// Rigid motions of droplets with all that is inside of them on the nodes of all, orthonormal in the product weighted
+/// by the arc length of the droplet; x components of all nodes first, then y components.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RigidModes {
     /// Motion by motion, with zeros on what is outside of the droplet.

@@ -85,8 +85,8 @@ pub struct GridMethod {
     pub filter: bool,
     /// How interfaces between fluids of different viscosity are treated.
     pub contrast: Contrast,
-    /// Interfaces and the surfaces of solids as layers of this resolution ([`ib_core::ImmersedLayers`]), for scenes with
-    /// solids: exact in films between them. Points of solids are then twice the grid spacing apart unless their
+    /// Interfaces and the surfaces of solids as layers of this resolution ([`ib_core::ImmersedLayers`]), for scenes
+    /// with solids: exact in films between them. Points of solids are then twice the grid spacing apart unless their
     /// description says otherwise, on surfaces half of that. Takes the place of corrections, filter and marker spacing,
     /// and needs a composite B-spline.
     pub layers: Option<IntegralMethod>,

@@ -36,8 +36,8 @@ pub struct NodeCurve {
 }
 
 impl NodeCurve {
-    /// Takes over the positions of the nodes, counter-clockwise (length), the number of the first one, and the viscosities
-    /// inside and outside (stress times time).
+    /// Takes over the positions of the nodes, counter-clockwise (length), the number of the first one, and the
+    /// viscosities inside and outside (stress times time).
     ///
     /// # Errors
     /// Fewer than 8 nodes or more than 10,000, a clockwise curve.

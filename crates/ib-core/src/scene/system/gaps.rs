@@ -14,8 +14,8 @@ const RESOLVED_CELLS_CLOSED: f64 = 5.5;
 const RESOLVED_NODES: f64 = 0.3;
 
 impl<H: Hydrodynamics> System<H> {
-    /// The smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative beyond a
-    /// wall, see [`wall_gap`]); `None` without walls or interfaces. Solids
+    /// The smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative beyond
+    /// a wall, see [`wall_gap`]); `None` without walls or interfaces. Solids
     /// ([`MarkerKind::Points`](crate::MarkerKind)) may stand on a wall and do not count. Needs no evaluation.
     pub fn wall_gap(&mut self) -> Option<f64> {
         let domain = self.hydrodynamics.discretisation().domain;
