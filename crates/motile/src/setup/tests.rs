@@ -400,7 +400,6 @@ mod file {
             ..Particles::default()
         });
         let graded = Grading::Along { axis: Axis::X, factors: vec![[0.0, 1.0], [3.0, 2.0]] };
-        setup.method = Method::Grid(GridMethod::with_layers(0.1));
         setup.solids.push(SolidSetup {
             hold: Hold::Tethered { stiffness: 20.0 },
             grading: graded,
@@ -417,7 +416,11 @@ mod file {
     #[test]
     fn what_is_written_is_read() {
         let passive = Setup { droplets: vec![DropletSetup::passive(3.0)], ..Setup::default() };
-        for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, Surface::Plain), varied()] {
+        let mut layers = varied();
+        layers.droplets.iter_mut().for_each(|droplet| droplet.viscosity = None);
+        layers.method = Method::Grid(GridMethod::with_layers(0.1));
+        layers.solids.iter_mut().for_each(|solid| (solid.mesh_spacing, solid.surface) = (None, Surface::Corrected));
+        for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, Surface::Plain), varied(), layers] {
             let text = setup.to_toml().unwrap();
             assert_eq!(Setup::from_toml(&text).unwrap(), setup, "{text}");
         }
