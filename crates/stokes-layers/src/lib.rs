@@ -45,7 +45,8 @@
 //! and with fluid of another viscosity inside the two together give an integral equation for v ([`InterfaceFlow`]).
 //!
 //! * Curves are truncated Fourier series on equally spaced values of their parameter, plus a straight line for those
-//!   that are open and go on periodically along x. These have the Green's function of a row of images, all else is the same.
+//!   that are open and go on periodically along x. These have the Green's function of a row of images, all else is the
+//!   same.
 //! * The logarithm of the single layer is integrated by the weights of Kress (Linear Integral Equations, 2014, section
 //!   12.3), the rest by the trapezoidal rule.
 //! * Curves that are close are summed node by node, in the plane or with a row of images in closed form in a channel.
