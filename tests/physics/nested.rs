@@ -8,6 +8,8 @@ use motile_tests::validation::contrast::Droplet;
 use motile_tests::validation::order;
 use motile_tests::validation::scene::{flow, open_channel};
 
+use crate::net_forces::means;
+
 const SPACINGS: [f64; 3] = [0.1, 0.05, 0.025];
 const REGIONS: [fn() -> Region; 2] = [|| Region::Box { lengths: [6.0; 2] }, || open_channel(6.0, 4.0)];
 /// Viscosities of the outer and of the inner droplet; the exterior one is 1.
@@ -34,15 +36,6 @@ fn scene([outer, inner]: [f64; 2], spacing: f64, pull: Vec2) -> Markers {
     markers.forces_mut()[range].iter_mut().for_each(|force| *force += share * pull);
     markers.set_viscosity_outside(1, Some(outer)).expect("a viscosity");
     markers
-}
-
-/// The mean velocity of each droplet's markers.
-fn means(markers: &Markers) -> [Vec2; 2] {
-    [0, 1].map(|index| {
-        let range = markers.groups()[index].range.clone();
-        let count = range.len() as f64;
-        markers.velocities()[range].iter().sum::<Vec2>() / count
-    })
 }
 
 #[test]

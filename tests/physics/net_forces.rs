@@ -47,7 +47,7 @@ fn work(forces: &Markers, velocities: &Markers) -> f64 {
 }
 
 /// The mean velocity of each droplet's markers.
-fn means(markers: &Markers) -> [Vec2; 2] {
+pub(crate) fn means(markers: &Markers) -> [Vec2; 2] {
     [0, 1].map(|index| {
         let range = markers.groups()[index].range.clone();
         let count = range.len() as f64;
