@@ -1,5 +1,6 @@
 //! The streamfunction solver of a large periodic box on several threads.
 
+use fourier::InputError;
 use num_complex::Complex64;
 use rayon::prelude::*;
 
