@@ -144,7 +144,7 @@ impl InterfaceFlow {
             geometry,
             viscosity,
             settings,
-            layers: Layers::new(geometry, settings.tolerance, false),
+            layers: Layers::new(geometry, settings.tolerance, false)?,
             gmres: Gmres::recycling(),
             viscosities: Vec::new(),
             contrasts: Vec::new(),
@@ -178,7 +178,7 @@ impl InterfaceFlow {
         let Geometry::Channel { length, width, forcing } = self.geometry else { return Err(LayerError::NoChannel) };
         // What is forced is the flow between the walls.
         let geometry = Geometry::Channel { length, width, forcing: Forcing::Gradient(0.0) };
-        self.layers = Layers::new(geometry, self.settings.tolerance, false);
+        self.layers = Layers::new(geometry, self.settings.tolerance, false)?;
         let rigid = RigidWalls::new(&mut self.layers, [length, width], forcing, self.viscosity, walls)?;
         self.rigid = Some(Box::new(rigid));
         self.placed = false;
@@ -426,7 +426,10 @@ impl InterfaceFlow {
         let expected = self.layers.curves[..self.len()].get(interface).map_or(0, |curve| curve.points);
         same_length("the velocities of an interface", expected, out.len())?;
         same_length("the solution", 2 * nodes * self.len(), self.velocities.len())?;
-        self.layers.plan(interface).transforms.at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out);
+        self.layers
+            .plan(interface)
+            .transforms
+            .at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out)?;
         finite_vectors("the velocity", interface, out)
     }
 
@@ -443,7 +446,7 @@ impl InterfaceFlow {
         self.layers
             .plan(interface)
             .transforms
-            .at_nodes(values, &mut self.velocities[2 * nodes * interface..][..2 * nodes]);
+            .at_nodes(values, &mut self.velocities[2 * nodes * interface..][..2 * nodes])?;
         Ok(())
     }
 

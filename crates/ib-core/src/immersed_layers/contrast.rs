@@ -48,7 +48,7 @@ impl LayerContrast {
             flow: InterfaceFlow::new(geometry, viscosity, settings)?,
             tolerance,
             gmres: Gmres::recycling(),
-            series: PeriodicSeries::new(nodes),
+            series: PeriodicSeries::new(nodes)?,
             waves: Vec::new(),
             normals: Vec::new(),
             velocities: Vec::new(),

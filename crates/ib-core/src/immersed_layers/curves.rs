@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fourier::{PeriodicSeries, spectrum::largest_wave};
+use fourier::{InputError, PeriodicSeries, spectrum::largest_wave};
 use input_checks::at_least;
 use num_complex::Complex64;
 use stokes_layers::LayerCurve;
@@ -93,15 +93,16 @@ impl LayerCurves {
         self.curves.clear();
         let mut starts = [0; 3];
         let mut curve = |markers: Vec<(usize, i32)>, periods: i32, nodes: usize| {
-            let series = [markers.len(), nodes, nodes].map(PeriodicSeries::new);
+            let (points, own) = (PeriodicSeries::new(markers.len())?, PeriodicSeries::new(nodes)?);
+            let series = [points, own.clone(), own];
             let curve = Curve { advance: f64::from(periods) * self.period, starts, series, length: 0.0, markers };
             starts[0] += curve.markers.len();
             starts[1] += nodes;
-            curve
+            Ok::<_, InputError>(curve)
         };
         for group in groups.iter().filter(|group| group.kind.is_interface()) {
             at_least("the markers of an interface", group.range.len(), self.nodes)?;
-            self.curves.push(curve(group.range.clone().map(|marker| (marker, 0)).collect(), 0, self.nodes));
+            self.curves.push(curve(group.range.clone().map(|marker| (marker, 0)).collect(), 0, self.nodes)?);
         }
         self.interfaces = self.curves.len();
         for group in groups {
@@ -110,7 +111,7 @@ impl LayerCurves {
                 let largest = surface.markers.iter().map(|(marker, _)| *marker).max().unwrap_or(0);
                 at_least("the markers of a solid with a surface", group.range.len(), largest + 1)?;
                 let absolute = |&(marker, shift): &(usize, i32)| (group.range.start + marker, shift);
-                self.curves.push(curve(surface.markers.iter().map(absolute).collect(), surface.periods, count));
+                self.curves.push(curve(surface.markers.iter().map(absolute).collect(), surface.periods, count)?);
             }
         }
         let mut free = vec![true; groups.last().map_or(0, |group| group.range.end)];
@@ -147,7 +148,7 @@ impl LayerCurves {
             for ((marker, shift), point) in curve.markers.iter().zip(&mut *points) {
                 *point = markers.positions[*marker] + Vec2::new(f64::from(*shift) * self.period, 0.0);
             }
-            first += curve.fit(points, self.spacing);
+            first += curve.fit(points, self.spacing)?;
             for list in &mut self.grid {
                 list.resize(first.max(list.len()), Vec2::ZERO);
             }
@@ -230,17 +231,20 @@ impl Curve {
     }
 
     /// Measures it and says how many grid nodes it has.
-    fn fit(&mut self, points: &[Vec2], spacing: f64) -> usize {
+    ///
+    /// # Errors
+    /// So long a curve that its transform would be too large.
+    fn fit(&mut self, points: &[Vec2], spacing: f64) -> Result<usize, InputError> {
         let count = points.len();
         let closing = points[count - 1].distance(points[0] + Vec2::new(self.advance, 0.0));
         self.length = points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() + closing;
         let nodes = self.series[1].len();
         let times = (FINER * self.length / (nodes as f64 * spacing)).ceil() as usize;
-        let fine = nodes * times.max(1);
+        let fine = nodes.saturating_mul(times.max(1));
         if self.series[2].len() != fine {
-            self.series[2] = PeriodicSeries::new(fine);
+            self.series[2] = PeriodicSeries::new(fine)?;
         }
-        fine
+        Ok(fine)
     }
 
     /// Takes over positions at the points to the grid nodes.
