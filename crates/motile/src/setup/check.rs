@@ -147,7 +147,7 @@ impl Setup {
             checked.refuse("marker-spacing", &spacing, "layers have a number of cells: leave it out")?;
         }
         if grid.contrast == Contrast::Arithmetic {
-            checked.refuse("contrast", &"arithmetic", "layers have none: give sharp")?;
+            checked.refuse("contrast", &"arithmetic", "layers have none: give sharp, or plain surfaces of solids")?;
         }
         if let AnyKernel::Peskin4 | AnyKernel::Roma3 | AnyKernel::Gaussian6 = grid.kernel {
             let remedy = "solids lose volume to layers with it: give a composite B-spline, such as bspline4, or plain \

@@ -78,8 +78,8 @@ pub struct GridMethod {
     /// Regularised delta function.
     pub kernel: AnyKernel,
     /// Whether interface velocities are corrected to second order ([`ib_core::ImmersedBoundary`]). Needs markers of
-    /// equal spacing ([`crate::MarkerMotion::Equidistributed`]), and a sharp contrast where viscosities differ. Concerns
-    /// scenes without solids only.
+    /// equal spacing ([`crate::MarkerMotion::Equidistributed`]), and a sharp contrast where viscosities differ.
+    /// Concerns scenes without solids only.
     pub corrected: bool,
     /// Whether modes of an interface that are shorter than the kernel are filtered after each step; without it they
     /// grow in long runs. Concerns markers of equal spacing only.
