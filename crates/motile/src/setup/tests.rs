@@ -400,6 +400,7 @@ mod file {
             grading: graded,
             mesh: MeshKind::Unstructured,
             mesh_spacing: Some(0.07),
+            surface: Surface::Plain,
             ..SolidSetup::new(
                 SolidOutline::Polygon { corners: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], fillet: 0.1 },
                 Material::SaintVenantKirchhoff { shear: 10.0, bulk: 30.0 },
