@@ -19,15 +19,18 @@ pub struct PlainPair {
 
 impl PlainPair {
     /// A pair for `nx` x `ny` real values, both at least one.
+    ///
+    /// # Panics
+    /// Lengths beyond those of any grid.
     #[must_use]
     pub fn new(nx: usize, ny: usize) -> Self {
-        let along_x = RealTransform::new(nx);
+        let along_x = RealTransform::new(nx).expect("a length of a grid");
         let spectrum = vec![Complex64::ZERO; along_x.spectrum_len() * ny];
         Self {
             nx,
             ny,
             along_x,
-            along_y: ComplexTransform::new(ny),
+            along_y: ComplexTransform::new(ny).expect("a length of a grid"),
             space: (0..nx * ny).map(|i| ((i * i) as f64).sin()).collect(),
             rows: spectrum.clone(),
             columns: spectrum,

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --release -p studies -- elastic_step` times, for walls of 17,000 points on a grid of 240 x 100 cells (or
 //! `--spacing`), the elastic forces, the transfer between points and grid, and the Stokes solve, one after another on
-//! the state of a running scene, and prints the median of many.
+//! the state of a running scene, and prints the median of many; `--write` keeps it as `docs/tables/elastic-step.csv`.
 
 use std::time::Instant;
 
@@ -13,6 +13,9 @@ use motile::ib_core::{AnyKernel, Body, Hydrodynamics, Transfer, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid, StaggeredField, StokesSolver};
 use motile::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
 use motile_examples::{positive, say};
+use motile_tests::validation::Table;
+
+use crate::tables;
 
 /// Times the parts of a step between elastic walls.
 #[derive(Debug, Args)]
@@ -26,6 +29,9 @@ pub(crate) struct Flags {
     /// Repetitions
     #[arg(long, default_value_t = 200)]
     repetitions: usize,
+    /// Write the table to docs/tables, with the commit and what it depends on
+    #[arg(long)]
+    write: bool,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
@@ -52,7 +58,14 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     let mut velocities = vec![Vec2::ZERO; markers.len()];
 
     let mut forces = vec![Vec2::ZERO; markers.len()];
-    let median = |name: &str, work: &mut dyn FnMut() -> Result<()>| -> Result<f64> {
+    let title = format!(
+        "Time of the parts of a step between elastic walls, {} x {} cells, {} markers, one core",
+        cells[0],
+        cells[1],
+        markers.len()
+    );
+    let mut table = Table::new(&title, &["part", "ms"]);
+    let mut median = |name: &str, work: &mut dyn FnMut() -> Result<()>| -> Result<()> {
         let mut times = Vec::with_capacity(flags.repetitions);
         for _ in 0..flags.repetitions {
             let start = Instant::now();
@@ -61,10 +74,9 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         }
         times.sort_by(f64::total_cmp);
         let value = times[times.len() / 2];
-        say(format_args!("  {name:<24} {value:>8.3} ms"));
-        Ok(value)
+        table.push([name.to_owned(), format!("{value:.3}")]);
+        Ok(())
     };
-    say(format_args!("{} x {} cells, {} markers", cells[0], cells[1], markers.len()));
     median("elastic forces", &mut || {
         for wall in &walls {
             let wall = scene.body_mut(*wall)?;
@@ -73,21 +85,29 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         }
         Ok(())
     })?;
-    let locate = median("places", &mut || {
+    median("places", &mut || {
         transfer.locate(markers.positions());
         Ok(())
     })?;
-    let spread = median("spread", &mut || {
+    median("spread", &mut || {
         density.fill(0.0);
         transfer.spread(markers.forces(), &mut density)?;
         Ok(())
     })?;
-    let solve = median("Stokes solve", &mut || Ok(solver.solve(&density, &mut velocity).map(|_| ())?))?;
-    let interpolate = median("interpolate", &mut || {
+    median("Stokes solve", &mut || Ok(solver.solve(&density, &mut velocity).map(|_| ())?))?;
+    median("interpolate", &mut || {
         transfer.interpolate(&velocity, &mut velocities)?;
         Ok(())
     })?;
-    say(format_args!("  transfer over solve      {:>8.2}", (locate + spread + interpolate) / solve));
     median("whole step of two", &mut || Ok(scene.step(1e-3)?))?;
+    say(&table);
+    if flags.write {
+        let inputs = [&tables::RUNS[..7], &["crates/elastic-solids", "studies/src/elastic_step.rs"]].concat();
+        let mut command = format!("elastic_step --spacing {}", flags.spacing);
+        if let Some(spacing) = flags.mesh_spacing {
+            command += &format!(" --mesh-spacing {spacing}");
+        }
+        tables::write("elastic-step", &format!("{command} --write"), &inputs, &[table])?;
+    }
     Ok(())
 }

@@ -2,9 +2,9 @@
 //!
 //! `cargo run --release -p studies -- stiffness` makes the runs on a coarse grid, some ten minutes on two cores;
 //! `--full` makes all of Cowley's on a fine grid, which takes hours; `--only` makes part of them. Each finished run
-//! leaves a file in `out/stiffness/runs/` and is not made again; delete the directory to start afresh. Prints the
-//! speeds with the fits (4.3), the maps 4.17 and 4.19 and the comparison of materials, and writes `points.csv` and
-//! figures.
+//! leaves a file in `out/stiffness/runs/` and is not made again; delete the directory to start afresh. Prints a table
+//! for each part (speeds with the fits (4.3), the maps 4.17 and 4.19, the comparison of materials ...), which `--write`
+//! keeps as `docs/tables/elastic-PART.csv`, and writes `points.csv` and figures.
 
 mod figures;
 mod history;
@@ -12,13 +12,17 @@ mod jobs;
 mod run;
 mod tables;
 
+use std::collections::BTreeSet;
+
+use anyhow::Result;
+use clap::{Args, ValueEnum};
+use motile_examples::{OutputFlags, Summary, say};
+use motile_tests::validation::Table;
+
 use crate::results::write_results;
 use crate::run_pool::RunPool;
-use anyhow::Result;
-use clap::Args;
-use motile_examples::{OutputFlags, Summary, say};
-
 use crate::stiffness::run::{Job, Purpose};
+use crate::tables as files;
 
 /// Droplets between elastic walls of many stiffnesses.
 #[derive(Debug, Args)]
@@ -29,9 +33,9 @@ pub(crate) struct Flags {
     /// Only this part
     #[arg(long, value_enum)]
     only: Option<Purpose>,
-    /// Grid spacing h (R0); without it 0.1, or 0.05 with --full
-    #[arg(long, value_parser = spacing, allow_hyphen_values = true)]
-    spacing: Option<f64>,
+    /// Grid spacings h (R0); without them 0.1, or 0.05 with --full
+    #[arg(long, value_parser = spacing, value_delimiter = ',', allow_hyphen_values = true)]
+    spacing: Vec<f64>,
     /// The method of Cowley, for the constriction
     #[arg(long)]
     thesis: bool,
@@ -41,6 +45,9 @@ pub(crate) struct Flags {
     /// Runs at a time; without it as many as there are processors
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// Write the tables to docs/tables, with the commit and what they depend on
+    #[arg(long)]
+    write: bool,
     #[command(flatten)]
     output: OutputFlags,
 }
@@ -55,8 +62,10 @@ fn spacing(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let h = flags.spacing.unwrap_or(if flags.full { 0.05 } else { 0.1 });
-    let mut jobs = jobs::list(flags.only, flags.full, flags.thesis, h);
+    let default = if flags.full { 0.05 } else { 0.1 };
+    let spacings = if flags.spacing.is_empty() { &[default][..] } else { &flags.spacing };
+    let jobs = spacings.iter().flat_map(|&h| jobs::list(flags.only, flags.full, flags.thesis, h));
+    let mut jobs: Vec<Job> = jobs.collect();
     if let Some(text) = &flags.matching {
         jobs.retain(|job| job.name().contains(text));
     }
@@ -69,13 +78,42 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     let (points, failures) = pool.study(jobs, Job::name, Job::run);
     let rows: Vec<Summary> = points.iter().map(|(_, summary)| history::without(summary)).collect();
     write_results(&directory.join("points.csv"), &rows)?;
-    tables::print(&points);
+    let made: BTreeSet<Purpose> = points.iter().map(|(job, _)| job.purpose).collect();
+    for purpose in made {
+        let tables = tables::tables(&points, purpose);
+        tables.iter().for_each(say);
+        if flags.write && failures.is_empty() {
+            flags.keep(purpose, &tables)?;
+        }
+    }
     if !flags.output.no_pictures {
-        figures::write(&points, &directory)?;
+        let finest = spacings.iter().copied().fold(f64::INFINITY, f64::min);
+        let finest: Vec<(Job, Summary)> = points.iter().filter(|(job, _)| job.spacing == finest).cloned().collect();
+        figures::write(&finest, &directory)?;
     }
     say(format_args!("results of {} runs in {}", points.len(), directory.display()));
     match failures.into_iter().next() {
         Some(first) => Err(first.context("a run failed; the study can be started again")),
         None => Ok(()),
+    }
+}
+
+impl Flags {
+    /// Writes the tables of a part to docs/tables.
+    fn keep(&self, purpose: Purpose, tables: &[Table]) -> Result<()> {
+        let Some(part) = purpose.to_possible_value() else { return Ok(()) };
+        let mut command = format!("stiffness --only {}", part.get_name());
+        if self.full {
+            command += " --full";
+        }
+        if !self.spacing.is_empty() {
+            let list: Vec<String> = self.spacing.iter().map(f64::to_string).collect();
+            command += &format!(" --spacing {}", list.join(","));
+        }
+        if let Some(text) = &self.matching {
+            command += &format!(" --matching {text}");
+        }
+        let inputs = [&files::RUNS[..7], &["crates/elastic-solids", "studies/src/stiffness"]].concat();
+        files::write(&format!("elastic-{}", part.get_name()), &format!("{command} --write"), &inputs, tables)
     }
 }

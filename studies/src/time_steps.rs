@@ -2,11 +2,9 @@
 //! against the predicted ones between walls and of swimmers, the order between halvings of the step, and adaptive
 //! against fixed steps for a swimmer that starts.
 //!
-//! `cargo run --release -p studies -- time_steps` prints five tables and writes them to `out/time_steps/tables.md`.
-//! `--study` chooses one of them; `--help` lists the flags.
+//! `cargo run --release -p studies -- time_steps` prints five tables, which `--write` keeps as
+//! `docs/tables/time-steps-STUDY.csv`. `--study` chooses one of them; `--help` lists the flags.
 
-use std::fmt::Write as _;
-use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
@@ -21,7 +19,10 @@ use motile::{
     AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup,
     SolidSetup, Surface,
 };
-use motile_examples::{make_directory, positive, say};
+use motile_examples::{positive, say};
+use motile_tests::validation::Table;
+
+use crate::tables;
 
 /// Which table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -47,38 +48,29 @@ pub(crate) struct Flags {
     /// Time to which the stiff walls are simulated
     #[arg(long, default_value_t = 10.0, value_parser = positive)]
     time: f64,
-    /// Directory of the results
-    #[arg(long, value_name = "DIRECTORY", default_value = "out/time_steps")]
-    out: PathBuf,
+    /// Write the tables to docs/tables, with the commit and what they depend on
+    #[arg(long)]
+    write: bool,
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    make_directory(&flags.out)?;
-    let mut report = String::new();
-    let wanted = |study| flags.study.is_none_or(|chosen| chosen == study);
-    if wanted(Study::Limits) {
-        limits(&mut report)?;
+    for study in Study::value_variants().iter().filter(|study| flags.study.is_none_or(|chosen| chosen == **study)) {
+        let table = match study {
+            Study::StiffWalls => stiff_walls(flags.time),
+            Study::Limits => limits(),
+            Study::Coupling => coupling(),
+            Study::Order => orders(),
+            Study::Transient => transient(),
+        }?;
+        say(&table);
+        if flags.write {
+            let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
+            let inputs = [&tables::RUNS[..7], &["crates/elastic-solids", "studies/src/time_steps.rs"]].concat();
+            let command = format!("time_steps --study {name} --write");
+            tables::write(&format!("time-steps-{name}"), &command, &inputs, &[table])?;
+        }
     }
-    if wanted(Study::Coupling) {
-        coupling(&mut report)?;
-    }
-    if wanted(Study::Order) {
-        orders(&mut report)?;
-    }
-    if wanted(Study::Transient) {
-        transient(&mut report)?;
-    }
-    if wanted(Study::StiffWalls) {
-        stiff_walls(flags.time, &mut report)?;
-    }
-    std::fs::write(flags.out.join("tables.md"), report)?;
-    say(format_args!("results in {}", flags.out.display()));
     Ok(())
-}
-
-fn tell(report: &mut String, line: impl std::fmt::Display) -> Result<()> {
-    say(&line);
-    Ok(writeln!(report, "{line}")?)
 }
 
 /// The activity of the droplet between stiff walls.
@@ -139,40 +131,36 @@ fn errors(cost: &Cost, exact: &Cost) -> Result<[f64; 2]> {
     Ok([(own - other).length(), (squares.sum::<f64>() / exact.markers.len() as f64).sqrt()])
 }
 
-fn line(name: &str, step: &str, cost: &Cost, exact: &Cost) -> Result<String> {
-    let [place, shape] = errors(cost, exact)?;
-    let Cost { steps, taken_back, evaluations, seconds, .. } = cost;
-    Ok(format!(
-        "| {name} | {step} | {steps} | {taken_back} | {evaluations} | {seconds:.1} | {place:.1e} | {shape:.1e} |"
-    ))
+fn line(name: &str, step: &str, cost: &Cost, exact: &Cost) -> Result<[String; 8]> {
+    let [place, shape] = errors(cost, exact)?.map(|error| format!("{error:.1e}"));
+    let [steps, rejected, evaluations] = [cost.steps, cost.taken_back, cost.evaluations].map(|count| count.to_string());
+    let seconds = format!("{:.1}", cost.seconds);
+    Ok([name.to_owned(), step.to_owned(), steps, rejected, evaluations, seconds, place, shape])
 }
 
-const HEADING: &str = "| method | step | steps | rejected | evaluations | seconds | error of position | error of \
-    shape |\n\
-                       |---|---|---|---|---|---|---|---|";
+const COLUMNS: [&str; 8] =
+    ["method", "step", "steps", "rejected", "evaluations", "seconds", "error of position", "error of shape"];
 
-fn stiff_walls(until: f64, report: &mut String) -> Result<()> {
-    tell(
-        report,
-        format_args!("\nWalls k = 1e6, viscosity 10, width 2, h = 0.1, activity -2, to t = {until}:\n\n{HEADING}"),
-    )?;
+fn stiff_walls(until: f64) -> Result<Table> {
+    let title = format!("Walls k = 1e6, viscosity 10, width 2, h = 0.1, activity -2, to t = {until}");
+    let mut table = Table::new(&title, &COLUMNS);
     let midpoint = |step| timed(channel(Midpoint::default(), ACTIVITY)?, until, step);
     let chebyshev = |step| timed(channel(RungeKuttaChebyshev::new(), ACTIVITY)?, until, step);
     let exact = midpoint(StepSize::OfLimit(REFERENCE))?;
-    tell(report, line("midpoint (reference)", &format!("{REFERENCE} of the limit"), &exact, &exact)?)?;
+    table.push(line("midpoint (reference)", &format!("{REFERENCE} of the limit"), &exact, &exact)?);
     for fraction in [0.9, 0.5, 0.25] {
         let cost = midpoint(StepSize::OfLimit(fraction))?;
-        tell(report, line("midpoint", &format!("{fraction} of the limit"), &cost, &exact)?)?;
+        table.push(line("midpoint", &format!("{fraction} of the limit"), &cost, &exact)?);
     }
     for fraction in [0.9, 0.5] {
         let cost = chebyshev(StepSize::OfLimit(fraction))?;
-        tell(report, line("RKC", &format!("{fraction} of the limit"), &cost, &exact)?)?;
+        table.push(line("RKC", &format!("{fraction} of the limit"), &cost, &exact)?);
     }
     for tolerance in [1e-3, 1e-4, 1e-5] {
         let cost = chebyshev(StepSize::Adaptive { tolerance })?;
-        tell(report, line("RKC", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?)?;
+        table.push(line("RKC", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?);
     }
-    Ok(())
+    Ok(table)
 }
 
 /// Steps of the reference between stiff walls, as part of the midpoint rule's limit.
@@ -191,13 +179,10 @@ fn is_stable<I: Integrator>(integrator: I, dt: f64, steps: usize) -> Result<bool
     Ok(moved < 0.5)
 }
 
-fn limits(report: &mut String) -> Result<()> {
-    tell(
-        report,
-        "Largest stable step between walls k = 1e6, viscosity 10, droplet without activity (60 steps stay bounded), \
-         over the predicted one:\n\n\
-         | method | predicted | largest stable (tried 0.7 to 3 times) |\n|---|---|---|",
-    )?;
+fn limits() -> Result<Table> {
+    let title = "Largest stable step between walls k = 1e6, viscosity 10, droplet without activity (60 steps stay \
+                 bounded), over the predicted one";
+    let mut table = Table::new(title, &["method", "predicted", "largest stable (tried 0.7 to 3 times)"]);
     let factors = [0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3, 1.5, 1.7, 2.0, 2.5, 3.0];
     let predicted = |stages: Option<usize>| -> Result<f64> {
         let (scene, _) = channel(Midpoint::default(), 0.0)?;
@@ -219,9 +204,9 @@ fn limits(report: &mut String) -> Result<()> {
         }
         let name = stages.map_or_else(|| "midpoint".to_owned(), |s| format!("RKC, {s} stages"));
         let found = largest.map_or_else(|| "below 0.7".to_owned(), |factor| format!("{factor}"));
-        tell(report, format_args!("| {name} | {dt:.2e} | {found} |"))?;
+        table.push([name, format!("{dt:.2e}"), found]);
     }
-    Ok(())
+    Ok(table)
 }
 
 /// A swimmer's scene, its particles coupled with the stabiliser or without.
@@ -266,13 +251,11 @@ fn steady_limit<I: Integrator>(
     }
 }
 
-fn coupling(report: &mut String) -> Result<()> {
-    tell(
-        report,
-        "\nLargest step that keeps the speed of a steady swimmer (viscosity 100, h = 0.1 or 48 nodes; 150 steps, to 1 \
-         %), over the predicted one:\n\n\
-         | activity | flow | steps | predicted | set by | largest/predicted |\n|---|---|---|---|---|---|",
-    )?;
+fn coupling() -> Result<Table> {
+    let title = "Largest step that keeps the speed of a steady swimmer (viscosity 100, h = 0.1 or 48 nodes; 150 steps, \
+                 to 1 %), over the predicted one";
+    let columns = ["activity", "flow", "steps", "predicted", "set by", "largest/predicted"];
+    let mut table = Table::new(title, &columns);
     for (flow, method) in [
         ("grid", Method::Grid(GridMethod::of_spacing(0.1))),
         ("integrals", Method::Integral(IntegralMethod { nodes: 48, cells: 192 })),
@@ -288,12 +271,13 @@ fn coupling(report: &mut String) -> Result<()> {
                 ("RKC", steady_limit(|| Ok(free(&base, true)?.advanced_by(RungeKuttaChebyshev::new())), &steady)?),
             ];
             for (name, (limit, reason, largest)) in results {
-                let times = largest / limit;
-                tell(report, format_args!("| {activity} | {flow} | {name} | {limit:.4} | {reason} | {times:.1} |"))?;
+                let times = format!("{:.1}", largest / limit);
+                let key = [activity.to_string(), flow.to_owned(), name.to_owned()];
+                table.push(key.into_iter().chain([format!("{limit:.4}"), reason, times]));
             }
         }
     }
-    Ok(())
+    Ok(table)
 }
 
 /// Positions of the markers and particle numbers, these over their mean, of a swimmer after a time of 1.6.
@@ -307,14 +291,11 @@ fn after(setup: &Setup, stabilised: bool, dt: f64) -> Result<[Vec<f64>; 2]> {
     Ok([positions, numbers.iter().map(|number| number / mean).collect()])
 }
 
-fn orders(report: &mut String) -> Result<()> {
-    tell(
-        report,
-        "\nA swimmer of activity -2 starts, viscosity 100, to t = 1.6: root mean square changes of marker positions \
-         and of particle numbers (over their mean) when the step is halved to 0.001, and the orders of the last two \
-         halvings:\n\n\
-         | flow | stabiliser | filter | positions | numbers | orders |\n|---|---|---|---|---|---|",
-    )?;
+fn orders() -> Result<Table> {
+    let title = "A swimmer of activity -2 starts, viscosity 100, to t = 1.6: root mean square changes of marker \
+                 positions and of particle numbers (over their mean) when the step is halved to 0.001, and the orders \
+                 of the last two halvings";
+    let mut table = Table::new(title, &["flow", "stabiliser", "filter", "positions", "numbers", "orders"]);
     let rms =
         |[a, b]: [&[f64]; 2]| (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt();
     let grid = |filter| Method::Grid(GridMethod { filter, ..GridMethod::of_spacing(0.2) });
@@ -331,40 +312,37 @@ fn orders(report: &mut String) -> Result<()> {
             let change = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| [0, 1].map(|i| rms([&a[i], &b[i]]));
             let ([a, b], [c, d]) = (change(&long, &middle), change(&middle, &short));
             let orders = [(a / c).log2(), (b / d).log2()];
-            let line =
-                format!("| {flow} | {name} | {filter} | {c:.1e} | {d:.1e} | {:.2}, {:.2} |", orders[0], orders[1]);
-            tell(report, line)?;
+            let orders = format!("{:.2}, {:.2}", orders[0], orders[1]);
+            table.push([flow, name, filter, &format!("{c:.1e}"), &format!("{d:.1e}"), &orders]);
         }
     }
-    Ok(())
+    Ok(table)
 }
 
-fn transient(report: &mut String) -> Result<()> {
+fn transient() -> Result<Table> {
     let until = 10.0;
     let method = Method::Grid(GridMethod::of_spacing(0.1));
     let setup = Setup { method, droplets: vec![DropletSetup::active(-4.0)], ..Setup::default() };
     let midpoint = || setup.build().map(|Built { scene, droplets, .. }| (scene, droplets[0]));
-    tell(
-        report,
-        format_args!("\nA swimmer of activity -4 starts, viscosity 100, h = 0.1, to t = {until}:\n\n{HEADING}"),
-    )?;
+    let title = format!("A swimmer of activity -4 starts, viscosity 100, h = 0.1, to t = {until}");
+    let mut table = Table::new(&title, &COLUMNS);
     let exact = timed(midpoint()?, until, StepSize::Adaptive { tolerance: 1e-8 })?;
-    tell(report, line("midpoint (reference)", "adaptive 1e-8", &exact, &exact)?)?;
+    table.push(line("midpoint (reference)", "adaptive 1e-8", &exact, &exact)?);
     for dt in [0.04, 0.02, 0.01, 0.005, 0.0025] {
         match timed(midpoint()?, until, StepSize::Fixed(dt)) {
-            Ok(cost) => tell(report, line("midpoint", &format!("{dt}"), &cost, &exact)?)?,
-            Err(error) => tell(report, format_args!("| midpoint | {dt} | {error} |"))?,
+            Ok(cost) => table.push(line("midpoint", &format!("{dt}"), &cost, &exact)?),
+            Err(error) => table.push(["midpoint".to_owned(), dt.to_string(), error.to_string()]),
         }
     }
     for tolerance in [1e-4, 1e-5, 1e-6, 1e-7] {
         let cost = timed(midpoint()?, until, StepSize::Adaptive { tolerance })?;
-        tell(report, line("midpoint", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?)?;
+        table.push(line("midpoint", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?);
     }
     for tolerance in [1e-4, 1e-5, 1e-6] {
         let (scene, droplet) = midpoint().context("a swimmer")?;
         let cost =
             timed((scene.advanced_by(RungeKuttaChebyshev::new()), droplet), until, StepSize::Adaptive { tolerance })?;
-        tell(report, line("RKC", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?)?;
+        table.push(line("RKC", &format!("adaptive {tolerance:.0e}"), &cost, &exact)?);
     }
-    Ok(())
+    Ok(table)
 }

@@ -1,16 +1,17 @@
 //! Whether runs warn of their errors: scenes at default settings against resolved ones.
 //!
-//! `cargo run --release -p studies -- warnings` prints a table and writes it to `out/warnings/table.md`.
-
-use std::fmt::Write as _;
-use std::path::PathBuf;
+//! `cargo run --release -p studies -- warnings` prints a table, which `--write` keeps as
+//! `docs/tables/warnings.csv`.
 
 use anyhow::{Context, Result};
 use clap::Args;
 use motile::ib_core::{Every, Warnings};
 use motile::stokes_grid::Drive;
 use motile::{Built, DropletSetup, GridMethod, IntegralMethod, Method, Region, Setup};
-use motile_examples::{make_directory, positive, say};
+use motile_examples::{positive, say};
+use motile_tests::validation::Table;
+
+use crate::tables;
 
 /// Whether runs warn of their errors.
 #[derive(Debug, Args)]
@@ -21,9 +22,9 @@ pub(crate) struct Flags {
     /// Number of scenes, from the first on
     #[arg(long, default_value_t = SCENES.len())]
     scenes: usize,
-    /// Directory of the results
-    #[arg(long, value_name = "DIRECTORY", default_value = "out/warnings")]
-    out: PathBuf,
+    /// Write the table to docs/tables, with the commit and what it depends on
+    #[arg(long)]
+    write: bool,
 }
 
 /// Length and width of a channel or none for a box of 6 x 6, activity, viscosities inside and outside, grid spacing or
@@ -85,14 +86,8 @@ fn speed(setup: &Setup, time: f64) -> Result<(f64, Vec<&'static str>)> {
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    make_directory(&flags.out)?;
-    let mut table = String::new();
-    let mut tell = |line: String| {
-        say(&line);
-        writeln!(table, "{line}")
-    };
-    tell("| region | activity | viscosities | method | speed | error | warned of |".to_owned())?;
-    tell("|---|---|---|---|---|---|---|".to_owned())?;
+    let columns = ["region", "activity", "viscosities", "method", "speed", "error", "warned of"];
+    let mut table = Table::new("Warnings of scenes at default settings, and the errors of their speeds", &columns);
     for scene in SCENES.iter().take(flags.scenes) {
         let (channel, activity, [inside, outside], spacing) = scene;
         let setup = setup(scene);
@@ -103,12 +98,18 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
         };
         let region = channel.map_or("box".to_owned(), |[length, width]| format!("channel {length} x {width}"));
         let method = spacing.map_or("integrals".to_owned(), |spacing| format!("grid {spacing}"));
-        let error = 100.0 * (found / exact - 1.0);
-        tell(format!(
-            "| {region} | {activity} | {inside}/{outside} | {method} | {found:.5} | {error:+.2} % | {causes} |"
-        ))?;
+        let error = format!("{:+.2} %", 100.0 * (found / exact - 1.0));
+        let scene = [region, activity.to_string(), format!("{inside}/{outside}"), method];
+        table.push(scene.into_iter().chain([format!("{found:.5}"), error, causes]));
     }
-    std::fs::write(flags.out.join("table.md"), table)?;
-    say(format_args!("results in {}", flags.out.display()));
+    say(&table);
+    if flags.write {
+        tables::write(
+            "warnings",
+            "warnings --write",
+            &[&tables::RUNS[..7], &["studies/src/warnings.rs"]].concat(),
+            &[table],
+        )?;
+    }
     Ok(())
 }

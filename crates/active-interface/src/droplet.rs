@@ -340,18 +340,25 @@ impl ActiveDroplet {
     }
 
     /// The truncation and the geometry that `discretisation` asks for, remade only where they have changed.
-    pub(crate) fn fit(&mut self, discretisation: &Discretisation) {
+    ///
+    /// # Errors
+    /// More markers than a Fourier transform takes.
+    pub(crate) fn fit(&mut self, discretisation: &Discretisation) -> Result<(), InputError> {
         let count = self.shape.markers.len();
         let smooth = discretisation.shape_modes.is_some() && matches!(self.motion, Motion::Equidistributed { .. });
         if smooth != self.spectral.as_ref().is_some_and(|spectral| spectral.len() == count) {
-            self.spectral = smooth.then(|| SpectralCurve::new(count));
+            self.spectral = smooth.then(|| SpectralCurve::new(count)).transpose()?;
             self.other.markers.clear();
             self.update();
         }
         let band = discretisation.shape_modes.filter(|&modes| modes < count).map(|modes| (count, modes));
         if band != self.band.as_ref().map(|(series, modes)| (series.len(), *modes)) {
-            self.band = band.map(|(count, modes)| (PeriodicSeries::new(count), modes));
+            self.band = match band {
+                Some((count, modes)) => Some((PeriodicSeries::new(count)?, modes)),
+                None => None,
+            };
         }
+        Ok(())
     }
 
     /// Mean of the viscosities on both sides, on which the speed of an interface depends (stress times time).

@@ -147,7 +147,7 @@ impl RigidWall {
         let step = self.period / count as f64;
         let ends = self.points.iter().skip(1).copied().chain([self.points[0] + self.period]);
         let perimeter: f64 = self.points.iter().zip(ends).map(|(a, b)| a.distance(b)).sum();
-        let mut series = PeriodicSeries::new(count);
+        let mut series = PeriodicSeries::new(count)?;
         series.analyse(self.points.iter().enumerate().map(|(k, x)| {
             let x = *x - step * k as f64;
             Complex64::new(x.x, x.y)

@@ -7,6 +7,8 @@ use input_checks::{InputError, same_length};
 use num_complex::Complex64;
 use rustfft::{Fft, FftPlanner};
 
+use crate::check_length;
+
 /// A plan for the discrete Fourier transform of N complex numbers and its inverse,
 ///
 /// `F[m] = sum over k of f[k] exp(-2 pi I m k / N)`, `f[k] = sum over m of F[m] exp(2 pi I m k / N)`,
@@ -27,12 +29,15 @@ impl fmt::Debug for ComplexTransform {
 
 impl ComplexTransform {
     /// A plan for `len` numbers.
-    #[must_use]
-    pub fn new(len: usize) -> Self {
+    ///
+    /// # Errors
+    /// More than 67,108,864.
+    pub fn new(len: usize) -> Result<Self, InputError> {
+        check_length(len)?;
         let mut planner = FftPlanner::new();
         let (forward, inverse) = (planner.plan_fft_forward(len), planner.plan_fft_inverse(len));
         let scratch = forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len());
-        Self { forward, inverse, scratch: vec![Complex64::ZERO; scratch] }
+        Ok(Self { forward, inverse, scratch: vec![Complex64::ZERO; scratch] })
     }
 
     /// N, the numbers it transforms.

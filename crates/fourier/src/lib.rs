@@ -15,7 +15,7 @@
 //! // The derivative of a circle along its angle, from twelve points.
 //! let angle = |k: usize| std::f64::consts::TAU * k as f64 / 12.0;
 //! let circle: Vec<[f64; 2]> = (0..12).map(|k| [angle(k).cos(), angle(k).sin()]).collect();
-//! let mut series = PeriodicSeries::new(12);
+//! let mut series = PeriodicSeries::new(12)?;
 //! series.analyse_vectors(&circle)?;
 //! series.differentiate();
 //! let mut slopes = [[0.0; 2]; 12];
@@ -38,3 +38,12 @@ pub use complex::ComplexTransform;
 pub use input_checks::InputError;
 pub use real::RealTransform;
 pub use series::PeriodicSeries;
+
+/// Most numbers of a transform: a plan for as many takes some gigabytes.
+const MOST_NUMBERS: usize = 1 << 26;
+
+/// Refuses a length that cannot be planned for, before anything is allocated.
+fn check_length(len: usize) -> Result<usize, InputError> {
+    input_checks::within("the length of a Fourier transform", len as f64, 0.0, MOST_NUMBERS as f64)?;
+    Ok(len)
+}

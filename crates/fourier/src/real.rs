@@ -7,6 +7,8 @@ use input_checks::{InputError, same_length};
 use num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
+use crate::check_length;
+
 /// A plan for the discrete Fourier transform of N real numbers to N/2 + 1 complex ones and its inverse,
 ///
 /// `F[m] = sum over k of f[k] exp(-2 pi I m k / N)`, `F[N - m] = conj(F[m])`,
@@ -27,12 +29,15 @@ impl fmt::Debug for RealTransform {
 
 impl RealTransform {
     /// A plan for `len` numbers.
-    #[must_use]
-    pub fn new(len: usize) -> Self {
+    ///
+    /// # Errors
+    /// More than 67,108,864.
+    pub fn new(len: usize) -> Result<Self, InputError> {
+        check_length(len)?;
         let mut planner = RealFftPlanner::new();
         let (forward, inverse) = (planner.plan_fft_forward(len), planner.plan_fft_inverse(len));
         let scratch = forward.get_scratch_len().max(inverse.get_scratch_len());
-        Self { forward, inverse, scratch: vec![Complex64::ZERO; scratch] }
+        Ok(Self { forward, inverse, scratch: vec![Complex64::ZERO; scratch] })
     }
 
     /// N, the numbers it transforms.

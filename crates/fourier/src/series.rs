@@ -20,10 +20,13 @@ pub struct PeriodicSeries {
 
 impl PeriodicSeries {
     /// A series through `len` samples, zero at first.
-    #[must_use]
-    pub fn new(len: usize) -> Self {
+    ///
+    /// # Errors
+    /// More than a [`ComplexTransform`] takes.
+    pub fn new(len: usize) -> Result<Self, InputError> {
+        let transform = ComplexTransform::new(len)?;
         let zeros = vec![Complex64::ZERO; len];
-        Self { transform: ComplexTransform::new(len), coefficients: zeros.clone(), values: zeros }
+        Ok(Self { transform, coefficients: zeros.clone(), values: zeros })
     }
 
     /// N, the number of samples.

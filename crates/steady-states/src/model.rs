@@ -113,7 +113,7 @@ impl Model {
             law: particles.law(*tension)?,
             flow: InterfaceFlow::new(setup.region.geometry(), setup.viscosity, settings)?,
             calculus: PeriodicCalculus::new(nodes)?,
-            series: PeriodicSeries::new(nodes),
+            series: PeriodicSeries::new(nodes)?,
             positions: vec![Vec2::ZERO; nodes],
             tangents: vec![Vec2::ZERO; nodes],
             concentrations: vec![0.0; nodes],

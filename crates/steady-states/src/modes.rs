@@ -32,8 +32,8 @@ pub(crate) struct Modes {
 }
 
 impl Modes {
-    pub(crate) fn new(nodes: usize, scales: [f64; 2]) -> Self {
-        Self { series: PeriodicSeries::new(nodes), largest: nodes / 2 - 1, scales }
+    pub(crate) fn new(nodes: usize, scales: [f64; 2]) -> Result<Self, SteadyError> {
+        Ok(Self { series: PeriodicSeries::new(nodes)?, largest: nodes / 2 - 1, scales })
     }
 
     pub(crate) fn nodes(&self) -> usize {

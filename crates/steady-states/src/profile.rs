@@ -44,7 +44,7 @@ pub(crate) struct Place {
 impl Sampler {
     pub(crate) fn new(profile: &Profile) -> Result<Self, SteadyError> {
         let count = profile.positions.len();
-        let (mut curve, mut density) = (PeriodicSeries::new(count), PeriodicSeries::new(count));
+        let (mut curve, mut density) = (PeriodicSeries::new(count)?, PeriodicSeries::new(count)?);
         curve.analyse_vectors(&profile.positions)?;
         density.analyse(profile.density.iter().map(|&value| Complex64::new(value, 0.0)))?;
         Ok(Self { curve, density })
@@ -87,7 +87,7 @@ impl Profile {
         // The density is the derivative of the number of particles up to a parameter; that of segment k is its mean
         // there, whose Fourier coefficients are those of the density times sin(m/2)/(m/2).
         let step = TAU / count as f64;
-        let mut series = PeriodicSeries::new(count);
+        let mut series = PeriodicSeries::new(count)?;
         series.analyse(numbers.iter().map(|&n| Complex64::new(n / step, 0.0)))?;
         series.multiply(|wave| {
             let half = 0.5 * wave * step;
@@ -121,7 +121,7 @@ impl Profile {
     /// A curve that is not finite.
     pub fn concentrations(&self) -> Result<(Vec<f64>, Vec<f64>), SteadyError> {
         let rates: Vec<f64> = self.tangents()?.iter().map(|t| t.length()).collect();
-        let mut series = PeriodicSeries::new(self.nodes());
+        let mut series = PeriodicSeries::new(self.nodes())?;
         series.analyse(rates.iter().map(|&rate| Complex64::new(rate, 0.0)))?;
         let mean = series.coefficients()[0].re;
         series.multiply(|wave| if wave == 0.0 { Complex64::ZERO } else { Complex64::new(0.0, -1.0 / wave) });
@@ -134,7 +134,7 @@ impl Profile {
 
     /// Derivative of the positions by the parameter.
     pub(crate) fn tangents(&self) -> Result<Vec<Vec2>, SteadyError> {
-        let mut series = PeriodicSeries::new(self.nodes());
+        let mut series = PeriodicSeries::new(self.nodes())?;
         series.analyse_vectors(&self.positions)?;
         series.differentiate();
         let mut tangents = vec![Vec2::ZERO; self.nodes()];
@@ -152,7 +152,7 @@ impl Profile {
         let sampler = Sampler::new(self)?;
         let places: Vec<Place> = (0..fine).map(|k| sampler.at(TAU * k as f64 / fine as f64)).collect();
         let lengths: Vec<f64> = places.iter().map(|place| place.tangent.length()).collect();
-        let mut series = PeriodicSeries::new(fine);
+        let mut series = PeriodicSeries::new(fine)?;
         let mut weights = lengths.clone();
         if crowding > 0.0 {
             let concentration: Vec<f64> = places.iter().zip(&lengths).map(|(place, g)| place.density / g).collect();
@@ -239,7 +239,7 @@ impl Profile {
         }
         let step = TAU / count as f64;
         let excess: Vec<f64> = parameters.iter().enumerate().map(|(k, p)| p - step * k as f64).collect();
-        let rates = derivative(&mut PeriodicSeries::new(count), &excess)?;
+        let rates = derivative(&mut PeriodicSeries::new(count)?, &excess)?;
         if rates.iter().any(|rate| *rate <= -1.0) {
             return Ok(None);
         }

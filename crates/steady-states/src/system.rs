@@ -53,7 +53,7 @@ pub(crate) struct System {
 impl System {
     pub(crate) fn new(setup: &motile::Setup) -> Result<Self, SteadyError> {
         let model = Model::new(setup)?;
-        let modes = Modes::new(model.nodes(), [model.radius, model.radius * model.concentration]);
+        let modes = Modes::new(model.nodes(), [model.radius, model.radius * model.concentration])?;
         Ok(Self { model, modes })
     }
 

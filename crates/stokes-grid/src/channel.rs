@@ -65,7 +65,7 @@ impl ChannelStokes {
             return Err(StokesError::WrongBoundary { needed: "a channel", remedy: "Grid::channel" });
         }
         let (nx, ny) = (grid.nx(), grid.ny());
-        let rows = RowTransform::new(nx);
+        let rows = RowTransform::new(nx)?;
         let width = rows.width();
         Ok(Self {
             grid,

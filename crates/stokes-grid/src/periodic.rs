@@ -123,7 +123,10 @@ impl PeriodicStokes {
         velocity: &mut StaggeredField,
     ) -> Result<[f64; 2], StokesError> {
         let (nx, ny) = (self.grid.nx(), self.grid.ny());
-        let parallel = self.parallel.get_or_insert_with(|| parallel::ParallelTransform::new(nx, ny));
+        let parallel = match &mut self.parallel {
+            Some(parallel) => parallel,
+            none => none.insert(parallel::ParallelTransform::new(nx, ny)?),
+        };
         let total = parallel.forward(force, |j, row| stencil::curl(force, j, 1.0, row));
         check_total(total, force)?;
         parallel.filter_columns(&self.biharmonic);

@@ -46,7 +46,7 @@ impl RealFft2 {
             return Err(StokesError::GridTooSmall { nx, ny, minimum: 1 });
         }
         check_size(nx, ny)?;
-        let (rows, columns) = (RowTransform::new(nx), ColumnTransform::new(ny));
+        let (rows, columns) = (RowTransform::new(nx)?, ColumnTransform::new(ny)?);
         let spectrum = vec![Complex64::ZERO; rows.width() * ny];
         Ok(Self { nx, ny, rows, columns, spectrum })
     }

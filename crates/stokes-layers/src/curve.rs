@@ -6,7 +6,7 @@ mod transform;
 use std::f64::consts::TAU;
 
 use fourier::spectrum::{copy_band, differentiate, largest_wave};
-use input_checks::{same_length, within};
+use input_checks::{InputError, same_length, within};
 use num_complex::Complex64;
 
 use crate::{Geometry, LayerError, Vec2, greens::GreensFunction};
@@ -30,48 +30,51 @@ pub(crate) struct Transforms {
 }
 
 impl Transforms {
-    pub(crate) fn new(nodes: usize) -> Self {
-        Self {
-            nodes: Transform::new(nodes),
-            fine: Transform::new(REFINEMENT * nodes),
+    pub(crate) fn new(nodes: usize) -> Result<Self, InputError> {
+        Ok(Self {
+            nodes: Transform::new(nodes)?,
+            fine: Transform::new(REFINEMENT.saturating_mul(nodes))?,
             points: Vec::new(),
             buffer: Vec::new(),
             spectrum: vec![Complex64::default(); nodes],
-        }
+        })
     }
 
     /// The transform of `len` values at points with a buffer of that length; made at the first use of a length.
-    fn points(&mut self, len: usize) -> (&mut Transform, &mut [Complex64]) {
-        let index = self.points.iter().position(|plan| plan.len() == len).unwrap_or_else(|| {
-            self.points.push(Transform::new(len));
-            self.points.len() - 1
-        });
+    fn points(&mut self, len: usize) -> Result<(&mut Transform, &mut [Complex64]), InputError> {
+        let known = self.points.iter().position(|plan| plan.len() == len);
+        if known.is_none() {
+            self.points.push(Transform::new(len)?);
+        }
+        let index = known.unwrap_or(self.points.len() - 1);
         self.buffer.resize(self.buffer.len().max(len), Complex64::default());
-        (&mut self.points[index], &mut self.buffer[..len])
+        Ok((&mut self.points[index], &mut self.buffer[..len]))
     }
 
     /// Fourier coefficients of values at points less what they gain in a turn, as many as there are nodes, the modes
     /// that nodes do not carry left out.
-    fn analyse(&mut self, values: &[Vec2], gain: Complex64, out: &mut [Complex64]) {
-        let (plan, buffer) = self.points(values.len());
+    fn analyse(&mut self, values: &[Vec2], gain: Complex64, out: &mut [Complex64]) -> Result<(), InputError> {
+        let (plan, buffer) = self.points(values.len())?;
         let step = gain / values.len() as f64;
         for (k, (slot, value)) in buffer.iter_mut().zip(values).enumerate() {
             *slot = Complex64::new(value.x, value.y) - step * k as f64;
         }
         plan.forward(buffer);
         copy_band(buffer, out, largest_wave(out.len()));
+        Ok(())
     }
 
     /// Values at nodes, x then y, from values at points.
-    pub(crate) fn at_nodes(&mut self, values: &[Vec2], out: &mut [f64]) {
+    pub(crate) fn at_nodes(&mut self, values: &[Vec2], out: &mut [f64]) -> Result<(), InputError> {
         let mut spectrum = std::mem::take(&mut self.spectrum);
-        self.analyse(values, Complex64::default(), &mut spectrum);
+        self.analyse(values, Complex64::default(), &mut spectrum)?;
         self.nodes.inverse(&mut spectrum);
         let (x, y) = out.split_at_mut(spectrum.len());
         for ((x, y), value) in x.iter_mut().zip(y).zip(&spectrum) {
             (*x, *y) = (value.re, value.im);
         }
         self.spectrum = spectrum;
+        Ok(())
     }
 
     /// Fourier coefficients of values at nodes, x then y.
@@ -85,16 +88,17 @@ impl Transforms {
     }
 
     /// Values at points from values at nodes, x then y.
-    pub(crate) fn at_points(&mut self, values: &[f64], out: &mut [Vec2]) {
+    pub(crate) fn at_points(&mut self, values: &[f64], out: &mut [Vec2]) -> Result<(), InputError> {
         self.coefficients(values);
         let spectrum = std::mem::take(&mut self.spectrum);
-        let (plan, buffer) = self.points(out.len());
+        let (plan, buffer) = self.points(out.len())?;
         copy_band(&spectrum, buffer, largest_wave(spectrum.len()));
         plan.inverse(buffer);
         for (out, value) in out.iter_mut().zip(buffer) {
             *out = Vec2::new(value.re, value.im);
         }
         self.spectrum = spectrum;
+        Ok(())
     }
 
     /// Values at fine nodes from values at nodes, x then y.
@@ -266,12 +270,12 @@ impl Curve {
         }
         self.points = positions.len();
         self.period = Complex64::new(period.x, period.y);
-        transforms.analyse(positions, self.period, &mut self.shape);
+        transforms.analyse(positions, self.period, &mut self.shape)?;
         self.centre = std::mem::take(&mut self.shape[0]) + 0.5 * self.period;
         if forces.is_empty() {
             self.force.fill(Complex64::default());
         } else {
-            transforms.analyse(forces, Complex64::default(), &mut self.force);
+            transforms.analyse(forces, Complex64::default(), &mut self.force)?;
         }
         let per_parameter = positions.len() as f64 / TAU;
         self.force.iter_mut().for_each(|force| *force *= per_parameter);

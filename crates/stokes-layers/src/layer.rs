@@ -17,6 +17,7 @@ use std::{
     ops::Range,
 };
 
+use input_checks::InputError;
 use num_complex::Complex64;
 
 use crate::{
@@ -88,13 +89,13 @@ pub(crate) struct Layers {
 
 impl Layers {
     /// Where `symmetric`, corrections of the single layer for close nodes are the same in both directions.
-    pub(crate) fn new(geometry: Geometry, tolerance: f64, symmetric: bool) -> Self {
+    pub(crate) fn new(geometry: Geometry, tolerance: f64, symmetric: bool) -> Result<Self, InputError> {
         let walls = if let Geometry::Channel { length, width, forcing } = geometry {
             Some(Walls::new(length, width, forcing, tolerance))
         } else {
             None
         };
-        Self {
+        Ok(Self {
             geometry,
             greens: GreensFunction::new(&geometry, tolerance),
             plans: Vec::new(),
@@ -103,13 +104,13 @@ impl Layers {
             kept: Kept { first: 0, among: false },
             fixed: 0,
             direct: DirectSums::default(),
-            multipoles: Multipoles::new(geometry, tolerance),
+            multipoles: Multipoles::new(geometry, tolerance)?,
             walls,
             close: CloseCorrection::new(tolerance, symmetric),
             out: Vec::new(),
             fine: Vec::new(),
             points: points::PointSums::new(tolerance),
-        }
+        })
     }
 
     /// Keeps the present curves as they are when others are loaded, in front of them.
@@ -132,7 +133,7 @@ impl Layers {
         let mut loaded = self.curves.len() - self.fixed;
         self.starts.truncate(1);
         for (index, given) in curves.enumerate() {
-            let plan = Plan::find(&mut self.plans, given.nodes);
+            let plan = Plan::find(&mut self.plans, given.nodes)?;
             if index == loaded {
                 self.curves.insert(index, Curve::new(given.nodes));
                 self.out.insert(index, Vectors::default());

@@ -6,6 +6,7 @@
 mod expansion;
 mod series;
 
+use input_checks::InputError;
 use num_complex::Complex64;
 
 use crate::{
@@ -52,8 +53,8 @@ pub(crate) struct Multipoles {
 }
 
 impl Multipoles {
-    pub(crate) fn new(geometry: Geometry, tolerance: f64) -> Self {
-        let mut finder = SeriesFinder::new(&geometry, tolerance);
+    pub(crate) fn new(geometry: Geometry, tolerance: f64) -> Result<Self, InputError> {
+        let mut finder = SeriesFinder::new(&geometry, tolerance)?;
         let own = if let Geometry::Box { lengths: [lx, ly] } = geometry {
             let unit = lx.min(ly);
             let mut series = Series::new();
@@ -63,7 +64,7 @@ impl Multipoles {
         } else {
             None
         };
-        Self {
+        Ok(Self {
             geometry,
             tolerance,
             finder,
@@ -77,7 +78,7 @@ impl Multipoles {
             products: Vec::new(),
             fluxes: Vec::new(),
             direct: Vec::new(),
-        }
+        })
     }
 
     /// Divides the Green's function between all curves into sums over nodes, which are added to `pairs`, and series.

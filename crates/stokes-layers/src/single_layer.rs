@@ -89,7 +89,7 @@ impl SingleLayer {
             within("the ratio of the periods", lx.max(ly) / lx.min(ly), 1.0, LARGEST_RATIO)?;
         }
         within("the tolerance", tolerance, 1e-15, 1e-3)?;
-        Ok(Self { layers: Layers::new(geometry, tolerance, reciprocity == Reciprocity::Exact) })
+        Ok(Self { layers: Layers::new(geometry, tolerance, reciprocity == Reciprocity::Exact)? })
     }
 
     /// Takes over curves, truncated to the modes that their nodes carry, and computes the layer between all nodes.

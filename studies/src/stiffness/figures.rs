@@ -70,7 +70,9 @@ fn panel(
 /// Adds the fits (4.3).
 fn with_fits(points: &Points, width: f64, mut plot: Plot) -> Plot {
     for (activity, colour) in activities(points, width).into_iter().zip(SERIES_COLOURS.iter().cycle()) {
-        if let Some((free, rigid, b)) = fitted(points, width, activity) {
+        let runs = of(points, Purpose::Speed);
+        let like = runs.iter().find(|(job, _)| (job.width, job.activity) == (width, activity));
+        if let Some((free, rigid, b)) = like.and_then(|(job, _)| fitted(points, job)) {
             let curve = (0..=60).map(|n| 10_f64.powf(4.0 + f64::from(n) / 30.0));
             let curve = curve.map(|k| (k, (free - rigid) * (-k / b).exp() + rigid));
             plot = plot.series(Series::line("", curve).colour(*colour));

@@ -28,7 +28,7 @@ const OF_LIMIT: f64 = 0.7;
 const OF_LIMIT_NARROW: f64 = 0.2;
 
 /// What a run contributes to: a part of the study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
 pub(crate) enum Purpose {
     /// Speed, shape and walls against stiffness (Cowley figures 4.4 to 4.16).
     Speed,

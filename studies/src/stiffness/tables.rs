@@ -1,6 +1,7 @@
 //! The tables of the study.
 
-use motile_examples::{Summary, say};
+use motile_examples::Summary;
+use motile_tests::validation::Table;
 
 use crate::stiffness::history::{FOLLOWED, Rows};
 use crate::stiffness::run::{Job, Purpose};
@@ -8,97 +9,94 @@ use crate::stiffness::run::{Job, Purpose};
 /// Runs and their results.
 pub(crate) type Points = [(Job, Summary)];
 
+/// What a column shows of a run.
+type Value = fn(&Job, &Summary) -> String;
+
 pub(crate) fn of(points: &Points, purpose: Purpose) -> Vec<&(Job, Summary)> {
     let mut chosen: Vec<_> = points.iter().filter(|(job, _)| job.purpose == purpose).collect();
-    let key = |job: &Job| (job.width, -job.activity, job.stiffness);
+    let key = |job: &Job| (job.width, -job.activity, job.stiffness, job.ratio, -job.spacing);
     chosen.sort_by(|(a, _), (b, _)| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal));
     chosen
 }
 
-/// The runs of a purpose; if there are any, its title is printed.
-fn section<'a>(points: &'a Points, purpose: Purpose, title: &str) -> Vec<&'a (Job, Summary)> {
-    let chosen = of(points, purpose);
-    if !chosen.is_empty() {
-        say(title);
+/// The tables of a purpose.
+pub(crate) fn tables(points: &Points, purpose: Purpose) -> Vec<Table> {
+    match purpose {
+        Purpose::Speed => vec![speeds(points), fits(points)],
+        Purpose::Lateral => vec![lateral(points)],
+        Purpose::Passage => vec![map(points), passages(points)],
+        Purpose::Comparison => vec![comparison(points), over_time(points)],
+        Purpose::Narrow => vec![narrow(points)],
+        Purpose::Contrast => vec![contrast(points)],
+        Purpose::Start => vec![starts(points)],
+        Purpose::Rest => vec![rests(points)],
+        Purpose::Rigid | Purpose::Unconfined => Vec::new(),
     }
-    chosen
 }
 
-/// The same with the names of the columns below the title.
-fn table<'a>(points: &'a Points, purpose: Purpose, title: &str, columns: &str) -> Vec<&'a (Job, Summary)> {
-    let chosen = section(points, purpose, title);
-    if !chosen.is_empty() {
-        say(columns);
+/// A row for each run of a purpose.
+fn rows(points: &Points, purpose: Purpose, title: &str, columns: &[(&str, Value)]) -> Table {
+    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    let mut table = Table::new(title, &names);
+    for (job, summary) in of(points, purpose) {
+        table.push(columns.iter().map(|(_, value)| value(job, summary)));
     }
-    chosen
+    table
 }
+
+const WIDTH: (&str, Value) = ("width", |job, _| job.width.to_string());
+const ACTIVITY: (&str, Value) = ("activity", |job, _| job.activity.to_string());
+const STIFFNESS: (&str, Value) = ("k", |job, _| format!("{:e}", job.stiffness));
+const SPACING: (&str, Value) = ("h", |job, _| job.spacing.to_string());
+const SPEED: (&str, Value) = ("speed", |_, run| format!("{:.5}", run.number("speed")));
+const ASPECT: (&str, Value) = ("aspect ratio", |_, run| format!("{:.3}", run.number("aspect_ratio")));
+const CHANNEL: (&str, Value) = ("width of the channel", |_, run| {
+    format!("{:.3} - {:.3}", run.number("channel_width_min"), run.number("channel_width_max"))
+});
+const GAP: (&str, Value) = ("smallest gap", |_, run| format!("{:.4}", run.number("minimum_gap")));
+const JACOBIAN: (&str, Value) = ("smallest J", |_, run| format!("{:.2}", run.number("smallest_jacobian")));
+const FAILURE: (&str, Value) = ("failure", |_, run| text(run, "failure").to_owned());
 
 fn text<'a>(summary: &'a Summary, name: &str) -> &'a str {
-    summary.values().get(name).and_then(|value| value.as_str()).unwrap_or("-")
-}
-
-pub(crate) fn print(points: &Points) {
-    speeds(points);
-    fits(points);
-    lateral(points);
-    passages(points);
-    comparison(points);
-    narrow(points);
-    contrast(points);
-    starts(points);
-    rests(points);
+    summary.values().get(name).and_then(|value| value.as_str()).unwrap_or_default()
 }
 
 /// Speed between rigid walls or unconfined, if it was computed.
-fn speed_of(points: &Points, purpose: Purpose, width: f64, activity: f64) -> Option<f64> {
-    let found = points.iter().find(|(job, _)| {
-        job.purpose == purpose && job.activity == activity && (purpose == Purpose::Unconfined || job.width == width)
-    });
-    found.map(|(_, summary)| summary.number("speed"))
+fn speed_of(points: &Points, purpose: Purpose, like: &Job) -> Option<f64> {
+    let same = |job: &Job| {
+        job.purpose == purpose
+            && (job.activity, job.time) == (like.activity, like.time)
+            && (purpose == Purpose::Unconfined || job.width == like.width)
+    };
+    points.iter().find(|(job, _)| same(job)).map(|(_, summary)| summary.number("speed"))
 }
 
-fn speeds(points: &Points) {
-    let columns = format!(
-        "  {:>5} {:>8} {:>8} {:>6}  {:>8} {:>8} {:>7}  {:>6} {:>6} {:>6}  {:>12} {:>6}",
-        "width", "activity", "k", "h", "speed", "rigid", "", "aspect", "narrow", "wide", "displacement", "gap"
-    );
-    let title = "Speed between walls of springs (figures 4.4 to 4.9)";
-    let chosen = table(points, Purpose::Speed, title, &columns);
-    for (job, summary) in chosen {
-        let rigid = speed_of(points, Purpose::Rigid, job.width, job.activity);
-        let excess =
-            rigid.map_or(String::new(), |rigid| format!("{:+.1} %", 100.0 * (summary.number("speed") / rigid - 1.0)));
-        say(format_args!(
-            "  {:>5} {:>8} {:>8} {:>6}  {:>8.5} {:>8.5} {excess:>7}  {:>6.3} {:>6.3} {:>6.3}  {:>12.4} {:>6.3}{}",
-            job.width,
-            job.activity,
-            job.stiffness,
-            job.spacing,
-            summary.number("speed"),
-            rigid.unwrap_or(f64::NAN),
-            summary.number("aspect_ratio"),
-            summary.number("channel_width_min"),
-            summary.number("channel_width_max"),
-            summary.number("largest_displacement"),
-            summary.number("minimum_gap"),
-            failure(summary)
-        ));
+fn speeds(points: &Points) -> Table {
+    let columns = [WIDTH, ACTIVITY, STIFFNESS, SPACING, SPEED, ASPECT, CHANNEL, GAP, FAILURE];
+    let mut names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    names.splice(5..5, ["rigid", "over rigid"]);
+    names.insert(9, "largest displacement");
+    let mut table = Table::new("Speed between walls of springs (figures 4.4 to 4.9)", &names);
+    for (job, summary) in of(points, Purpose::Speed) {
+        let mut row: Vec<String> = columns.iter().map(|(_, value)| value(job, summary)).collect();
+        let rigid = speed_of(points, Purpose::Rigid, job);
+        let excess = rigid.map(|rigid| 100.0 * (summary.number("speed") / rigid - 1.0));
+        let shown = [rigid.map(|v| format!("{v:.5}")), excess.map(|e| format!("{e:+.1} %"))];
+        row.splice(5..5, shown.map(Option::unwrap_or_default));
+        row.insert(9, format!("{:.4}", summary.number("largest_displacement")));
+        table.push(row);
     }
+    table
 }
 
-fn failure(summary: &Summary) -> String {
-    summary.values().get("failure").and_then(|value| value.as_str()).map_or(String::new(), |text| format!("  {text}"))
-}
-
-/// The constant b of (4.3), `v = (v_unconfined - v_rigid) exp(-k/b) + v_rigid`, by least squares.
-pub(crate) fn fitted(points: &Points, width: f64, activity: f64) -> Option<(f64, f64, f64)> {
-    let rigid = speed_of(points, Purpose::Rigid, width, activity)?;
-    let free = speed_of(points, Purpose::Unconfined, width, activity)?;
-    let speeds: Vec<(f64, f64)> = of(points, Purpose::Speed)
-        .into_iter()
-        .filter(|(job, _)| (job.width, job.activity) == (width, activity))
-        .map(|(job, summary)| (job.stiffness, summary.number("speed")))
-        .collect();
+/// The constant b of (4.3), `v = (v_unconfined - v_rigid) exp(-k/b) + v_rigid`, by least squares over the runs of the
+/// width, activity and spacing of a job.
+pub(crate) fn fitted(points: &Points, like: &Job) -> Option<(f64, f64, f64)> {
+    let rigid = speed_of(points, Purpose::Rigid, like)?;
+    let free = speed_of(points, Purpose::Unconfined, like)?;
+    let key = |job: &Job| (job.width, job.activity, job.spacing, job.time);
+    let runs = of(points, Purpose::Speed).into_iter().filter(|(job, _)| key(job) == key(like));
+    let speeds: Vec<(f64, f64)> = runs.map(|(job, summary)| (job.stiffness, summary.number("speed"))).collect();
     if speeds.len() < 2 {
         return None;
     }
@@ -109,189 +107,158 @@ pub(crate) fn fitted(points: &Points, width: f64, activity: f64) -> Option<(f64,
     Some((free, rigid, b))
 }
 
-fn fits(points: &Points) {
-    let mut cases: Vec<(f64, f64)> =
-        of(points, Purpose::Rigid).iter().map(|(job, _)| (job.width, job.activity)).collect();
-    cases.dedup();
-    for (width, activity) in cases {
-        if let Some((free, rigid, b)) = fitted(points, width, activity) {
-            say(format_args!(
-                "  fit (4.3) at width {width}, activity {activity}: unconfined {free:.4}, rigid {rigid:.4}, b = {b:.3e}"
-            ));
+fn fits(points: &Points) -> Table {
+    let columns = ["width", "activity", "h", "unconfined", "rigid", "b"];
+    let mut table = Table::new("Fits of (4.3) to the speeds", &columns);
+    for (job, _) in of(points, Purpose::Rigid) {
+        if let Some((free, rigid, b)) = fitted(points, job) {
+            let [width, activity, h] = [job.width, job.activity, job.spacing].map(|value| value.to_string());
+            table.push([width, activity, h, format!("{free:.5}"), format!("{rigid:.5}"), format!("{b:.3e}")]);
         }
     }
+    table
 }
 
-fn lateral(points: &Points) {
-    let chosen = section(points, Purpose::Lateral, "Droplets that start 0.3 R0 off the centre line (figure 4.17)");
-    for (job, summary) in chosen {
-        say(format_args!(
-            "  width {} activity {} k {:>8}: {}, amplitude {:.4}, growth rate {:+.4}{}",
-            job.width,
-            job.activity,
-            job.stiffness,
-            text(summary, "regime"),
-            summary.number("amplitude"),
-            summary.number("growth_rate"),
-            failure(summary)
-        ));
-    }
+fn lateral(points: &Points) -> Table {
+    let title = "Droplets that start 0.3 R0 off the centre line (figure 4.17), A = 13.5";
+    let columns: [(&str, Value); 3] = [
+        ("regime", |_, run| text(run, "regime").to_owned()),
+        ("amplitude", |_, run| format!("{:.4}", run.number("amplitude"))),
+        ("growth rate", |_, run| format!("{:+.4}", run.number("growth_rate"))),
+    ];
+    rows(points, Purpose::Lateral, title, &[&[WIDTH, ACTIVITY, STIFFNESS, SPACING][..], &columns, &[FAILURE]].concat())
 }
 
-fn passages(points: &Points) {
-    let columns = format!(
-        "  {:>8} {:>8} {:>6}  {:>12} {:>7} {:>8} {:>7} {:>7}",
-        "k", "activity", "h", "verdict", "time", "furthest", "gap", "J"
-    );
-    let chosen = table(points, Purpose::Passage, "Passage through the constriction (figure 4.19)", &columns);
-    for (job, summary) in chosen {
-        say(format_args!(
-            "  {:>8} {:>8} {:>6}  {:>12} {:>7.1} {:>8.2} {:>7.3} {:>7.3}{}{}",
-            job.stiffness,
-            job.activity,
-            job.spacing,
-            text(summary, "verdict"),
-            summary.number("verdict_time"),
-            summary.number("furthest_x"),
-            summary.number("minimum_gap"),
-            summary.number("smallest_jacobian"),
-            method(job),
-            failure(summary)
-        ));
+/// Verdicts and their times by stiffness and activity.
+fn map(points: &Points) -> Table {
+    let chosen = of(points, Purpose::Passage);
+    let mut activities: Vec<f64> = chosen.iter().map(|(job, _)| job.activity).collect();
+    activities.dedup();
+    let mut lines: Vec<(f64, f64, String)> =
+        chosen.iter().map(|(job, _)| (-job.spacing, job.stiffness, method(job))).collect();
+    lines.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+    lines.dedup();
+    let names = ["h", "k", "method"].map(str::to_owned).into_iter().chain(activities.iter().map(f64::to_string));
+    let names: Vec<String> = names.collect();
+    let title = "Passage through the constriction (figure 4.19): verdict and its time over the activity";
+    let mut table = Table::new(title, &names.iter().map(String::as_str).collect::<Vec<_>>());
+    for (spacing, stiffness, method_of_line) in lines {
+        let verdict = |activity: &f64| {
+            let run = chosen.iter().find(|(job, _)| {
+                (job.activity, -job.spacing, job.stiffness) == (*activity, spacing, stiffness)
+                    && method(job) == method_of_line
+            });
+            run.map_or(String::new(), |(_, summary)| {
+                let verdict = text(summary, "verdict");
+                format!("{} ({:.0})", verdict.replace('_', " "), summary.number("verdict_time"))
+            })
+        };
+        let key = [(-spacing).to_string(), format!("{stiffness:e}"), method_of_line.clone()];
+        table.push(key.into_iter().chain(activities.iter().map(verdict)));
     }
+    table
+}
+
+fn passages(points: &Points) -> Table {
+    let columns: [(&str, Value); 4] = [
+        ("method", |job, _| method(job)),
+        ("verdict", |_, run| text(run, "verdict").to_owned()),
+        ("time", |_, run| format!("{:.1}", run.number("verdict_time"))),
+        ("furthest x", |_, run| format!("{:.2}", run.number("furthest_x"))),
+    ];
+    let columns = [&[STIFFNESS, ACTIVITY, SPACING][..], &columns, &[GAP, JACOBIAN, FAILURE]].concat();
+    rows(points, Purpose::Passage, "Passage through the constriction: films and furthest places", &columns)
 }
 
 /// What is not the default in a run.
 fn method(job: &Job) -> String {
-    let mut text = String::new();
+    let mut parts = Vec::new();
     if job.thesis {
-        text += "  thesis";
+        parts.push("thesis".to_owned());
     }
     if job.equidistant {
-        text += ", markers equally spaced";
+        parts.push("markers equally spaced".to_owned());
     }
     if job.back > 0.0 {
-        text += &format!(", walls {:.3} further back", job.back);
+        parts.push(format!("walls {:.3} further back", job.back));
     }
-    text
+    parts.join(", ")
 }
 
-fn comparison(points: &Points) {
-    let chosen = section(
-        points,
-        Purpose::Comparison,
-        "Kinds of walls, viscosity 1000, activity -10, k = 1e4 (figures 4.2, 4.3, 4.22, 4.23)",
-    );
+const KIND: [(&str, Value); 2] =
+    [("material", |job, _| format!("{:?}", job.material)), ("mesh", |job, _| format!("{:?}", job.mesh))];
+
+fn comparison(points: &Points) -> Table {
+    let title = "Kinds of walls, viscosity 1000, activity -10, k = 1e4 (figures 4.2, 4.3, 4.22, 4.23)";
+    rows(points, Purpose::Comparison, title, &[&KIND[..], &[SPACING, SPEED, CHANNEL, JACOBIAN, FAILURE]].concat())
+}
+
+/// How far runs are from one another over the time of both, relative to the plateau of the other.
+fn over_time(points: &Points) -> Table {
+    let chosen = of(points, Purpose::Comparison);
+    let names = FOLLOWED.map(|name| name.replace('_', " "));
+    let header: Vec<&str> = ["run", "other run", "h"].into_iter().chain(names.iter().map(String::as_str)).collect();
+    let title = "Largest difference over the run (root mean square) in per cent of the plateau of the other";
+    let mut table = Table::new(title, &header);
     for (job, summary) in &chosen {
-        say(format_args!(
-            "  {:<11} {:<13} h {:<5} speed {:.5}  width {:.4} to {:.4}  J {:.3}{}",
-            format!("{:?}", job.material),
-            format!("{:?}", job.mesh),
-            job.spacing,
-            summary.number("speed"),
-            summary.number("channel_width_min"),
-            summary.number("channel_width_max"),
-            summary.number("smallest_jacobian"),
-            failure(summary)
-        ));
         for (other, reference) in &chosen {
-            if (other.material == job.material) != (other.mesh == job.mesh) && job != other {
-                over_time(summary, other, reference);
+            let alike = (other.material == job.material) != (other.mesh == job.mesh);
+            if !alike || job.spacing != other.spacing {
+                continue;
             }
+            let (rows, others) = (Rows::of(summary), Rows::of(reference));
+            let differences = FOLLOWED.iter().enumerate().map(|(column, name)| {
+                let ((largest, mean), plateau) = (rows.difference(&others, column), reference.number(name));
+                format!("{:.2} ({:.2})", 100.0 * largest / plateau, 100.0 * mean / plateau)
+            });
+            let kind = |job: &Job| format!("{:?}, {:?}", job.material, job.mesh);
+            table.push([kind(job), kind(other), job.spacing.to_string()].into_iter().chain(differences));
         }
     }
+    table
 }
 
-/// How far a run is from another one over the time of both, relative to the plateau of the other.
-fn over_time(summary: &Summary, other: &Job, reference: &Summary) {
-    let (rows, others) = (Rows::of(summary), Rows::of(reference));
-    let of_plateau = |column: usize, plateau: f64| {
-        let (largest, mean) = rows.difference(&others, column);
-        format!("{:.2} % ({:.2} %)", 100.0 * largest / plateau, 100.0 * mean / plateau)
-    };
-    let list: Vec<String> = FOLLOWED
-        .iter()
-        .enumerate()
-        .map(|(column, name)| format!("{} {}", name.replace('_', " "), of_plateau(column, reference.number(name))))
-        .collect();
-    say(format_args!(
-        "    over time from {:?}, {:?}, largest (root mean square): {}",
-        other.material,
-        other.mesh,
-        list.join(", ")
-    ));
+fn narrow(points: &Points) -> Table {
+    let young = ("E", STIFFNESS.1);
+    let deviation: (&str, Value) = ("deviation", |_, run| format!("{:.1e}", run.number("speed_deviation")));
+    let columns = [ACTIVITY, young, SPACING, SPEED, deviation, ASPECT, CHANNEL, GAP, JACOBIAN, FAILURE];
+    rows(points, Purpose::Narrow, "Neo-Hookean channel of width 1 R0 (figure 4.25), t = 60", &columns)
 }
 
-fn narrow(points: &Points) {
-    let chosen = section(points, Purpose::Narrow, "Neo-Hookean channel of width 1 R0 (figure 4.25)");
-    for (job, summary) in chosen {
-        say(format_args!(
-            "  activity {:>3} E {:>6} h {:<5} speed {:.5} (+- {:.1e})  aspect {:.3}  width {:.3} to {:.3}  J {:.3}  \
-             gap {:.3}{}",
-            job.activity,
-            job.stiffness,
-            job.spacing,
-            summary.number("speed"),
-            summary.number("speed_deviation"),
-            summary.number("aspect_ratio"),
-            summary.number("channel_width_min"),
-            summary.number("channel_width_max"),
-            summary.number("smallest_jacobian"),
-            summary.number("minimum_gap"),
-            failure(summary)
-        ));
-    }
-}
-
-/// Times at which runs on several grids are compared.
-const COMPARED: [f64; 4] = [2.0, 5.0, 10.0, 20.0];
-
-fn contrast(points: &Points) {
-    let title = "Droplets more viscous than the exterior fluid between soft walls, k = 1e4, activity -2";
-    let mut chosen = section(points, Purpose::Contrast, title);
-    chosen.sort_by(|(a, _), (b, _)| a.width.total_cmp(&b.width).then(a.ratio.total_cmp(&b.ratio)));
-    for (job, summary) in chosen {
-        say(format_args!(
-            "  width {} ratio {:<4} h {:<6} gap {:.4}  J {:.3}  steps {}{}",
-            job.width,
-            job.ratio,
-            job.spacing,
-            summary.number("minimum_gap"),
-            summary.number("smallest_jacobian"),
-            summary.number("steps"),
-            failure(summary)
-        ));
+/// Rows of several times of each run: the columns before the time, and what [`FOLLOWED`] tells.
+fn histories(points: &Points, purpose: Purpose, title: &str, times: &[f64], keys: &[(&str, Value)]) -> Table {
+    let names = FOLLOWED.map(|name| name.replace('_', " "));
+    let mut header: Vec<&str> = keys.iter().map(|(name, _)| *name).collect();
+    header.push("t");
+    header.extend(names.iter().map(String::as_str));
+    header.push("failure");
+    let mut table = Table::new(title, &header);
+    for (job, summary) in of(points, purpose) {
         let rows = Rows::of(summary);
-        for time in COMPARED.into_iter().filter(|time| *time <= job.time) {
-            let [speed, aspect, narrow, wide] = [0, 1, 2, 3].map(|column| rows.at(time, column));
-            say(format_args!("    t {time:>4}  speed {speed:.5}  aspect {aspect:.4}  width {narrow:.4} to {wide:.4}"));
+        for &time in times.iter().filter(|time| **time <= job.time) {
+            let key = keys.iter().map(|(_, value)| value(job, summary));
+            let values = (0..FOLLOWED.len()).map(|column| format!("{:.5}", rows.at(time, column)));
+            let row = key.chain([time.to_string()]).chain(values).chain([text(summary, "failure").to_owned()]);
+            table.push(row.collect::<Vec<_>>());
         }
     }
+    table
 }
 
-fn starts(points: &Points) {
-    let chosen = section(
-        points,
-        Purpose::Start,
-        "Starts in contact with walls of k = 1e6 in a straight channel, method of Cowley, activity -5",
-    );
-    for (job, summary) in chosen {
-        let speeds = speeds_at(summary, &[1.5, 5.0, 9.0, 15.0]);
-        say(format_args!("  h {:<5}{}: speed {}{}", job.spacing, method(job), speeds, failure(summary)));
-    }
+fn contrast(points: &Points) -> Table {
+    let title = "Droplets more viscous than the exterior fluid between soft walls, k = 1e4, activity -2";
+    let ratio: (&str, Value) = ("ratio", |job, _| job.ratio.to_string());
+    histories(points, Purpose::Contrast, title, &[2.0, 5.0, 10.0, 20.0], &[WIDTH, ratio, SPACING])
 }
 
-fn rests(points: &Points) {
-    for (job, summary) in section(points, Purpose::Rest, "Whether a droplet of activity -1 comes to rest, width 2 R0") {
-        let times: Vec<f64> = (1..=10).map(|n| 40.0 * f64::from(n)).collect();
-        let speeds = speeds_at(summary, &times);
-        say(format_args!("  k {:>8} h {:<5}: speed {speeds}{}", job.stiffness, job.spacing, failure(summary)));
-    }
+fn starts(points: &Points) -> Table {
+    let title = "Starts in contact with walls of k = 1e6 in a straight channel, method of Cowley, activity -5";
+    let how: (&str, Value) = ("method", |job, _| method(job));
+    histories(points, Purpose::Start, title, &[1.5, 5.0, 9.0, 15.0], &[SPACING, how])
 }
 
-/// The speed at some times of a run.
-fn speeds_at(summary: &Summary, times: &[f64]) -> String {
-    let rows = Rows::of(summary);
-    let speeds: Vec<String> = times.iter().map(|&time| format!("{:.4} at t = {time}", rows.at(time, 0))).collect();
-    speeds.join(", ")
+fn rests(points: &Points) -> Table {
+    let title = "Whether a droplet of activity -1 comes to rest, width 2 R0";
+    let times: Vec<f64> = (1..=10).map(|n| 40.0 * f64::from(n)).collect();
+    histories(points, Purpose::Rest, title, &times, &[STIFFNESS, SPACING])
 }

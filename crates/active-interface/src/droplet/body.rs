@@ -55,7 +55,7 @@ impl Body for ActiveDroplet {
     }
 
     fn write_forces(&mut self, discretisation: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        self.fit(discretisation);
+        self.fit(discretisation)?;
         let count = self.shape.markers.len();
         let mut before = self.tensions[count - 1] * self.shape.geometry.directions[count - 1];
         for (k, force) in forces.iter_mut().enumerate() {
@@ -143,7 +143,7 @@ impl Body for ActiveDroplet {
             self.relaxation = relaxation * self.spacing_rate(discretisation);
         }
         let count = self.shape.markers.len();
-        self.fit(discretisation);
+        self.fit(discretisation)?;
         self.diffusivities.resize(count, 0.0);
         self.diffusivities.fill(self.diffusion);
         self.stabiliser.clear();
@@ -302,7 +302,7 @@ impl Body for ActiveDroplet {
         let (slip, numbers) = rest.split_at(count);
         self.resize(count);
         self.read_state(state)?;
-        self.fit(discretisation);
+        self.fit(discretisation)?;
         self.slip.copy_from_slice(slip);
         (self.target_spacing, self.initial_area, self.initial_number) = (numbers[0], numbers[1], numbers[2]);
         self.relaxation = numbers[4];

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use fourier::PeriodicSeries;
+use fourier::{InputError, PeriodicSeries};
 use ib_core::Vec2;
 use num_complex::Complex64;
 
@@ -30,9 +30,9 @@ fn analyse(series: &mut PeriodicSeries, samples: impl ExactSizeIterator<Item = C
 }
 
 impl SpectralCurve {
-    pub(crate) fn new(count: usize) -> Self {
-        let series = PeriodicSeries::new(count);
-        Self { vectors: series.clone(), numbers: series }
+    pub(crate) fn new(count: usize) -> Result<Self, InputError> {
+        let series = PeriodicSeries::new(count)?;
+        Ok(Self { vectors: series.clone(), numbers: series })
     }
 
     pub(crate) fn len(&self) -> usize {

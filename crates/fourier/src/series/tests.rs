@@ -25,7 +25,7 @@ fn assert_is(series: &mut PeriodicSeries, tolerance: f64, expected: impl Fn(f64)
 #[test]
 fn operators_do_to_waves_what_they_say() {
     for len in (13..40).chain([64, 97]) {
-        let mut series = PeriodicSeries::new(len);
+        let mut series = PeriodicSeries::new(len).unwrap();
         for m in 0..=spectrum::largest_wave(len) {
             let wave = m as f64;
             let vectors = samples(m, len);
@@ -60,15 +60,15 @@ fn operators_do_to_waves_what_they_say() {
 #[test]
 fn resampling_keeps_the_curve() {
     for (from, to) in [(21, 64), (64, 21), (20, 97), (97, 20), (32, 32)] {
-        let (mut coarse, mut fine) = (PeriodicSeries::new(from), PeriodicSeries::new(to));
+        let (mut coarse, mut fine) = (PeriodicSeries::new(from).unwrap(), PeriodicSeries::new(to).unwrap());
         for m in 0..10 {
             coarse.analyse_vectors(&samples(m, from)).unwrap();
             fine.resample(&coarse);
             assert_is(&mut fine, 1e-13, |alpha| curve(m, alpha));
         }
     }
-    let mut coarse = PeriodicSeries::new(8);
-    let mut fine = PeriodicSeries::new(40);
+    let mut coarse = PeriodicSeries::new(8).unwrap();
+    let mut fine = PeriodicSeries::new(40).unwrap();
     fine.analyse_vectors(&samples(4, 40)).unwrap();
     coarse.resample(&fine);
     assert_is(&mut coarse, 1e-15, |_| [0.0; 2]);
@@ -76,7 +76,7 @@ fn resampling_keeps_the_curve() {
 
 #[test]
 fn wrong_lengths_are_errors_and_nothing_is_allocated() {
-    let mut series = PeriodicSeries::new(6);
+    let mut series = PeriodicSeries::new(6).unwrap();
     series.analyse_vectors(&samples(1, 6)).unwrap();
     let before = series.coefficients().to_vec();
     let expected = Err(InputError::WrongLength { name: "the samples", expected: 6, found: 7 });
@@ -102,7 +102,7 @@ fn wave(m: usize, len: usize) -> Vec<[f64; 2]> {
 #[test]
 fn low_modes_stay_and_high_ones_go() {
     for (len, modes) in [(30, 7), (65, 32), (64, 1), (33, 0)] {
-        let mut series = PeriodicSeries::new(len);
+        let mut series = PeriodicSeries::new(len).unwrap();
         for m in 0..=len / 2 {
             let mut values = wave(m, len);
             series.truncate_vectors(&mut values, modes).unwrap();
@@ -118,10 +118,18 @@ fn low_modes_stay_and_high_ones_go() {
 #[test]
 fn as_many_modes_as_samples_leave_them_bitwise_and_wrong_lengths_are_errors() {
     let mut values = wave(5, 10);
-    PeriodicSeries::new(10).truncate_vectors(&mut values, 10).unwrap();
+    PeriodicSeries::new(10).unwrap().truncate_vectors(&mut values, 10).unwrap();
     assert_eq!(values, wave(5, 10));
     let expected = Err(InputError::WrongLength { name: "the samples", expected: 12, found: 10 });
-    assert_eq!(PeriodicSeries::new(12).truncate_vectors(&mut values, 4), expected);
-    assert_eq!(PeriodicSeries::new(12).truncate_vectors(&mut values, 40), expected);
+    assert_eq!(PeriodicSeries::new(12).unwrap().truncate_vectors(&mut values, 4), expected);
+    assert_eq!(PeriodicSeries::new(12).unwrap().truncate_vectors(&mut values, 40), expected);
     assert_eq!(values, wave(5, 10));
+}
+
+#[test]
+fn lengths_beyond_reason_are_refused_before_anything_is_allocated() {
+    for len in [(1 << 26) + 1, usize::MAX / 16, usize::MAX] {
+        let error = PeriodicSeries::new(len).unwrap_err();
+        assert!(matches!(error, InputError::OutOfRange { maximum: 67_108_864.0, .. }), "{error}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use fourier::PeriodicSeries;
+use fourier::{InputError, PeriodicSeries};
 use num_complex::Complex64;
 use stokes_layers::dense::NodeCurve;
 use stokes_layers::gmres::{Gmres, Outcome};
@@ -47,8 +47,8 @@ struct Filter {
 }
 
 impl Filter {
-    fn new(nodes: usize) -> Self {
-        Self { series: PeriodicSeries::new(nodes), wave: 0.0 }
+    fn new(nodes: usize) -> Result<Self, InputError> {
+        Ok(Self { series: PeriodicSeries::new(nodes)?, wave: 0.0 })
     }
 
     /// Multiplies each mode of values, of which there are as many as nodes, by a function of its number.
@@ -154,7 +154,7 @@ impl EquivalentForces {
             let known = self.filters.get(index).map(|filter| filter.series.len());
             if known != Some(count) {
                 self.filters.truncate(index);
-                self.filters.push(Filter::new(count));
+                self.filters.push(Filter::new(count)?);
                 if known.is_some() {
                     self.unknown.clear();
                 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fourier::{ComplexTransform, RealTransform};
+use fourier::{ComplexTransform, InputError, RealTransform};
 use num_complex::Complex;
 
 use super::{MobilityDeficit, normal_taper};
@@ -107,7 +107,7 @@ impl MobilityCorrection {
             return Ok(());
         }
         if self.plan.as_ref().is_none_or(|plan| plan.places.len() != count) {
-            self.plan = Some(Plan::new(count));
+            self.plan = Some(Plan::new(count)?);
         }
         let Some(plan) = self.plan.as_mut() else { return Ok(()) };
         let perimeter = plan.place(setting, gaps, positions, forces);
@@ -149,11 +149,12 @@ fn erfc(x: f64) -> f64 {
 }
 
 impl Plan {
-    fn new(count: usize) -> Self {
+    fn new(count: usize) -> Result<Self, InputError> {
+        let (real, complex) = (RealTransform::new(count)?, ComplexTransform::new(count)?);
         let (values, spectrum) = (vec![0.0; count], vec![Complex::default(); count / 2 + 1]);
-        Self {
-            real: RealTransform::new(count),
-            complex: ComplexTransform::new(count),
+        Ok(Self {
+            real,
+            complex,
             factors: vec![[0.0; 5]; spectrum.len()],
             phases: vec![Complex::default(); MODULATED * count],
             modulated: vec![Complex::default(); MODULATED * count],
@@ -161,7 +162,7 @@ impl Plan {
             forces: std::array::from_fn(|_| values.clone()),
             spectra: std::array::from_fn(|_| spectrum.clone()),
             parts: std::array::from_fn(|_| values.clone()),
-        }
+        })
     }
 
     /// Tangents and forces per length along and across them, for `d = (X_{k+1} - X_{k-1}) / 2 = w tau`, n = (tau_y,

@@ -1,5 +1,6 @@
 //! The streamfunction solver of a large periodic box on several threads.
 
+use fourier::InputError;
 use num_complex::Complex64;
 use rayon::prelude::*;
 
@@ -48,24 +49,22 @@ pub(crate) fn pays(cells: usize) -> bool {
 }
 
 impl ParallelTransform {
-    pub(crate) fn new(nx: usize, ny: usize) -> Self {
+    pub(crate) fn new(nx: usize, ny: usize) -> Result<Self, InputError> {
         let width = nx / 2 + 1;
-        let share = || RowShare {
-            transform: RowTransform::new(nx),
-            batch: vec![Complex64::ZERO; BATCH * width],
-            previous: vec![0.0; nx],
-            finite: true,
+        let share = || {
+            let (batch, previous) = (vec![Complex64::ZERO; BATCH * width], vec![0.0; nx]);
+            Ok(RowShare { transform: RowTransform::new(nx)?, batch, previous, finite: true })
         };
-        Self {
+        Ok(Self {
             nx,
             ny,
             width,
             spectrum: vec![Complex64::ZERO; width * ny],
             columns: vec![Complex64::ZERO; width * ny],
-            rows: (0..SHARES).map(|_| share()).collect(),
-            column_shares: (0..SHARES).map(|_| ColumnTransform::new(ny)).collect(),
+            rows: (0..SHARES).map(|_| share()).collect::<Result<_, _>>()?,
+            column_shares: (0..SHARES).map(|_| ColumnTransform::new(ny)).collect::<Result<_, _>>()?,
             totals: vec![[0.0; 2]; ny],
-        }
+        })
     }
 
     /// Rows of a share; the last one may have fewer.

@@ -1,6 +1,6 @@
 //! Transforms along y.
 
-use fourier::ComplexTransform;
+use fourier::{ComplexTransform, InputError};
 use num_complex::Complex64;
 
 /// Columns that are gathered, changed and put back together: two cache lines of each row.
@@ -20,8 +20,8 @@ pub(crate) struct ColumnTransform {
 }
 
 impl ColumnTransform {
-    pub(crate) fn new(ny: usize) -> Self {
-        Self { plan: ComplexTransform::new(ny), batch: vec![Complex64::ZERO; BATCH * (ny + GAP)] }
+    pub(crate) fn new(ny: usize) -> Result<Self, InputError> {
+        Ok(Self { plan: ComplexTransform::new(ny)?, batch: vec![Complex64::ZERO; BATCH * (ny + GAP)] })
     }
 
     /// Transforms each column, lets `change(m, column)` change it and transforms it back.

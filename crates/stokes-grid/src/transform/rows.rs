@@ -1,6 +1,6 @@
 //! Transforms along x.
 
-use fourier::RealTransform;
+use fourier::{InputError, RealTransform};
 use num_complex::Complex64;
 
 /// A plan for the transform of single real rows of `nx` values to `nx / 2 + 1` complex ones and back, not normalised.
@@ -11,8 +11,8 @@ pub(crate) struct RowTransform {
 }
 
 impl RowTransform {
-    pub(crate) fn new(nx: usize) -> Self {
-        Self { plan: RealTransform::new(nx), row: vec![0.0; nx] }
+    pub(crate) fn new(nx: usize) -> Result<Self, InputError> {
+        Ok(Self { plan: RealTransform::new(nx)?, row: vec![0.0; nx] })
     }
 
     /// Complex numbers in a transformed row.

@@ -36,7 +36,7 @@ impl PeriodicCalculus {
     /// Fewer than 4 samples or more than 1,048,576.
     pub fn new(len: usize) -> Result<Self, LayerError> {
         within("the number of samples", len as f64, 4.0, MOST_POINTS)?;
-        let series = PeriodicSeries::new(len);
+        let series = PeriodicSeries::new(len)?;
         Ok(Self { curve: series.clone(), forces: series, period: Vec2::ZERO })
     }
 

@@ -1,6 +1,6 @@
 //! Fourier transforms of periodic samples of one length.
 
-use fourier::ComplexTransform;
+use fourier::{ComplexTransform, InputError};
 use num_complex::Complex64;
 
 /// Forward and inverse transforms of one length with their scratch. The forward one carries the factor 1/length, so
@@ -9,8 +9,8 @@ use num_complex::Complex64;
 pub(crate) struct Transform(ComplexTransform);
 
 impl Transform {
-    pub(crate) fn new(len: usize) -> Self {
-        Self(ComplexTransform::new(len))
+    pub(crate) fn new(len: usize) -> Result<Self, InputError> {
+        ComplexTransform::new(len).map(Self)
     }
 
     pub(crate) fn len(&self) -> usize {

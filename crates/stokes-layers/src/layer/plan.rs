@@ -1,5 +1,7 @@
 //! What all curves of one number of nodes share.
 
+use input_checks::InputError;
+
 use crate::{close::CloseWeights, curve::Transforms};
 
 use super::sums::kress_weights;
@@ -15,17 +17,18 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    fn new(nodes: usize) -> Self {
-        let (transforms, weights) = (Transforms::new(nodes), CloseWeights::new(nodes));
-        Self { nodes, transforms, weights, kress: kress_weights(nodes) }
+    fn new(nodes: usize) -> Result<Self, InputError> {
+        let (transforms, weights) = (Transforms::new(nodes)?, CloseWeights::new(nodes));
+        Ok(Self { nodes, transforms, weights, kress: kress_weights(nodes) })
     }
 
     /// The number of the plan for so many nodes, made at the first use of a number.
-    pub(crate) fn find(plans: &mut Vec<Self>, nodes: usize) -> usize {
-        plans.iter().position(|plan| plan.nodes == nodes).unwrap_or_else(|| {
-            plans.push(Self::new(nodes));
-            plans.len() - 1
-        })
+    pub(crate) fn find(plans: &mut Vec<Self>, nodes: usize) -> Result<usize, InputError> {
+        if let Some(known) = plans.iter().position(|plan| plan.nodes == nodes) {
+            return Ok(known);
+        }
+        plans.push(Self::new(nodes)?);
+        Ok(plans.len() - 1)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use input_checks::InputError;
 use num_complex::Complex64;
 
 use crate::{
@@ -119,10 +120,10 @@ struct Circle {
 }
 
 impl SeriesFinder {
-    pub(crate) fn new(geometry: &Geometry, tolerance: f64) -> Self {
+    pub(crate) fn new(geometry: &Geometry, tolerance: f64) -> Result<Self, InputError> {
         let greens = GreensFunction::new(geometry, tolerance.min(1e-12));
-        let circles = [Circle::new(64), Circle::new(128)];
-        Self { circles, greens, images: geometry.images(), area: geometry.area() }
+        let circles = [Circle::new(64)?, Circle::new(128)?];
+        Ok(Self { circles, greens, images: geometry.images(), area: geometry.area() })
     }
 
     /// The series around `distance` (target minus source), those parts of the images at the distances `direct` left out
@@ -137,10 +138,11 @@ impl SeriesFinder {
 }
 
 impl Circle {
-    fn new(len: usize) -> Self {
+    fn new(len: usize) -> Result<Self, InputError> {
+        let transform = Transform::new(len)?;
         let points = (0..len).map(|j| Complex64::cis(TAU * j as f64 / len as f64)).collect();
         let zeros = vec![Complex64::default(); len];
-        Self { transform: Transform::new(len), points, even: zeros.clone(), odd: zeros }
+        Ok(Self { transform, points, even: zeros.clone(), odd: zeros })
     }
 
     /// The parts of the flow that go with F and with conj F, on a circle around `centre`.

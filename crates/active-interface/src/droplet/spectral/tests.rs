@@ -9,7 +9,7 @@ fn an_ellipse_to_round_off() {
     // Markers of the polygon lie off the ellipse by a common factor, which does not matter for what is compared.
     let markers = curve.markers(256).unwrap();
     let mut geometry = Geometry::default();
-    let mut spectral = SpectralCurve::new(256);
+    let mut spectral = SpectralCurve::new(256).unwrap();
     spectral.update(&markers, &mut geometry);
     let scale = markers[0].x / 1.3;
     for (marker, tau) in markers.iter().zip(&geometry.tangents) {
@@ -41,7 +41,7 @@ fn an_ellipse_to_round_off() {
 fn motion_keeps_spacing_and_area() {
     let markers = Curve::fourier(1.0, &[0.0, 0.1, 0.05], &[]).unwrap().markers(128).unwrap();
     let mut geometry = Geometry::default();
-    let mut spectral = SpectralCurve::new(128);
+    let mut spectral = SpectralCurve::new(128).unwrap();
     spectral.update(&markers, &mut geometry);
     let velocities: Vec<Vec2> = markers.iter().map(|x| Vec2::new(x.y + 0.2 * x.x * x.x, 0.3 * x.x - x.y)).collect();
     let (mut motion, mut slip) = (vec![Vec2::ZERO; 128], vec![0.0; 128]);
