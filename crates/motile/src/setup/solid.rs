@@ -30,7 +30,7 @@ use crate::SetupError;
 /// scene.run(0.2).go()?;
 /// let lower = scene.body(solids[0])?;
 /// println!("{} points of the lower wall move", lower.free_points().len());
-/// assert_eq!(lower.free_points().len(), 2006);
+/// assert_eq!(lower.free_points().len(), 620);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
