@@ -49,7 +49,7 @@ fn a_run_that_was_cut_leaves_the_same_file() {
     for cut in [0.2, 0.21] {
         let mut texts = Vec::new();
         for (name, ends) in [("whole", vec![0.5]), ("parts", vec![cut, 0.5])] {
-            let mut saved: Option<motile::ib_core::Checkpoint> = None;
+            let mut saved: Option<Checkpoint> = None;
             for end in ends {
                 let Built { mut scene, droplets, .. } = setup.build().unwrap();
                 saved.iter().for_each(|saved| scene.resume(saved).unwrap());
