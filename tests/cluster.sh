@@ -85,8 +85,10 @@ with LocalCluster() as cluster:
     client.wait_for_jobs([submitted()])
 PYTHON
     start=$(now)
+    cd "$work"
     "$work/hq/bin/python" "$work/shares.py" "$root/examples/cluster/hyperqueue.sh" "$work/plan.toml" \
         "$work/hyperqueue" 2> "$work/shares.py.log"
+    cd "$root"
     echo "HyperQueue: $(since "$start")"
     sweep status --out "$work/hyperqueue"
     same hyperqueue
