@@ -61,7 +61,7 @@ fn steps_allocate_nothing() {
 #[test]
 fn steps_between_elastic_walls_allocate_nothing() {
     let layers = Setup { method: Method::Grid(GridMethod::with_layers(0.1)), ..elastic() };
-    for setup in [elastic(), viscous(elastic()), layers] {
+    for setup in [elastic(), viscous(elastic()), layers.clone(), viscous(layers)] {
         assert_eq!(allocations(setup.build().unwrap().scene), 0, "{:?}", setup.droplets[0].viscosity);
     }
 }

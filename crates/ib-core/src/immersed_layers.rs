@@ -1,16 +1,20 @@
 //! Interfaces and surfaces of solids as layers, the inner points of solids on a grid.
 
+mod contrast;
 mod curves;
 
 use input_checks::{all_points_finite, same_length, within};
 use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
-use stokes_layers::{Forcing, Geometry, Reciprocity, SingleLayer};
+use stokes_layers::gmres::Outcome;
+use stokes_layers::{Forcing, Geometry, Reciprocity, SingleLayer, Solution};
 
 use crate::immersed_boundary::{WALL_TOLERANCE, sampling};
 use crate::{
     Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, Markers, Transfer, Vec2,
-    checkpoint::SavedState, hydrodynamics::FlowWork,
+    checkpoint::SavedState,
+    hydrodynamics::{FlowWork, MarkerGroup},
 };
+use contrast::LayerContrast;
 use curves::LayerCurves;
 
 /// Velocities of markers where interfaces and the surfaces of solids are layers ([`SingleLayer`]), exact among each
@@ -41,6 +45,7 @@ pub struct ImmersedLayers<S, K> {
     /// Of an interface.
     modes: usize,
     curves: LayerCurves,
+    contrast: LayerContrast,
     /// For inner points and for grid nodes of layers.
     inner: Transfer<K>,
     nodes: Transfer<K>,
@@ -49,6 +54,8 @@ pub struct ImmersedLayers<S, K> {
     /// Of the inner points.
     positions: Vec<Vec2>,
     values: Vec<Vec2>,
+    /// Of all markers, where points lie in fluid of another viscosity.
+    scaled: Vec<Vec2>,
     stiffness: f64,
     work: FlowWork,
 }
@@ -83,6 +90,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         Ok(Self {
             layer: SingleLayer::new(geometry, tolerance, Reciprocity::Exact)?,
             modes: nodes,
+            contrast: LayerContrast::new(geometry, solver.viscosity(), nodes, tolerance)?,
             curves: LayerCurves::new(length, grid.spacing(), nodes),
             inner: Transfer::new(grid, kernel.clone()),
             nodes: Transfer::new(grid, kernel),
@@ -90,6 +98,7 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
             velocity: StaggeredField::zeros(grid),
             positions: Vec::new(),
             values: Vec::new(),
+            scaled: Vec::new(),
             stiffness: stiffness(nodes, std::f64::consts::TAU),
             work: FlowWork::default(),
             solver,
@@ -113,14 +122,9 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     }
 
     /// The flow on the grid of the forces on inner points alone.
-    fn solve_inner(&mut self, markers: &Markers) -> Result<SolveReport, FlowError> {
-        self.positions.clear();
+    fn solve_inner(&mut self, forces: &[Vec2]) -> Result<SolveReport, FlowError> {
         self.values.clear();
-        for &marker in &self.curves.inner {
-            self.positions.push(markers.positions[marker]);
-            self.values.push(markers.forces[marker]);
-        }
-        self.inner.locate(&self.positions);
+        self.values.extend(self.curves.inner.iter().map(|marker| forces[*marker]));
         self.density.fill(0.0);
         self.inner.spread(&self.values, &mut self.density)?;
         self.work.markers_spread += self.values.len();
@@ -154,17 +158,87 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
 
     /// Takes over positions and forces.
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
-        let viscosity = self.solver.viscosity();
         self.curves.load(markers)?;
-        if markers.groups().iter().any(|group| group.viscosities(viscosity).iter().any(|value| *value != viscosity)) {
-            return Err(FlowError::Unsupported {
-                what: "fluid of another viscosity beside solids whose surfaces are layers",
-                remedy: "leave the layers out",
-            });
-        }
         self.check_walls(markers)?;
         self.nodes.locate(&self.curves.grid[0]);
+        self.positions.clear();
+        self.positions.extend(self.curves.inner.iter().map(|marker| markers.positions[*marker]));
+        self.inner.locate(&self.positions);
+        self.layer.load(self.curves.layers())?;
         Ok(())
+    }
+
+    /// Velocities at the nodes of layers: viscosity times those of layers, and those of inner points on the grid.
+    fn solve_layers(&mut self, forces: &[Vec2]) -> Result<(), FlowError> {
+        let curves = &mut self.curves;
+        self.layer.apply(&curves.forces, &mut curves.velocities)?;
+        self.solve_inner(forces)?;
+        let curves = &mut self.curves;
+        self.nodes.interpolate(&self.velocity, &mut curves.grid[2])?;
+        curves.add_grid(self.solver.viscosity())
+    }
+
+    /// Whether all fluid has one viscosity.
+    fn is_uniform(&self, markers: &Markers) -> bool {
+        let viscosity = self.solver.viscosity();
+        let uniform = |group: &MarkerGroup| group.viscosities(viscosity).iter().all(|value| *value == viscosity);
+        markers.groups().iter().all(uniform)
+    }
+
+    /// The flow of layers and inner points at the nodes of layers, where viscosities differ with the forces on layers
+    /// that take their place.
+    fn solve_nodes(&mut self, markers: &Markers) -> Result<Outcome, FlowError> {
+        self.load(markers)?;
+        self.solve_layers(&markers.forces)?;
+        if self.is_uniform(markers) {
+            return Ok(Outcome::default());
+        }
+        let (viscosity, entries) = (self.solver.viscosity(), self.curves.interface_entries());
+        self.contrast.load(markers)?;
+        let Solution { iterations, residual, .. } = self.contrast.solve(&self.curves.velocities[..entries])?;
+        let points = || markers.groups().iter().filter(|group| !group.kind.is_interface());
+        if points().any(|group| group.viscosity_outside.is_some_and(|outside| outside != viscosity)) {
+            let mut scaled = std::mem::take(&mut self.scaled);
+            scaled.clone_from(&markers.forces);
+            for group in points() {
+                let factor = viscosity / group.viscosity_outside.unwrap_or(viscosity);
+                scaled[group.range.clone()].iter_mut().for_each(|force| *force *= factor);
+            }
+            self.curves.load_forces(&scaled)?;
+            self.solve_layers(&scaled)?;
+            self.scaled = scaled;
+        }
+        let LayerCurves { forces, velocities, .. } = &mut self.curves;
+        let found = self.contrast.add_forces(&mut self.layer, entries, forces, velocities)?;
+        self.curves.refine_forces()?;
+        let iterations = iterations + found.iterations;
+        self.work.iterations += iterations;
+        self.work.most_iterations = self.work.most_iterations.max(iterations);
+        Ok(Outcome { iterations, residual: residual.max(found.residual) })
+    }
+
+    /// Takes the pressure (force per length) from the interfaces' own layers and, on the grid, from all other forces.
+    fn sample_pressure(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        let mut others = markers.forces.clone();
+        for group in markers.groups().iter().filter(|group| group.kind.is_interface()) {
+            others[group.range.clone()].fill(Vec2::ZERO);
+        }
+        self.curves.load_forces(&others)?;
+        self.solve_inner(&others)?;
+        self.solve_all()?;
+        let pressure = self.pressure()?;
+        let mut own = vec![FlowSample::default(); points.len()];
+        self.contrast.sample(points, &mut own)?;
+        for ((out, own), point) in out.iter_mut().zip(own).zip(points) {
+            out.pressure = own.pressure + sampling::pressure(&pressure, *point);
+        }
+        Ok(())
+    }
+
+    fn pressure(&mut self) -> Result<CentreField, FlowError> {
+        let mut pressure = CentreField::zeros(*self.grid());
+        self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
+        Ok(pressure)
     }
 }
 
@@ -188,37 +262,36 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {
-        self.load(markers)?;
+        let Outcome { iterations, residual } = self.solve_nodes(markers)?;
         self.work.evaluations += 1;
-        if let Some(shortest) = self.curves.shortest_interface() {
-            self.stiffness = stiffness(self.modes, shortest);
+        let viscosity = self.solver.viscosity();
+        let interfaces = markers.groups().iter().filter(|group| group.kind.is_interface());
+        let rates = interfaces.zip(self.curves.interface_lengths()).map(|(group, length)| {
+            let [inside, outside] = group.viscosities(viscosity);
+            stiffness(self.modes, length) * 2.0 * outside / (outside + inside)
+        });
+        if let Some(fastest) = rates.reduce(f64::max) {
+            self.stiffness = fastest;
         }
-        let curves = &mut self.curves;
-        self.layer.load(curves.layers())?;
-        self.layer.apply(&curves.forces, &mut curves.velocities)?;
-        self.solve_inner(markers)?;
-        let curves = &mut self.curves;
-        self.nodes.interpolate(&self.velocity, &mut curves.grid[2])?;
-        curves.write(1.0 / self.solver.viscosity(), &mut markers.velocities)?;
+        self.curves.write(1.0 / viscosity, &mut markers.velocities)?;
         let report = self.solve_all()?;
         self.inner.interpolate(&self.velocity, &mut self.values)?;
         for (&marker, velocity) in self.curves.inner.iter().zip(&self.values) {
             markers.velocities[marker] = *velocity;
         }
-        Ok(report)
+        Ok(SolveReport { iterations, residual, ..report })
     }
 
-    /// Interpolates bilinearly between grid points.
+    /// Interpolates bilinearly between grid points; where viscosities differ the interfaces' pressure is that of their
+    /// layers.
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         same_length("the samples", points.len(), out.len())?;
         all_points_finite("the points to sample", points)?;
-        self.load(markers)?;
-        self.solve_inner(markers)?;
+        self.solve_nodes(markers)?;
         self.solve_all()?;
-        let mut pressure = CentreField::zeros(*self.grid());
-        self.solver.pressure(&self.density, &self.velocity, &mut pressure)?;
+        let pressure = self.pressure()?;
         sampling::sample(&self.velocity, &pressure, points, out);
-        Ok(())
+        if self.is_uniform(markers) { Ok(()) } else { self.sample_pressure(markers, points, out) }
     }
 
     fn work(&self) -> FlowWork {
@@ -226,12 +299,15 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
     }
 
     fn save(&self) -> SavedState {
-        SavedState { reals: vec![self.stiffness], counts: Vec::new() }
+        let mut saved = self.contrast.save();
+        saved.reals.push(self.stiffness);
+        saved
     }
 
     fn load(&mut self, saved: &SavedState) {
-        if let &[stiffness] = saved.reals.as_slice() {
-            self.stiffness = stiffness;
+        if let [rest @ .., stiffness] = saved.reals.as_slice() {
+            self.stiffness = *stiffness;
+            self.contrast.restore(rest, &saved.counts);
         }
     }
 }

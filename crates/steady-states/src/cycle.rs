@@ -6,6 +6,8 @@ use motile::ib_core::Vec2;
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
+use crate::elimination::Elimination;
+use crate::floquet::weights;
 use crate::model::{Base, FrameMotion};
 use crate::modes::Part;
 use crate::spectrum::eigenvector;
@@ -17,8 +19,12 @@ use crate::{Critical, Parameter, Profile, SteadyError, Symmetry};
 const MOST_ITERATIONS: usize = 15;
 /// A correction of this size is the last one.
 const SMALLEST: f64 = 1e-8;
-/// Largest correction that is taken whole.
+/// Largest correction that is taken whole, and the least part of one where the whole has no flow.
 const LARGEST: f64 = 0.5;
+const LEAST_PART: f64 = 0.01;
+/// Last harmonics in time beyond this part of the first ask for more instants, up to a number.
+const LONGEST_TAIL: f64 = 1e-3;
+const MOST_INSTANTS: usize = 17;
 
 /// Growth of a step after one that has converged.
 const LONGER: f64 = 1.3;
@@ -28,8 +34,8 @@ const SHORTEST: f64 = 0.03;
 /// An oscillation of a droplet across a channel: after half a period it is the mirror image of itself.
 ///
 /// Shape and concentration are trigonometric polynomials in space and time. In time there are K instants over half a
-/// period, at which the equations hold (Fourier collocation); space is as in [`crate::SteadyState`], over a curve that
-/// moves and turns with the droplet.
+/// period, at which the equations hold (Fourier collocation), more of them where the last harmonics ask for it; space
+/// is as in [`crate::SteadyState`], over a curve that moves and turns with the droplet.
 #[derive(Debug)]
 pub struct LimitCycle {
     pub(crate) system: System,
@@ -66,7 +72,7 @@ struct Along {
 
 impl LimitCycle {
     /// The oscillations near a Hopf point with swings of about an amplitude (length), at the value of the parameter
-    /// that they have it at; K instants over half a period, odd.
+    /// that they have it at; K instants over half a period at first, odd.
     ///
     /// # Errors
     /// A point of other symmetry or without a frequency; no convergence.
@@ -152,14 +158,26 @@ impl LimitCycle {
         Ok(())
     }
 
-    /// The oscillation at another value of a parameter, nearby.
+    /// The oscillation at another value of a parameter, in steps as long as they converge.
     ///
     /// # Errors
-    /// No convergence.
+    /// No convergence with the shortest step.
     pub fn at(&self, parameter: Parameter, value: f64) -> Result<Self, SteadyError> {
-        let mut next = self.copy(&parameter.with(&self.system.model.setup, value)?)?;
-        next.newton(None)?;
-        next.settled()
+        let (start, mut reached, mut part, mut step) = (self.value(parameter), None::<Self>, 0.0, 1.0);
+        while part < 1.0 {
+            let (last, ahead) = (reached.as_ref().unwrap_or(self), f64::min(part + step, 1.0));
+            let setup = parameter.with(&self.system.model.setup, start + ahead * (value - start))?;
+            let next = last.copy(&setup).and_then(|mut next| {
+                next.newton(None)?;
+                next.settled()
+            });
+            match next {
+                Ok(next) => (reached, part) = (Some(next), ahead),
+                Err(_) if step > SHORTEST => step *= 0.5,
+                Err(error) => return Err(error),
+            }
+        }
+        reached.map_or_else(|| self.copy(&self.system.model.setup), Ok)
     }
 
     /// The next oscillation of a branch, beyond this one as seen from another one before it: `factor` times as far
@@ -172,7 +190,7 @@ impl LimitCycle {
         let ahead = self.value(parameter) + factor * change;
         let mut next = self.copy(&parameter.with(&self.system.model.setup, ahead)?)?;
         // Over the curves of this cycle.
-        let mut before = before.copy(&before.system.model.setup)?;
+        let mut before = before.with_instants(self.states.len())?;
         before.move_onto(&self.shape, &self.poses)?;
         let direction: Vec<DVector<f64>> = self.states.iter().zip(&before.states).map(|(a, b)| a - b).collect();
         for (state, way) in next.states.iter_mut().zip(&direction) {
@@ -184,11 +202,60 @@ impl LimitCycle {
         next.settled()
     }
 
-    /// The same cycle over the curves that serve it best.
+    /// The same cycle over the curves that serve it best, at as many instants as it needs.
     fn settled(mut self) -> Result<Self, SteadyError> {
         self.refit()?;
         self.newton(None)?;
+        while self.tail() > LONGEST_TAIL && self.states.len() < MOST_INSTANTS {
+            self = self.with_instants(self.states.len() + 4)?;
+            self.newton(None)?;
+        }
         Ok(self)
+    }
+
+    /// The same cycle at other instants.
+    fn with_instants(&self, count: usize) -> Result<Self, SteadyError> {
+        let mut next = self.copy(&self.system.model.setup)?;
+        let (own, odd) = (self.states.len(), self.system.modes.part(Part::Odd));
+        let weights = |j: usize| (0..own).map(move |k| weights(PI * j as f64 / count as f64, k, own));
+        let state = |j: usize| {
+            let mut state = DVector::zeros(self.system.modes.len());
+            for (other, [same, turned]) in self.states.iter().zip(weights(j)) {
+                state.rows_mut(0, odd.start).axpy(same, &other.rows(0, odd.start), 1.0);
+                state.rows_mut(odd.start, odd.len()).axpy(turned, &other.rows(odd.start, odd.len()), 1.0);
+            }
+            state
+        };
+        let pose = |j: usize| {
+            self.poses.iter().zip(weights(j)).fold([0.0; 3], |[x, y, angle], (pose, [same, turned])| {
+                [x + same * pose[0], y + turned * pose[1], angle + turned * pose[2]]
+            })
+        };
+        (next.states, next.poses) = ((0..count).map(state).collect(), (0..count).map(pose).collect());
+        Ok(next)
+    }
+
+    /// Instants over half a period.
+    #[must_use]
+    pub fn instants(&self) -> usize {
+        self.states.len()
+    }
+
+    /// Size of the last harmonics in time over the first ones, of the state over its curve: an error estimate.
+    #[must_use]
+    pub fn tail(&self) -> f64 {
+        let (count, odd) = (self.states.len(), self.system.modes.part(Part::Odd));
+        // Even harmonics are in what is the same after half a period.
+        let size = |m: usize| {
+            let rows = if m.is_multiple_of(2) { 0..odd.start } else { odd.clone() };
+            let mut sum = DVector::<Complex64>::zeros(rows.len());
+            for (j, state) in self.states.iter().enumerate() {
+                let turn = Complex64::cis(-PI * (m * j) as f64 / count as f64) / count as f64;
+                sum += state.rows(rows.start, rows.len()).map(|value| value * turn);
+            }
+            sum.norm()
+        };
+        size(count - 1).max(size(count - 2)) / size(1).max(size(2))
     }
 
     pub(crate) fn copy(&self, setup: &motile::Setup) -> Result<Self, SteadyError> {
@@ -341,58 +408,36 @@ impl LimitCycle {
     }
 
     fn newton(&mut self, along: Option<&Along>) -> Result<(), SteadyError> {
-        let (count, n) = (self.states.len(), self.system.modes.len());
-        let size = count * n;
+        let size = self.states.len() * self.system.modes.len();
         let mut last = f64::INFINITY;
         let mut factors = None;
+        let mut residual = self.residual()?.0;
         for _ in 0..MOST_ITERATIONS {
-            let (residual, _) = self.residual()?;
-            let (lu, lacks) = match factors.take() {
+            let (factorised, lacks) = match factors.take() {
                 Some(factors) => factors,
-                None => {
-                    let (mut matrix, lacks) = self.matrix()?;
-                    if let Some(Along { parameter, direction, change }) = along {
-                        let setup = self.system.model.setup.clone();
-                        let value = self.value(*parameter);
-                        let step = 1e-5 * value.abs().max(0.01);
-                        let mut sides = Vec::new();
-                        for value in [value + step, value - step] {
-                            sides.push(self.copy(&parameter.with(&setup, value)?)?.residual()?.0);
-                        }
-                        let derivative = (&sides[0] - &sides[1]) / (2.0 * step);
-                        matrix.view_mut((0, size + 4), (size, 1)).copy_from(&derivative);
-                        for (j, way) in direction.iter().enumerate() {
-                            matrix.view_mut((size + 4, j * n), (1, n)).copy_from(&way.transpose());
-                        }
-                        matrix[(size + 4, size + 4)] = *change;
-                    }
-                    (matrix.lu(), lacks)
-                }
+                None => self.factorised(along)?,
             };
-            let mut right = DVector::zeros(size + 5);
+            let mut right = DMatrix::zeros(size + 5, 1);
             right.rows_mut(0, size).copy_from(&-&residual);
             (right[size + 2], right[size + 3]) = (lacks[0], lacks[1]);
             let singular = SteadyError::Singular { what: "a cycle", remedy: "start from another amplitude" };
-            let correction = lu.solve(&right).ok_or(singular)?;
+            let correction = factorised.solve(right).ok_or(singular)?;
             let amount = correction.rows(0, size).amax();
-            if !amount.is_finite() {
-                break;
-            }
-            let part = (LARGEST / amount).min(1.0);
-            for (j, state) in self.states.iter_mut().enumerate() {
-                *state += part * correction.rows(j * n, n);
-            }
-            self.speed += part * correction[size];
-            self.tau += part * correction[size + 1];
-            if let Some(Along { parameter, .. }) = along {
-                self.system.change(*parameter, part * correction[size + 4])?;
-            }
+            let mut part = (LARGEST / amount).min(1.0);
+            // A droplet beyond a wall has no flow: less of the correction then.
+            residual = loop {
+                match self.corrected(&correction, part, along) {
+                    Ok(residual) => break residual,
+                    Err(_) if part > LEAST_PART => part *= 0.5,
+                    Err(error) => return Err(error),
+                }
+            };
             if amount < SMALLEST {
                 return Ok(());
             }
             // The same matrix as long as it does; what is conserved is then right already.
             if amount < 1e-2 && amount < 0.3 * last {
-                factors = Some((lu, [0.0; 2]));
+                factors = Some((factorised, [0.0; 2]));
             }
             last = amount;
         }
@@ -401,6 +446,51 @@ impl LimitCycle {
             iterations: MOST_ITERATIONS,
             remedy: "take a smaller step, more nodes or more instants",
         })
+    }
+
+    /// The linear equations for a correction, and what area and number of particles lack.
+    fn factorised(&mut self, along: Option<&Along>) -> Result<(Elimination, [f64; 2]), SteadyError> {
+        let (mut matrix, lacks) = self.matrix()?;
+        if let Some(Along { parameter, direction, change }) = along {
+            let n = self.system.modes.len();
+            let size = self.states.len() * n;
+            let value = self.value(*parameter);
+            let step = 1e-5 * value.abs().max(0.01);
+            let mut sides = Vec::new();
+            for value in [value + step, value - step] {
+                sides.push(self.copy(&parameter.with(&self.system.model.setup, value)?)?.residual()?.0);
+            }
+            let derivative = (&sides[0] - &sides[1]) / (2.0 * step);
+            matrix.view_mut((0, size + 4), (size, 1)).copy_from(&derivative);
+            for (j, way) in direction.iter().enumerate() {
+                matrix.view_mut((size + 4, j * n), (1, n)).copy_from(&way.transpose());
+            }
+            matrix[(size + 4, size + 4)] = *change;
+        }
+        Ok((Elimination::new(matrix), lacks))
+    }
+
+    /// Takes a part of a correction and finds the residual; on failure nothing has changed.
+    fn corrected(
+        &mut self,
+        correction: &DMatrix<f64>,
+        part: f64,
+        along: Option<&Along>,
+    ) -> Result<DVector<f64>, SteadyError> {
+        let mut next = self.copy(&self.system.model.setup)?;
+        let n = self.system.modes.len();
+        let size = self.states.len() * n;
+        for (j, state) in next.states.iter_mut().enumerate() {
+            *state += part * correction.rows(j * n, n).column(0);
+        }
+        next.speed += part * correction[size];
+        next.tau += part * correction[size + 1];
+        if let Some(Along { parameter, .. }) = along {
+            next.system.change(*parameter, part * correction[size + 4])?;
+        }
+        let residual = next.residual()?.0;
+        *self = next;
+        Ok(residual)
     }
 
     /// Goes over to the mean shape, where the droplet is at each instant.

@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use nalgebra::DMatrix;
 use num_complex::Complex64;
 
+use crate::elimination::Elimination;
 use crate::modes::Part;
 use crate::spectrum::{complement, eigenvalues};
 use crate::{LimitCycle, SteadyError};
@@ -76,7 +77,7 @@ impl LimitCycle {
             right.rows_mut(n, n).copy_from(&flow);
             let singular =
                 SteadyError::Singular { what: "the growth on a cycle", remedy: "use another number of nodes" };
-            flow = stages.lu().solve(&right).ok_or(singular)?.rows(n, n).into_owned();
+            flow = Elimination::new(stages).solve(right).ok_or(singular)?.rows(n, n).into_owned();
         }
         for row in odd {
             flow.row_mut(row).neg_mut();
@@ -93,7 +94,7 @@ impl LimitCycle {
 
 /// Weight of the instant `k` of half a period at a phase, for what is the same and what has changed its sign after half
 /// a period.
-fn weights(phase: f64, k: usize, count: usize) -> [f64; 2] {
+pub(crate) fn weights(phase: f64, k: usize, count: usize) -> [f64; 2] {
     let all = 2 * count;
     let at = |k: usize| {
         let angle = phase - PI * k as f64 / count as f64;

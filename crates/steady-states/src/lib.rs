@@ -48,8 +48,10 @@
 //! parameter; [`LimitCycle`] has the oscillations that come from a Hopf point of a swimmer in a channel. The tables of
 //! `docs/steady-states.md` are computed by it.
 mod branch;
+mod cost;
 mod critical;
 mod cycle;
+mod elimination;
 mod error;
 mod floquet;
 mod model;
@@ -62,6 +64,7 @@ mod state;
 mod system;
 
 pub use branch::{Branch, BranchEnd, BranchPoint, Continuation, SpecialKind, SpecialPoint};
+pub use cost::Cost;
 pub use critical::Critical;
 pub use cycle::LimitCycle;
 pub use error::SteadyError;

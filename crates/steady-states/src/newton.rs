@@ -13,8 +13,10 @@ const MOST_ITERATIONS: usize = 30;
 const SMALLEST: f64 = 3e-10;
 /// Least part of a correction that is taken where the whole has no flow.
 const LEAST_PART: f64 = 0.01;
-/// Rates of this part of D/R^2, and lacks of area and particles of this part of them, are none.
-const ROUND_OFF: f64 = 1e-11;
+/// Rates of this part of D/R^2, times the square of the nodes (they come from second derivatives), and lacks of area
+/// and particles of this part of them, are none.
+const NO_RATE: f64 = 1e-14;
+const NO_LACK: f64 = 1e-11;
 /// Corrections that shrink by this factor do with the matrix that there is.
 const CONTRACTION: f64 = 0.1;
 /// Largest correction of a coefficient that is taken whole.
@@ -67,8 +69,8 @@ impl System {
             }
             if iteration > 1 || along.is_none() {
                 // At a branch point the equations are singular, and a state that is there already is one.
-                let floor = ROUND_OFF * self.model.diffusion_rate();
-                if residual < floor && self.lack() < ROUND_OFF {
+                let floor = NO_RATE * (self.model.nodes() as f64).powi(2) * self.model.diffusion_rate();
+                if residual < floor && self.lack() < NO_LACK {
                     return Ok(Outcome { iterations: iteration - 1, residual, condition });
                 }
             }

@@ -86,7 +86,14 @@ impl SteadyState {
                 match Self::from_profile(&weaker(ahead)?, &state.profile, state.point.frame, state.mirror) {
                     Ok(next) => (part, state) = (ahead, next),
                     Err(_) if step > LEAST_STEP => step *= 0.5,
-                    Err(error) => return Err(error),
+                    Err(_) => {
+                        return Err(SteadyError::NotFound {
+                            what: "a steady swimmer over the activity",
+                            from: part * goal,
+                            to: goal,
+                            remedy: "follow the branch from the first value, it may turn back or need more nodes",
+                        });
+                    }
                 }
             }
             Ok(state)

@@ -112,3 +112,13 @@ fn the_threshold_over_the_excluded_volume_is_that_of_linear_theory() {
         assert!((slope - 0.4).abs() < 1e-8, "{strength}: {activity}, {slope}");
     }
 }
+
+#[test]
+fn both_branch_points_of_the_plane_are_found_at_any_number_of_nodes() {
+    for nodes in [32, 64, 96, 128] {
+        let state = SteadyState::uniform(&setup(Region::Plane, -0.35, nodes)).unwrap();
+        let branch = follow(&state, -0.35, -0.5);
+        let symmetries: Vec<_> = branch.special.iter().map(|point| point.critical.mode.symmetry).collect();
+        assert_eq!(symmetries, [Symmetry::Symmetric, Symmetry::Antisymmetric], "{nodes} nodes");
+    }
+}

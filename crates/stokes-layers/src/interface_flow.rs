@@ -351,6 +351,36 @@ impl InterfaceFlow {
                 *value += self.layers.forced_flow(z.im + curve.centre.im, self.viscosity) * self.viscosity * scale;
             }
         }
+        let Outcome { iterations, residual } = self.solve_right(contrast)?;
+        self.settle_walls();
+        if let Some(rigid) = &self.rigid {
+            return Ok(Solution { iterations, residual, pressure_gradient: rigid.gradient });
+        }
+        let density = Density { values: &self.velocities, contrasts: &self.contrasts };
+        Ok(Solution { iterations, residual, pressure_gradient: self.layers.pressure_gradient(density, self.viscosity) })
+    }
+
+    /// The same in the flow of other forces too: `flow` has viscosity times velocity at all nodes, x then y, interface
+    /// after interface, that all forces have in fluid of the exterior viscosity everywhere. Writes velocities there.
+    ///
+    /// # Errors
+    /// No convergence, slices of another length, rigid walls that are curves.
+    pub fn solve_in(&mut self, flow: &[f64], velocities: &mut [f64]) -> Result<Solution, LayerError> {
+        let entries = 2 * self.settings.nodes * self.len();
+        same_length("the flow", entries, flow.len())?;
+        same_length("the velocities", entries, velocities.len())?;
+        within("the number of rigid walls", (self.layers.curves.len() - self.len()) as f64, 0.0, 0.0)?;
+        self.single_layer(true)?;
+        self.right.clear();
+        let nodes = flow.chunks_exact(2 * self.settings.nodes).zip(&self.scales);
+        self.right.extend(nodes.flat_map(|(flow, scale)| flow.iter().map(move |value| value * scale)));
+        let Outcome { iterations, residual } = self.solve_right(true)?;
+        velocities.copy_from_slice(&self.velocities);
+        Ok(Solution { iterations, residual, pressure_gradient: 0.0 })
+    }
+
+    /// Solves for the velocities of the right-hand side.
+    fn solve_right(&mut self, contrast: bool) -> Result<Outcome, LayerError> {
         let cold = !self.settings.warm_start || self.solution.len() != self.right.len();
         if cold || !contrast {
             self.solution.clone_from(&self.right);
@@ -363,13 +393,7 @@ impl InterfaceFlow {
             outcome = self.solve_contrast().inspect_err(|_| self.solution.clear())?;
         }
         self.velocities.clone_from(&self.solution);
-        let Outcome { iterations, residual } = outcome;
-        self.settle_walls();
-        if let Some(rigid) = &self.rigid {
-            return Ok(Solution { iterations, residual, pressure_gradient: rigid.gradient });
-        }
-        let density = Density { values: &self.velocities, contrasts: &self.contrasts };
-        Ok(Solution { iterations, residual, pressure_gradient: self.layers.pressure_gradient(density, self.viscosity) })
+        Ok(outcome)
     }
 
     fn solve_contrast(&mut self) -> Result<Outcome, LayerError> {

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use anyhow::{Context, Result};
+use motile::stokes_grid::Drive;
 use motile::{DropletSetup, Region, Setup};
 use motile_tests::validation::Table;
 use steady_states::{
@@ -85,10 +86,18 @@ pub(super) fn threshold(count: usize) -> Result<Vec<Table>> {
         (10.0, 2.0),
         (300.0, 0.02),
     ] {
-        let mut setup = scene(Region::Plane);
-        setup.droplets = vec![DropletSetup::contractile(-4.0 * diffusion, strength)];
-        setup.droplets[0].particles.iter_mut().for_each(|particles| particles.diffusion = diffusion);
-        add("plane".into(), &setup, strength, diffusion);
+        // Where swimming sets in with A = 10 and D = 0.1.
+        let regions = [
+            ("plane", Region::Plane, -0.4),
+            ("box 4", Region::Box { lengths: [4.0; 2] }, -0.4),
+            ("channel 2.5", Region::Channel { length: 12.0, width: 2.5, drive: Drive::ZeroGradient }, -0.58),
+        ];
+        for (name, region, start) in regions {
+            let mut setup = scene(region);
+            setup.droplets = vec![DropletSetup::contractile(10.0 * start * diffusion, strength)];
+            setup.droplets[0].particles.iter_mut().for_each(|particles| particles.diffusion = diffusion);
+            add(name.into(), &setup, strength, diffusion);
+        }
     }
     Ok(vec![table])
 }
@@ -143,7 +152,7 @@ fn intervals(points: &[(f64, bool)]) -> String {
     if found.is_empty() { "nowhere".into() } else { found.join("; ") }
 }
 
-/// Instants over half a period.
+/// Instants over half a period, at first.
 const INSTANTS: usize = 9;
 /// First amplitude of a cycle (R0).
 const AMPLITUDE: f64 = 0.2;
@@ -158,26 +167,45 @@ pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
     let swing = |mode: &&Eigenmode| mode.value.im > 0.0 && mode.symmetry == Symmetry::Antisymmetric;
     let mode = spectrum.modes.iter().find(swing).context("no swings")?;
     let hopf = state.critical(mode, parameter)?;
-    let header = ["activity", "amplitude", "period", "mean speed", "largest multiplier", "of the shifts less 1"];
+    let header = [
+        "activity",
+        "amplitude",
+        "period",
+        "mean speed",
+        "instants",
+        "last harmonics",
+        "largest multiplier",
+        "of the shifts less 1",
+    ];
     let mut table = Table::new("Limit cycles of width 5, l = 12 and A = 10", &header);
-    let mut push = |at: f64, amplitude: f64, period: f64, speed: f64, multipliers: [String; 2]| {
+    let mut push = |at: f64, amplitude: f64, period: f64, speed: f64, rest: [String; 4]| {
         let cells = [format!("{at:.5}"), format!("{amplitude:.4}"), format!("{period:.3}"), format!("{speed:.6}")];
-        motile_examples::say(format_args!("{cells:?} {multipliers:?}"));
-        table.push(cells.into_iter().chain(multipliers));
+        motile_examples::say(format_args!("{cells:?} {rest:?}"));
+        table.push(cells.into_iter().chain(rest));
     };
-    push(activity(&hopf), 0.0, TAU / hopf.mode.value.im, hopf.state.velocity().x, [String::new(), String::new()]);
+    push(activity(&hopf), 0.0, TAU / hopf.mode.value.im, hopf.state.velocity().x, Default::default());
     let mut show = |cycle: &LimitCycle| -> Result<[f64; 2]> {
         let (at, amplitude) = (cycle.value(parameter), cycle.amplitude()?);
         let multipliers = cycle.multipliers()?;
         let largest = multipliers.values.first().map_or(f64::NAN, |value| value.norm());
-        let told = [format!("{largest:.4}"), format!("{:.0e}", multipliers.neutral)];
+        let told = [
+            cycle.instants().to_string(),
+            format!("{:.0e}", cycle.tail()),
+            format!("{largest:.4}"),
+            format!("{:.0e}", multipliers.neutral),
+        ];
         push(at, amplitude, cycle.period(), cycle.mean_speed(), told);
         Ok([at, amplitude])
     };
     let mut points = Vec::new();
     LimitCycle::follow(&hopf, parameter, AMPLITUDE, INSTANTS, |cycle| {
-        let shown = show(cycle).map(|point| points.push(point)).is_ok();
-        shown && cycle.value(parameter) > GOAL
+        // The last one at the activity of the reference.
+        let last = cycle.value(parameter) < GOAL;
+        let shown = match last {
+            true => cycle.at(parameter, GOAL).map_err(Into::into).and_then(|end| show(&end)),
+            false => show(cycle),
+        };
+        shown.map(|point| points.push(point)).is_ok() && !last
     })?;
     // activity - Hopf = b amplitude^p through the first two.
     let [[a, u], [b, v], ..] = points[..] else { anyhow::bail!("no branch") };

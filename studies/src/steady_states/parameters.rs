@@ -8,26 +8,70 @@ use steady_states::{Continuation, Eigenmode, Parameter, SteadyState};
 
 use super::{channel, nodes};
 
-/// Lengths of the table.
-const LENGTHS: [f64; 10] = [8.0, 10.0, 12.0, 16.0, 24.0, 36.0, 48.0, 72.0, 96.0, 144.0];
+/// Lengths of the table, and the largest factor from one to the next on the way.
+const LENGTHS: [f64; 13] = [8.0, 10.0, 12.0, 16.0, 24.0, 36.0, 48.0, 72.0, 96.0, 120.0, 144.0, 180.0, 240.0];
+const FACTOR: f64 = 1.15;
+/// Last modes of a state that is worth a place among the data of a law.
+const SOUND: f64 = 1e-3;
 
-/// Speeds over the length of a channel of width 2, and two laws.
-pub(super) fn length(count: usize) -> Result<Vec<Table>> {
-    let speed = |length: f64, drive: Drive| -> Result<f64> {
-        let mut setup = channel(length, 2.0, -2.0, 10.0, count);
-        setup.region = Region::Channel { length, width: 2.0, drive };
-        Ok(SteadyState::find(&setup)?.measured()?.speed)
-    };
-    let mut points = Vec::new();
-    let mut speeds =
-        Table::new("Width 2, activity -2, A = 10", &["length", "speed, no pressure gradient", "zero flux"]);
-    for length in LENGTHS {
-        let found = [Drive::ZeroGradient, Drive::ZeroFlux].map(|drive| speed(length, drive));
-        let told = found.iter().map(|speed| speed.as_ref().map_or("not found".into(), |speed| format!("{speed:.8}")));
-        speeds.push(std::iter::once(length.to_string()).chain(told));
-        if let [Ok(open), _] = found {
-            points.push((length, open));
+/// The state at another length, by way of those between.
+fn stretched(from: &SteadyState, goal: f64) -> Result<SteadyState> {
+    let mut state = from.clone();
+    loop {
+        let now = Parameter::Length.get(state.setup()).unwrap_or(f64::NAN);
+        let next = goal.clamp(now / FACTOR, now * FACTOR);
+        state = state.at(Parameter::Length, next)?;
+        if next == goal {
+            return Ok(state);
         }
+    }
+}
+
+/// Distance of the nearest node from a wall.
+fn film(state: &SteadyState, width: f64) -> f64 {
+    0.5 * width - state.profile().positions.iter().map(|x| x.y.abs()).fold(0.0, f64::max)
+}
+
+/// Speeds over the length of a channel of width 2, and two laws; then the stresslet in one of width 3.
+pub(super) fn length(count: usize) -> Result<Vec<Table>> {
+    let width = 2.0;
+    let mut open: Vec<(f64, SteadyState)> = Vec::new();
+    for length in LENGTHS {
+        let next = match open.last() {
+            Some((_, last)) => stretched(last, length),
+            None => Ok(SteadyState::find(&channel(length, width, -2.0, 10.0, count))?),
+        };
+        let Ok(next) = next else { break };
+        open.push((length, next));
+    }
+    // Without a net flux: near the longest without a gradient, where the fluid hardly moves, and from there on.
+    let mut closed: Vec<(f64, SteadyState)> = Vec::new();
+    for (length, state) in open.iter().rev() {
+        let next = if let Some((_, last)) = closed.last() {
+            stretched(last, *length)
+        } else {
+            let region = Region::Channel { length: *length, width, drive: Drive::ZeroFlux };
+            let setup = Setup { region, ..state.setup().clone() };
+            SteadyState::near(&setup, state.profile(), state.velocity(), true).map_err(Into::into)
+        };
+        if let Ok(next) = next {
+            closed.push((*length, next));
+        } else if !closed.is_empty() {
+            break;
+        }
+    }
+    let header = ["length", "speed, no pressure gradient", "film", "last modes", "speed, zero flux"];
+    let mut speeds = Table::new("Width 2, activity -2, A = 10", &header);
+    let mut points = Vec::new();
+    for (length, state) in &open {
+        let speed = state.velocity().x;
+        if state.tail() < SOUND {
+            points.push((*length, speed));
+        }
+        let other = closed.iter().find(|(other, _)| other == length);
+        let other = other.map_or("not found".into(), |(_, state)| format!("{:.8}", state.velocity().x));
+        let film = format!("{:.4}", film(state, width));
+        speeds.push([length.to_string(), format!("{speed:.8}"), film, format!("{:.0e}", state.tail()), other]);
     }
     let header = ["law", "a", "b", "c", "largest residual"];
     let mut laws = Table::new("Least squares of the speeds without a pressure gradient", &header);
@@ -41,7 +85,22 @@ pub(super) fn length(count: usize) -> Result<Vec<Table>> {
     };
     fitted("a + b exp(-l/c)", 1..4000, |l, c| (-l / c).exp());
     fitted("a + b/(l + c)", -140..8000, |l, c| 1.0 / (l + c));
-    Ok(vec![speeds, laws])
+    Ok(vec![speeds, laws, stresslets(count)?])
+}
+
+/// Straight swimmers in a channel of width 3 at an activity of -4 over its length.
+fn stresslets(count: usize) -> Result<Table> {
+    let header = ["A", "length", "stresslet", "speed", "growth rate", "frequency"];
+    let mut table = Table::new("Width 3, activity -4", &header);
+    for (strength, length) in [10.0, 13.5].into_iter().flat_map(|a| [8.0, 12.0, 18.0, 24.0, 36.0].map(|l| (a, l))) {
+        let state = SteadyState::find(&channel(length, 3.0, -4.0, strength, count))?;
+        let (seen, spectrum) = (state.measured()?, state.spectrum()?);
+        let leading = spectrum.leading().map(|mode| mode.value).unwrap_or_default();
+        let numbers = [format!("{:.3}", seen.stresslet), format!("{:.6}", seen.speed)];
+        let rates = [format!("{:.5}", leading.re), format!("{:.4}", leading.im)];
+        table.push([strength, length].map(|value| value.to_string()).into_iter().chain(numbers).chain(rates));
+    }
+    Ok(table)
 }
 
 /// Least squares of U = a + b f(l): a, b, largest residual.

@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use motile::stokes_grid::Drive;
 use motile::{Built, DropletSetup, Region, Setup};
 use motile_tests::validation::Table;
-use steady_states::{Complex64, Continuation, Parameter, SteadyState, Symmetry};
+use steady_states::{Complex64, Continuation, Cost, Parameter, SteadyState, Symmetry};
 
 use super::{channel, nodes};
 
@@ -71,9 +71,20 @@ pub(super) fn swimmers() -> Result<Vec<Table>> {
     Ok(vec![table, beside_runs()?])
 }
 
-/// What an error of the speed of 1e-4 takes by a state of 48 nodes and by a run of 72 nodes and 288 cells, by turns.
+/// What an error of the speed of 1e-4 takes by a state of 48 nodes, from nothing and from its neighbour at an activity
+/// of -2.05, and by a run of 72 nodes and 288 cells, by turns.
 fn beside_runs() -> Result<Table> {
-    let header = ["swimmer", "error of the state", "seconds", "run to", "its error", "seconds of the run", "run/state"];
+    let header = [
+        "swimmer",
+        "error of the state",
+        "from nothing (s)",
+        "from a neighbour (s)",
+        "run to",
+        "its error",
+        "run (s)",
+        "run/from nothing",
+        "run/from a neighbour",
+    ];
     let mut table = Table::new("A state of 48 nodes beside a run of 72/288", &header);
     for (name, setup, reference) in scenes()? {
         if number(&reference, if reference.contains_key("zeta_dmu") { "zeta_dmu" } else { "activity" })? != -2.0 {
@@ -81,7 +92,16 @@ fn beside_runs() -> Result<Table> {
         }
         let error = |speed: f64| anyhow::Ok((speed / number(&reference, "speed")? - 1.0).abs());
         let coarse = Setup { method: nodes(48), ..setup.clone() };
-        let (state, first) = timed(|| Ok(SteadyState::find(&coarse)?))?;
+        let (mut seconds, mut ours) = ([0.0; 2], f64::NAN);
+        let mut states = || -> Result<()> {
+            let (state, first) = timed(|| Ok(SteadyState::find(&coarse)?))?;
+            let neighbour = state.at(Parameter::Activity, -2.05)?;
+            let (state, second) = timed(|| Ok(neighbour.at(Parameter::Activity, -2.0)?))?;
+            ours = error(state.measured()?.speed)?;
+            seconds = [seconds[0] + 0.5 * first, seconds[1] + 0.5 * second];
+            Ok(())
+        };
+        states()?;
         let Built { mut scene, droplets, .. } = Setup { method: nodes(72), ..setup }.build()?;
         let (mut end, mut left, mut run) = (0.0, f64::INFINITY, 0.0);
         while left > 1e-4 && end < 400.0 {
@@ -89,11 +109,12 @@ fn beside_runs() -> Result<Table> {
             run += timed(|| Ok(scene.run(end).go()?))?.1;
             left = error(scene.observe(droplets[0])?.speed())?;
         }
-        let (_, second) = timed(|| Ok(SteadyState::find(&coarse)?))?;
-        let seconds = 0.5 * (first + second);
-        let [ours, theirs] = [error(state.measured()?.speed)?, left].map(|error| format!("{error:.0e}"));
-        let ratio = format!("{:.0}", run / seconds);
-        table.push([name, ours, format!("{seconds:.2}"), end.to_string(), theirs, format!("{run:.1}"), ratio]);
+        states()?;
+        let [ours, theirs] = [ours, left].map(|error| format!("{error:.0e}"));
+        let [first, second] = seconds.map(|seconds| format!("{seconds:.3}"));
+        let [over_first, over_second] = seconds.map(|seconds| format!("{:.0}", run / seconds));
+        let run = format!("{run:.1}");
+        table.push([name, ours, first, second, end.to_string(), theirs, run, over_first, over_second]);
     }
     Ok(table)
 }
@@ -136,7 +157,10 @@ pub(super) fn lateral() -> Result<Vec<Table>> {
             push(count.to_string(), swing)?;
         }
         if activity < -3.0 {
-            push("a run of 72/288".into(), fitted(&setup)?)?;
+            for count in [48, 72, 108] {
+                let run = fitted(&Setup { method: nodes(count), ..setup.clone() })?;
+                push(format!("a run of {count}/{}", 4 * count), run)?;
+            }
         }
     }
     Ok(vec![table])
@@ -173,11 +197,14 @@ const LAG: usize = 12;
 pub(super) fn cost() -> Result<Vec<Table>> {
     let header = [
         "nodes",
+        "unknowns",
         "state from nothing (s)",
         "from a neighbour (s)",
+        "Jacobian (s)",
+        "LU (s)",
+        "eigenvalues (s)",
         "spectrum (s)",
         "points of a branch per second",
-        "matrix (MB)",
         "largest memory of the program (MB)",
     ];
     let mut table = Table::new("Cost: channel of width 3, activity -2", &header);
@@ -188,9 +215,11 @@ pub(super) fn cost() -> Result<Vec<Table>> {
         let (_, spectrum) = timed(|| Ok(black_box(state.spectrum()?)))?;
         let settings = Continuation { most_points: 6, ..Continuation::new(Parameter::Activity, -2.0, -3.0) };
         let (branch, followed) = timed(|| Ok(settings.follow(&state, |_, _| true)?))?;
-        let (rate, matrix) = (branch.points.len() as f64 / followed, 8e-6 * (count * count) as f64);
-        let cells = [first, neighbour, spectrum, rate, matrix].map(|value| format!("{value:.2}"));
-        table.push([vec![count.to_string()], cells.to_vec(), vec![memory()]].concat());
+        let Cost { jacobian, factorisation, eigenvalues, unknowns } = state.cost()?;
+        let rate = branch.points.len() as f64 / followed;
+        let parts = [first, neighbour, jacobian, factorisation, eigenvalues, spectrum, rate];
+        let cells = parts.map(|value| if value < 0.01 { format!("{value:.1e}") } else { format!("{value:.3}") });
+        table.push([vec![count.to_string(), unknowns.to_string()], cells.to_vec(), vec![memory()]].concat());
     }
     Ok(vec![table])
 }

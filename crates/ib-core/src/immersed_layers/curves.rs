@@ -1,5 +1,7 @@
 //! The curves that layers lie on: points that bodies give, nodes of layers, and nodes that the grid sees.
 
+use std::ops::Range;
+
 use fourier::{InputError, PeriodicSeries, spectrum::largest_wave};
 use input_checks::at_least;
 use num_complex::Complex64;
@@ -40,11 +42,9 @@ pub(super) struct LayerCurves {
     /// At the points.
     points: Vec<Vec2>,
     values: Vec<Vec2>,
-    /// Velocities at the nodes of a curve.
-    sums: Vec<Complex64>,
     /// Forces at the nodes, x then y, curve after curve.
     pub(super) forces: Vec<f64>,
-    /// Velocities there.
+    /// Viscosity times velocity there.
     pub(super) velocities: Vec<f64>,
     /// Positions, forces and velocities at the grid nodes.
     pub(super) grid: [Vec<Vec2>; 3],
@@ -63,16 +63,20 @@ impl LayerCurves {
             inner: Vec::new(),
             points: Vec::new(),
             values: Vec::new(),
-            sums: Vec::new(),
             forces: Vec::new(),
             velocities: Vec::new(),
             grid: Default::default(),
         }
     }
 
-    /// The length of the shortest interface (length).
-    pub(super) fn shortest_interface(&self) -> Option<f64> {
-        self.curves[..self.interfaces].iter().map(|curve| curve.length).reduce(f64::min)
+    /// The lengths of the interfaces (length).
+    pub(super) fn interface_lengths(&self) -> impl Iterator<Item = f64> {
+        self.curves[..self.interfaces].iter().map(|curve| curve.length)
+    }
+
+    /// Entries of the interfaces, which come first, in lists over all nodes.
+    pub(super) fn interface_entries(&self) -> usize {
+        2 * self.nodes * self.interfaces
     }
 
     /// The curves as layers want them.
@@ -141,33 +145,70 @@ impl LayerCurves {
             curve.starts[2] = first;
             let count = curve.markers.len();
             let points = &mut self.points[curve.starts[0]..][..count];
-            let forces = &mut self.values[..count];
-            for (((marker, shift), point), force) in curve.markers.iter().zip(&mut *points).zip(&mut *forces) {
+            for ((marker, shift), point) in curve.markers.iter().zip(&mut *points) {
                 *point = markers.positions[*marker] + Vec2::new(f64::from(*shift) * self.period, 0.0);
-                *force = markers.forces[*marker];
             }
             first += curve.fit(points, self.spacing)?;
             for list in &mut self.grid {
                 list.resize(first.max(list.len()), Vec2::ZERO);
             }
-            curve.load([points, forces], &mut self.forces, &mut self.grid)?;
+            curve.load(points, &mut self.grid[0])?;
         }
         self.grid.iter_mut().for_each(|list| list.truncate(first));
+        self.load_forces(&markers.forces)
+    }
+
+    /// Takes over forces on all markers.
+    pub(super) fn load_forces(&mut self, forces: &[Vec2]) -> Result<(), FlowError> {
+        for curve in &mut self.curves {
+            let values = &mut self.values[..curve.markers.len()];
+            for ((marker, _), force) in curve.markers.iter().zip(&mut *values) {
+                *force = forces[*marker];
+            }
+            curve.load_forces(values, &mut self.forces)?;
+        }
+        self.refine_forces()
+    }
+
+    /// Forces at the grid nodes from those at the nodes.
+    pub(super) fn refine_forces(&mut self) -> Result<(), FlowError> {
+        for curve in &mut self.curves {
+            let on_grid = curve.on_grid();
+            let entries = curve.entries();
+            let [_, nodes, grid] = &mut curve.series;
+            let (x, y) = self.forces[entries].split_at(nodes.len());
+            nodes.analyse(x.iter().zip(y).map(|(x, y)| Complex64::new(*x, *y)))?;
+            grid.resample(nodes);
+            let share = nodes.len() as f64 / grid.len() as f64;
+            grid.scale(|_| share);
+            grid.write_vectors(&mut self.grid[1][on_grid])?;
+        }
         Ok(())
     }
 
-    /// Writes the velocities of the markers on curves: those at the nodes, times a factor, and those of the grid.
+    /// Adds the velocities at the grid nodes, times a factor, to those at the nodes.
+    pub(super) fn add_grid(&mut self, factor: f64) -> Result<(), FlowError> {
+        for curve in &mut self.curves {
+            let (on_grid, entries) = (curve.on_grid(), curve.entries());
+            let [_, nodes, grid] = &mut curve.series;
+            grid.analyse_vectors(&self.grid[2][on_grid])?;
+            nodes.resample(grid);
+            let (x, y) = self.velocities[entries].split_at_mut(nodes.len());
+            for ((x, y), velocity) in x.iter_mut().zip(y).zip(nodes.values()) {
+                *x += factor * velocity.re;
+                *y += factor * velocity.im;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes velocities of the markers on curves, those at the nodes times a factor.
     pub(super) fn write(&mut self, factor: f64, out: &mut [Vec2]) -> Result<(), FlowError> {
         for curve in &mut self.curves {
-            let [points, nodes, grid] = &mut curve.series;
-            grid.analyse_vectors(&self.grid[2][curve.starts[2]..][..grid.len()])?;
-            nodes.resample(grid);
-            let count = nodes.len();
-            let (x, y) = self.velocities[2 * curve.starts[1]..][..2 * count].split_at(count);
-            self.sums.clear();
-            let sum = nodes.values().iter().zip(x).zip(y);
-            self.sums.extend(sum.map(|((grid, x), y)| grid + factor * Complex64::new(*x, *y)));
-            nodes.analyse(self.sums.iter().copied())?;
+            let entries = curve.entries();
+            let [points, nodes, _] = &mut curve.series;
+            let (x, y) = self.velocities[entries].split_at(nodes.len());
+            nodes.analyse(x.iter().zip(y).map(|(x, y)| factor * Complex64::new(*x, *y)))?;
             drop_unpaired(nodes);
             points.resample(nodes);
             for ((marker, _), velocity) in curve.markers.iter().zip(points.values()) {
@@ -179,6 +220,16 @@ impl LayerCurves {
 }
 
 impl Curve {
+    /// Its grid nodes.
+    fn on_grid(&self) -> Range<usize> {
+        self.starts[2]..self.starts[2] + self.series[2].len()
+    }
+
+    /// Its entries in lists over all nodes.
+    fn entries(&self) -> Range<usize> {
+        2 * self.starts[1]..2 * (self.starts[1] + self.series[1].len())
+    }
+
     /// Measures it and says how many grid nodes it has.
     ///
     /// # Errors
@@ -196,31 +247,29 @@ impl Curve {
         Ok(fine)
     }
 
-    /// Takes over positions and forces at the points: forces to the nodes, both to the grid nodes.
-    fn load(
-        &mut self,
-        [positions, values]: [&[Vec2]; 2],
-        forces: &mut [f64],
-        out: &mut [Vec<Vec2>; 3],
-    ) -> Result<(), FlowError> {
+    /// Takes over positions at the points to the grid nodes.
+    fn load(&mut self, positions: &[Vec2], out: &mut [Vec2]) -> Result<(), FlowError> {
+        let on_grid = self.on_grid();
         let [points, nodes, grid] = &mut self.series;
-        let (count, on_grid) = (points.len(), self.starts[2]..self.starts[2] + grid.len());
+        let (count, fine) = (points.len(), grid.len());
         let ramp = |k: usize, count: usize| self.advance * k as f64 / count as f64;
         points.analyse(positions.iter().enumerate().map(|(k, v)| Complex64::new(v.x - ramp(k, count), v.y)))?;
         nodes.resample(points);
         grid.resample(nodes);
-        let fine = grid.len();
-        grid.write_vectors(&mut out[0][on_grid.clone()])?;
-        out[0][on_grid.clone()].iter_mut().enumerate().for_each(|(k, v)| v.x += ramp(k, fine));
+        let out = &mut out[on_grid];
+        grid.write_vectors(out)?;
+        out.iter_mut().enumerate().for_each(|(k, v)| v.x += ramp(k, fine));
+        Ok(())
+    }
 
+    /// Takes over forces at the points to the nodes.
+    fn load_forces(&mut self, values: &[Vec2], forces: &mut [f64]) -> Result<(), FlowError> {
+        let entries = self.entries();
+        let [points, nodes, _] = &mut self.series;
         points.analyse_vectors(values)?;
         nodes.resample(points);
-        grid.resample(nodes);
-        grid.scale(|_| count as f64 / fine as f64);
-        grid.write_vectors(&mut out[1][on_grid])?;
-        let share = count as f64 / nodes.len() as f64;
-        let at_nodes = nodes.len();
-        let (x, y) = forces[2 * self.starts[1]..][..2 * at_nodes].split_at_mut(at_nodes);
+        let share = points.len() as f64 / nodes.len() as f64;
+        let (x, y) = forces[entries].split_at_mut(nodes.len());
         for ((x, y), force) in x.iter_mut().zip(y).zip(nodes.values()) {
             (*x, *y) = (share * force.re, share * force.im);
         }

@@ -157,16 +157,6 @@ impl Setup {
             let remedy = "solids lose volume to layers with it: give a composite B-spline, such as bspline4";
             checked.refuse("kernel", &format!("{:?}", grid.kernel), remedy)?;
         }
-        for (number, droplet) in self.droplets.iter().enumerate() {
-            if let Some(viscosity) = droplet.viscosity.filter(|inside| *inside != self.viscosity) {
-                let place = Checked { place: &format!("droplets[{number}]") };
-                place.refuse(
-                    "viscosity",
-                    &viscosity,
-                    "layers have one viscosity: leave it or method.grid.layers out",
-                )?;
-            }
-        }
         for (number, solid) in self.solids.iter().enumerate() {
             let place = Checked { place: &format!("solids[{number}]") };
             if solid.surface == Surface::SetBack {

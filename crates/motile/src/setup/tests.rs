@@ -118,10 +118,6 @@ fn layers_that_make_no_scene_are_refused() {
         ("method.grid.marker-spacing = 0.05", grid(GridMethod { marker_spacing: Some(0.05), ..method })),
         ("method.grid.contrast = arithmetic", grid(GridMethod { contrast: Contrast::Arithmetic, ..method })),
         ("method.grid.kernel = Peskin4", grid(GridMethod { kernel: ib_core::AnyKernel::Peskin4, ..method })),
-        ("droplets[0].viscosity = 10", {
-            let droplet = DropletSetup { viscosity: Some(10.0), ..DropletSetup::default() };
-            Setup { droplets: vec![droplet], ..base.clone() }
-        }),
         ("solids[0].surface = set-back", solid(SolidSetup { surface: Surface::SetBack, ..wall.clone() })),
         ("solids[0].mesh-spacing = 0.1", solid(SolidSetup { mesh_spacing: Some(0.1), ..wall.clone() })),
     ];
