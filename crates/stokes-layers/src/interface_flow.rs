@@ -19,7 +19,7 @@ use crate::{
 use rigid::RigidWalls;
 
 /// The least residual that round-off lets be reached, as part of the right-hand side.
-const ATTAINABLE: f64 = 1e-13;
+const ATTAINABLE: f64 = 1e-15;
 /// Iterations after which the residual is computed.
 const TRUSTED: usize = 32;
 /// What products may err by, in units of the tolerance.

@@ -2,7 +2,7 @@
 
 use super::boundary::{Boundary, Nearest};
 use super::{Repulsion, shifts};
-use crate::{Domain, Markers, Vec2};
+use crate::{Domain, MarkerKind, Markers, Vec2};
 
 /// A corner of a surface close to a side of another one.
 #[derive(Debug, Clone, Copy)]
@@ -58,7 +58,7 @@ impl Films {
         for body in 0..self.surfaces.len() {
             for other in 0..self.surfaces.len() {
                 let kinds = [body, other].map(|index| markers.groups()[index].kind);
-                if kinds.iter().any(|kind| kind.is_interface()) {
+                if kinds.iter().any(MarkerKind::is_interface) {
                     self.find_between(body, other, markers, surroundings, reach);
                 }
             }
@@ -136,8 +136,9 @@ impl Films {
             if !frame.moved(shift).is_near(&large, periods, reach) {
                 continue;
             }
-            for corner in from.corners[0]..from.corners[1] {
-                let place = markers.positions[corners[corner]] + shift;
+            let [first, end] = from.corners;
+            for (corner, &marker) in corners[..end].iter().enumerate().skip(first) {
+                let place = markers.positions[marker] + shift;
                 let Some(found) = to.boundary.nearest_within(place, periods, reach) else { continue };
                 let ends = Some(sides[to.first_side + found.side]);
                 contacts.push(contact(corner, ends, &found, to.boundary.sides()[found.side], sign));
@@ -157,8 +158,9 @@ impl Films {
         reach: f64,
     ) {
         let Self { surfaces, markers: corners, contacts, .. } = self;
-        for corner in surfaces[body].corners[0]..surfaces[body].corners[1] {
-            let place = markers.positions[corners[corner]];
+        let [first, end] = surfaces[body].corners;
+        for (corner, &marker) in corners[..end].iter().enumerate().skip(first) {
+            let place = markers.positions[marker];
             if let Some([below, above]) = domain.walls {
                 for (gap, normal) in [(place.y - below, Vec2::Y), (above - place.y, -Vec2::Y)] {
                     if gap < reach {

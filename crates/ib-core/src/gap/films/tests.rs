@@ -95,7 +95,7 @@ fn forces_are_minus_the_gradient_of_the_energy() {
         let (forces, step) = (scene.forces(&repulsion), 1e-6);
         let largest = forces.iter().map(|force| force.length()).fold(0.0, f64::max);
         assert!(largest > 0.01, "{name}");
-        for k in 0..forces.len() {
+        for (k, force) in forces.iter().enumerate() {
             for (axis, unit) in [Vec2::X, Vec2::Y].into_iter().enumerate() {
                 let mut energy = |by: f64| {
                     scene.markers.positions[k] += by * unit;
@@ -104,7 +104,7 @@ fn forces_are_minus_the_gradient_of_the_energy() {
                     energy
                 };
                 let expected = (energy(-step) - energy(step)) / (2.0 * step);
-                assert!((forces[k][axis] - expected).abs() < 1e-6 * largest, "{name} {k}: {} {expected}", forces[k]);
+                assert!((force[axis] - expected).abs() < 1e-6 * largest, "{name} {k}: {force} {expected}");
             }
         }
         // Action and reaction.
