@@ -57,6 +57,11 @@ impl CheckpointFlags {
         Ok(())
     }
 
+    /// Where checkpoints are saved, and after how many steps each.
+    pub(crate) fn saved(&self) -> Option<(&Path, usize)> {
+        Some((self.checkpoint.as_deref()?, self.checkpoint_every.unwrap_or(EVERY)))
+    }
+
     /// Makes sure that checkpoints can be saved where they are wanted.
     fn try_file(&self) -> Result<()> {
         let Some(path) = &self.checkpoint else { return Ok(()) };
@@ -73,13 +78,13 @@ impl CheckpointFlags {
     /// # Errors
     /// Ctrl-C that cannot be listened to.
     pub(crate) fn watch<'a>(&'a self, run: FlowRun<'a>, description: &'a str) -> Result<FlowRun<'a>> {
-        let Some(path) = &self.checkpoint else { return Ok(run) };
+        let Some((path, every)) = self.saved() else { return Ok(run) };
         match ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed)) {
             // A second run of the same program is listened to already.
             Ok(()) | Err(ctrlc::Error::MultipleHandlers) => {}
             Err(error) => return Err(error).context("Ctrl-C cannot be listened to"),
         }
-        Ok(run.save(self.checkpoint_every.unwrap_or(EVERY), path, description).stop_on(&STOP))
+        Ok(run.save(every, path, description).stop_on(&STOP))
     }
 
     /// Saves what a run has come to: to the file of the flags where it ended or was stopped, and beside it, with

@@ -57,7 +57,7 @@ pub fn run<Flags: Parser>(body: impl FnOnce(&Flags) -> Result<()>) -> ExitCode {
     match body(&flags) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {}", one_line(&chain(&error)));
+            eprintln!("error: {}", explained(&error));
             ExitCode::FAILURE
         }
     }
@@ -68,13 +68,14 @@ pub fn say(line: impl std::fmt::Display) {
     let _ = writeln!(std::io::stdout(), "{line}");
 }
 
-/// An error and its causes, without those that it tells already.
-fn chain(error: &anyhow::Error) -> String {
-    error.chain().map(ToString::to_string).fold(String::new(), |told, cause| match told.as_str() {
+/// An error and its causes, without those that it tells already, in one line.
+#[must_use]
+pub fn explained(error: &anyhow::Error) -> String {
+    one_line(&error.chain().map(ToString::to_string).fold(String::new(), |told, cause| match told.as_str() {
         "" => cause,
         _ if told.contains(&cause) => told,
         _ => format!("{told}: {cause}"),
-    })
+    }))
 }
 
 /// What is wrong with a command line, in one sentence.

@@ -4,10 +4,11 @@ use std::fs::{File, TryLockError};
 use std::path::PathBuf;
 
 use anyhow::{Result, ensure};
-use motile::ib_core::{Every, Observer, Scene, SceneError, StepSize, Warning};
+use motile::ib_core::{Every, Observer, Scene, SceneError, StepSize};
 use motile::{AnyFlow, Setup};
 use motile_output::RunProgress;
 
+use crate::kept_warnings::KeptWarnings;
 use crate::{Decided, OutputFlags, Summary, say};
 
 /// Most steps of a run: more would take weeks.
@@ -15,6 +16,18 @@ const MOST_STEPS: f64 = 1e9;
 
 /// An observer of a run, and when it is called.
 pub type Watch<'a> = (Every, &'a mut dyn Observer<AnyFlow>);
+
+/// Another run writes to a directory.
+#[derive(Debug)]
+pub struct Taken(PathBuf);
+
+impl std::fmt::Display for Taken {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "another run writes to {}: give another --out, or wait for its end", self.0.display())
+    }
+}
+
+impl std::error::Error for Taken {}
 
 /// A run of a scene: its end, its directory, its checkpoints, its progress and how it went.
 #[derive(Debug)]
@@ -41,7 +54,7 @@ impl Job {
     /// # Errors
     /// A time step that is not stable or so short that the run would take more than 1e9 steps, before anything is
     /// written; a checkpoint that does not fit; a file or directory that cannot be made, a directory that another run
-    /// writes to.
+    /// writes to ([`Taken`]).
     pub fn new(scene: &mut Scene<AnyFlow>, setup: &Setup, end: f64, output: &OutputFlags, name: &str) -> Result<Self> {
         check_run(scene, end, setup.step)?;
         output.write_scene(setup)?;
@@ -50,8 +63,9 @@ impl Job {
         output.checkpoints.resume(scene, &description, end)?;
         let (directory, output) = (output.directory(name)?, output.clone());
         let lock = File::open(&directory)?;
-        let taken = matches!(lock.try_lock(), Err(TryLockError::WouldBlock));
-        ensure!(!taken, "another run writes to {}: give another --out, or wait for its end", directory.display());
+        if matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) {
+            return Err(Taken(directory).into());
+        }
         let (seconds, warnings, outcome) = (0.0, Vec::new(), Ok(()));
         Ok(Self { directory, end, seconds, warnings, output, description, outcome, _lock: lock })
     }
@@ -68,17 +82,33 @@ impl Job {
     /// Checkpoints that cannot be written. Why a run broke off is kept for [`Job::finish`].
     pub fn go(&mut self, scene: &mut Scene<AnyFlow>, observers: Vec<Watch<'_>>) -> Result<()> {
         let Self { output, description, .. } = self;
-        let mut progress = RunProgress::new(self.end, output.quiet);
-        let run = scene.run(self.end).observe(Every::Steps(1), &mut progress);
+        let progress = RunProgress::new(self.end, output.quiet);
+        let checkpoints = &output.checkpoints;
+        let mut watch = KeptWarnings::new(progress, checkpoints.resume.as_deref(), checkpoints.saved());
+        let run = scene.run(self.end).observe(Every::Steps(1), &mut watch);
         let run = observers.into_iter().fold(run, |run, (every, observer)| run.observe(every, observer));
-        self.outcome = match output.checkpoints.watch(run, description)?.go() {
+        self.outcome = match checkpoints.watch(run, description)?.go() {
             Err(SceneError::Observer { source, .. }) if source.is::<Decided>() => Ok(()),
             outcome => outcome,
         };
-        self.seconds = progress.finish();
-        let text = |(time, warning): &(f64, Warning)| format!("t = {time:.3}: {warning}");
-        self.warnings = progress.warnings().worst().iter().map(text).collect();
-        output.checkpoints.save(scene, description, &self.outcome)
+        self.seconds = watch.progress.finish();
+        self.warnings = watch.texts();
+        watch.keep()?;
+        checkpoints.save(scene, description, &self.outcome)
+    }
+
+    /// Whether the run was stopped, to be gone on with.
+    #[must_use]
+    pub fn is_stopped(&self) -> bool {
+        matches!(self.outcome, Err(SceneError::Stopped { .. }))
+    }
+
+    /// Ends without another word.
+    ///
+    /// # Errors
+    /// What made the run break off.
+    pub fn outcome(self) -> Result<(), SceneError> {
+        self.outcome
     }
 
     /// Why the run broke off, if it did.

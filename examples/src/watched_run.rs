@@ -5,7 +5,7 @@ mod results;
 use anyhow::{Context, Result, bail};
 use motile::active_interface::observables::{ConcentrationProfile, Frame, concentration_profile};
 use motile::active_interface::{ActiveDroplet, trajectory::TrajectoryRecord};
-use motile::ib_core::{Every, Handle, Observer, Scene, Vec2, gap::SolidGap};
+use motile::ib_core::{Every, Handle, Observer, Scene, SceneError, Vec2, gap::SolidGap};
 use motile::{AnyFlow, Built, DropletSetup, Exclusion, MethodKind, Particles, Region, Setup};
 use motile_output::{
     Film, Look, ParaView, Raster, Snapshot, SolidColour, TrajectoryCsv, concentration_plot, time_series,
@@ -109,7 +109,19 @@ impl WatchedRun {
             observers.push((Every::StepAfter(time / FILES), vtk));
         }
         self.job.go(&mut self.scene, observers)?;
+        if self.job.is_stopped() {
+            // The rows are to be those of a run that was not stopped.
+            return Ok(());
+        }
         Ok(self.recorder.finish(self.scene.system_mut())?)
+    }
+
+    /// Ends without files and pictures but those of the run itself.
+    ///
+    /// # Errors
+    /// What made the run break off.
+    pub fn outcome(self) -> Result<(), SceneError> {
+        self.job.outcome()
     }
 
     /// Times and positions of the droplet.

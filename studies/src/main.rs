@@ -15,6 +15,7 @@ mod scaling;
 mod steady_states;
 mod step_cost;
 mod stiffness;
+mod sweep;
 mod tables;
 mod threads;
 mod time_steps;
@@ -43,6 +44,7 @@ enum Study {
     StepCost(step_cost::Flags),
     SteadyStates(steady_states::Flags),
     Stiffness(stiffness::Flags),
+    Sweep(sweep::Flags),
     ViscosityContrast(viscosity_contrast::Flags),
     Channels(channels::Flags),
     HardCases(hard_cases::Flags),
@@ -63,6 +65,7 @@ fn main() -> ExitCode {
         Study::StepCost(flags) => step_cost::run(flags),
         Study::SteadyStates(flags) => steady_states::run(flags),
         Study::Stiffness(flags) => stiffness::run(flags),
+        Study::Sweep(flags) => sweep::run(flags),
         Study::ViscosityContrast(flags) => viscosity_contrast::run(flags),
         Study::Channels(flags) => channels::run(flags),
         Study::HardCases(flags) => hard_cases::run(flags),

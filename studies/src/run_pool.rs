@@ -98,7 +98,7 @@ impl<'a> RunPool<'a> {
         {
             return Ok(summary);
         }
-        let mut summary = run().with_context(|| name.to_string())?;
+        let mut summary = run().with_context(|| name.trim_end_matches("/summary").to_owned())?;
         summary.put(NAME, name, "");
         summary.write(&path)?;
         Ok(summary)

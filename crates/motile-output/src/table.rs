@@ -2,13 +2,13 @@
 
 use std::{
     fs::File,
-    io::{self, BufWriter, Write as _},
+    io::{self, LineWriter, Write as _},
     path::{Path, PathBuf},
 };
 
 use crate::Error;
 
-/// Rows of named numbers, written to a CSV file as they come and kept for plots.
+/// Rows of named numbers, written to a CSV file as they come, each at once, and kept for plots.
 ///
 /// ```
 /// use motile_output::CsvTable;
@@ -26,7 +26,7 @@ use crate::Error;
 pub struct CsvTable {
     names: Vec<String>,
     rows: Vec<Vec<f64>>,
-    file: BufWriter<File>,
+    file: LineWriter<File>,
     path: PathBuf,
 }
 
@@ -43,8 +43,8 @@ impl CsvTable {
             }
         }
         let path = path.as_ref().to_path_buf();
-        let open = || -> io::Result<BufWriter<File>> {
-            let mut file = BufWriter::new(File::create(&path)?);
+        let open = || -> io::Result<LineWriter<File>> {
+            let mut file = LineWriter::new(File::create(&path)?);
             writeln!(file, "{}", names.join(","))?;
             Ok(file)
         };
@@ -52,7 +52,7 @@ impl CsvTable {
         Ok(Self { names: names.iter().map(ToString::to_string).collect(), rows: Vec::new(), file, path })
     }
 
-    /// As [`CsvTable::create`], but goes on with the rows of the file whose first value is below `from`, if it is a
+    /// As [`CsvTable::create`], but goes on with the rows of the file whose first value is at most `from`, if it is a
     /// table of the same columns: for what is resumed.
     ///
     /// # Errors
@@ -64,7 +64,7 @@ impl CsvTable {
         let number = |field: &str| field.parse().unwrap_or(f64::NAN);
         let rows = lines.map(|line| line.split(',').map(number).collect::<Vec<f64>>());
         let mut table = Self::create(path, names)?;
-        for row in rows.filter(|row| same && row.len() == names.len() && row[0] < from) {
+        for row in rows.filter(|row| same && row.len() == names.len() && row[0] <= from) {
             table.push(&row)?;
         }
         Ok(table)

@@ -40,11 +40,13 @@ pub struct TrajectoryCsv {
     columns: Vec<usize>,
     solids: Option<SolidMeter>,
     last_solids: Option<[f64; 8]>,
+    /// The time from which a trajectory that was begun before goes on: that state was due for a row or not.
+    resumed: Option<f64>,
 }
 
 impl TrajectoryCsv {
-    /// A recorder of a droplet that writes to `path`. Where the system is past time 0, as after resuming, the rows
-    /// before its time that the file has stay.
+    /// A recorder of a droplet that writes to `path`. Where the system is past time 0, as after resuming, the rows up to
+    /// its time that the file has stay, and the others follow as if the run had not been cut.
     ///
     /// # Errors
     /// [`Error::Write`]; [`Error::Observer`]: a state that cannot be measured.
@@ -70,7 +72,9 @@ impl TrajectoryCsv {
         let columns: Vec<usize> = (0..entries.len()).filter(wanted).collect();
         let mut names: Vec<&str> = columns.iter().map(|&k| entries[k].0).collect();
         names.extend(solids.iter().flat_map(|_| SolidMeter::NAMES));
-        Ok(Self { records, table: CsvTable::resume(path, &names, system.time())?, columns, solids, last_solids: None })
+        let table = CsvTable::resume(path, &names, system.time())?;
+        let resumed = (!table.rows().is_empty()).then(|| system.time());
+        Ok(Self { records, table, columns, solids, last_solids: None, resumed })
     }
 
     /// Everything measured, record by record.
@@ -127,7 +131,10 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryCsv {
             row.extend(values);
             self.last_solids = Some(values);
         }
-        Ok(self.table.push(&row)?)
+        if self.resumed.take().is_none_or(|start| start < system.time()) {
+            self.table.push(&row)?;
+        }
+        Ok(())
     }
 }
 

@@ -105,6 +105,10 @@ fn draw(flags: &Flags) -> Result<()> {
         diagram.end(&branch)?;
     } else {
         let start = if flags.swimmer { SteadyState::find(&setup)? } else { SteadyState::uniform(&setup)? };
+        let known = start.observables()?;
+        for name in &flags.observable {
+            ensure!(known.get(name).is_some(), "--observable {name} is none: give one such as beta or stresslet_xx");
+        }
         let rest = settings.follow(&start, |point, special| diagram.see(point, special))?;
         diagram.end(&rest)?;
         // What branches off first; from rest the swimmers along x, of which those along y are others by a turn.

@@ -17,6 +17,8 @@ const LEAST_STEP: f64 = 1e-4;
 const AMPLITUDES: [f64; 3] = [0.05, 0.1, 0.02];
 /// A frequency below this part of D/R^2 is none.
 const LEAST_FREQUENCY: f64 = 1e-5;
+/// Modes that stay below this part of D/R^2 are neutral.
+const NEUTRAL: f64 = 1e-5;
 /// Special points that differ by less (relatively, or in units of D/R and D/R^2) are the same.
 const SAME: f64 = 1e-4;
 /// Iterations after which the next step is longer.
@@ -493,6 +495,10 @@ fn crossings(parameter: Parameter, before: &BranchPoint, after: &BranchPoint) ->
         for k in first.min(last)..first.max(last) {
             // From the end that is nearer to the crossing.
             let (Some(one), Some(other)) = (a.get(k), b.get(k)) else { continue };
+            // A shift that changes nothing, such as that of a droplet at rest across a channel, has round-off only.
+            if one.value.norm().max(other.value.norm()) < NEUTRAL * before.state.diffusion_rate() {
+                continue;
+            }
             let (state, mode) =
                 if one.value.re.abs() < other.value.re.abs() { (&before.state, one) } else { (&after.state, other) };
             if tried.contains(&mode) {

@@ -122,3 +122,12 @@ fn both_branch_points_of_the_plane_are_found_at_any_number_of_nodes() {
         assert_eq!(symmetries, [Symmetry::Symmetric, Symmetry::Antisymmetric], "{nodes} nodes");
     }
 }
+
+#[test]
+fn a_droplet_at_rest_that_may_be_shifted_across_a_channel_has_no_branch_points_but_the_thresholds() {
+    let region = Region::Channel { length: 12.0, width: 3.0, drive: Drive::ZeroGradient };
+    let rest = SteadyState::uniform(&setup(region, -0.2, 32)).unwrap();
+    let viscosity = Continuation::new(Parameter::ViscosityInside, 100.0, 10.0);
+    let branch = viscosity.follow(&rest, |_, _| true).unwrap();
+    assert!(branch.special.is_empty(), "{:?}", branch.special.len());
+}

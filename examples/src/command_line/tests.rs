@@ -171,7 +171,7 @@ fn what_is_wrong_is_said_in_one_sentence() {
 #[test]
 fn causes_are_told_once() {
     let error = anyhow::anyhow!("no such file").context("at time 3: no such file").context("reading");
-    assert_eq!(chain(&error), "reading: at time 3: no such file");
+    assert_eq!(explained(&error), "reading: at time 3: no such file");
 }
 
 #[test]

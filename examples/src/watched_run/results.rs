@@ -29,9 +29,8 @@ impl WatchedRun {
     /// # Errors
     /// A run that has not been.
     pub fn summary(&self) -> Result<Summary> {
-        let first = &self.recorder.records().records().first().context("nothing was measured")?.observables;
         let mut summary = Summary::default();
-        self.put_droplet(&mut summary, first, &self.last()?.observables)?;
+        self.put_droplet(&mut summary, &self.last()?.observables)?;
         self.put_cost(&mut summary);
         let method = METHODS.iter().find(|(_, _, kind)| *kind == self.method);
         summary.put("method", method.map(|(name, ..)| *name), "for the flow");
@@ -56,7 +55,7 @@ impl WatchedRun {
         Ok(report.evidence)
     }
 
-    fn put_droplet(&self, summary: &mut Summary, first: &Observables, last: &Observables) -> Result<()> {
+    fn put_droplet(&self, summary: &mut Summary, last: &Observables) -> Result<()> {
         let value = |name: &str| last.get(name).unwrap_or(f64::NAN);
         for (name, about) in [
             ("speed", "of the centroid (R0 per time)"),
@@ -76,10 +75,16 @@ impl WatchedRun {
             summary.put(name, value(name) / self.particles.concentration, "in c0");
         }
         summary.put("perimeter", last.perimeter, "(R0)");
-        summary.put("area_relative_change", last.area / first.area - 1.0, "since the start");
-        let particles = last.particle_number / first.particle_number - 1.0;
-        summary.put("particle_relative_change", particles, "since the start");
-        let speeds = self.recorder.table().curve("time", "speed")?;
+        let table = self.recorder.table();
+        for (name, column, value) in [
+            ("area_relative_change", "area", last.area),
+            ("particle_relative_change", "particle_number", last.particle_number),
+        ] {
+            // The start of a run that was resumed is in its table alone.
+            let (_, start) = *table.curve("time", column)?.first().context("nothing was measured")?;
+            summary.put(name, value / start - 1.0, "since the start");
+        }
+        let speeds = table.curve("time", "speed")?;
         let steady = Steadiness::of(&speeds, self.particles.diffusion * std::f64::consts::PI / self.area);
         summary.put("steady", steady.json(), steady.criterion());
         Ok(())

@@ -32,17 +32,17 @@ where
 pub enum Every {
     /// After every n steps (0 counts as 1).
     Steps(usize),
-    /// At all multiples of this time, counted from the start of the run, exactly: steps are shortened to end there as
-    /// they are at the end of a run. At most ten million of them a run.
+    /// At all multiples of this time, exactly: steps are shortened to end there as they are at the end of a run. At most
+    /// ten million of them a run. Multiples are counted from time 0, so that a run that is resumed goes on with them.
     Time(f64),
-    /// At the end of the first step that reaches a multiple of this time, counted from the start of the run; no step is
-    /// shortened for it.
+    /// At the end of the first step that reaches a multiple of this time, counted from time 0; no step is shortened for
+    /// it.
     StepAfter(f64),
 }
 
 struct Watch<'a, H> {
     every: Every,
-    /// Multiples of the interval that have been reached since the start of the run.
+    /// Multiples of the interval that have been reached.
     reached: f64,
     observer: &'a mut dyn Observer<H>,
 }
@@ -55,11 +55,11 @@ const MOST_REPORTS: f64 = 1e7;
 const NEGLIGIBLE: f64 = 1e-9;
 
 impl Every {
-    /// How many whole intervals have gone by at `elapsed` (time) since the start.
-    fn reached(self, elapsed: f64) -> f64 {
+    /// How many whole intervals have gone by at `time`.
+    fn reached(self, time: f64) -> f64 {
         match self {
             Self::Steps(_) => 0.0,
-            Self::Time(interval) | Self::StepAfter(interval) => (elapsed / interval + NEGLIGIBLE).floor(),
+            Self::Time(interval) | Self::StepAfter(interval) => (time / interval + NEGLIGIBLE).floor(),
         }
     }
 }
@@ -252,7 +252,7 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
     /// The next time that a step has to end at: that of a report or the end of the run.
     fn goal(&self) -> f64 {
         let due = self.watches.iter().filter_map(|watch| match watch.every {
-            Every::Time(interval) => Some(self.start + (watch.reached + 1.0) * interval),
+            Every::Time(interval) => Some((watch.reached + 1.0) * interval),
             Every::Steps(_) | Every::StepAfter(_) => None,
         });
         let next = due.fold(f64::INFINITY, f64::min);
@@ -349,7 +349,7 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         let (time, steps) = (self.scene.time(), self.scene.steps());
         let last = self.until - time <= self.negligible();
         for watch in &mut self.watches {
-            let reached = watch.every.reached(time - self.start);
+            let reached = watch.every.reached(time);
             let due = match watch.every {
                 Every::Steps(n) => steps.is_multiple_of(n.max(1)),
                 // An interval too short to be counted is over at any time.

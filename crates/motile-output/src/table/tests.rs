@@ -22,7 +22,7 @@ fn equal_names_are_refused() {
 }
 
 #[test]
-fn a_resumed_table_keeps_the_rows_before() {
+fn a_resumed_table_keeps_the_rows_so_far() {
     let path = std::env::temp_dir().join(format!("motile-resumed-{}.csv", std::process::id()));
     let mut table = CsvTable::create(&path, &["time", "x"]).unwrap();
     for time in [0.0, 0.1, 0.2, 0.3] {
@@ -31,11 +31,9 @@ fn a_resumed_table_keeps_the_rows_before() {
     table.flush().unwrap();
     let written = std::fs::read_to_string(&path).unwrap();
     let mut table = CsvTable::resume(&path, &["time", "x"], 0.2).unwrap();
-    assert_eq!(table.rows().len(), 2);
+    assert_eq!(table.rows().len(), 3);
     assert!(table.rows()[1][1].is_nan() && table.rows()[0][1] == -10.0);
-    for time in [0.2, 0.3] {
-        table.push(&[time, 1.0 / (time - 0.1)]).unwrap();
-    }
+    table.push(&[0.3, 1.0 / (0.3 - 0.1)]).unwrap();
     table.flush().unwrap();
     assert_eq!(std::fs::read_to_string(&path).unwrap(), written);
     // Other columns, a row that was torn, and no file at all.

@@ -34,3 +34,39 @@ fn the_rows_are_those_of_the_droplet_asked_for() {
         assert_eq!(rows.records().records()[0].observables.velocity, start);
     }
 }
+
+/// A run that goes on in another program leaves the file that it would have left without the break, rows of times that
+/// were due and no other.
+#[test]
+fn a_run_that_was_cut_leaves_the_same_file() {
+    let setup = Setup {
+        method: Method::Integral(IntegralMethod { nodes: 24, cells: 48 }),
+        step: StepSize::Fixed(0.01),
+        ..Setup::default()
+    };
+    let path = |name: &str| std::env::temp_dir().join(format!("motile-cut-{name}-{}.csv", std::process::id()));
+    let every = Every::StepAfter(0.035);
+    for cut in [0.2, 0.21] {
+        let mut texts = Vec::new();
+        for (name, ends) in [("whole", vec![0.5]), ("parts", vec![cut, 0.5])] {
+            let mut saved: Option<Checkpoint> = None;
+            for end in ends {
+                let Built { mut scene, droplets, .. } = setup.build().unwrap();
+                saved.iter().for_each(|saved| scene.resume(saved).unwrap());
+                let mut rows = TrajectoryCsv::create(path(name), scene.system_mut(), droplets[0]).unwrap();
+                // Cut as by a signal: what is saved is in the middle of a run to 0.5.
+                let mut cut = |system: &mut System<AnyFlow>| {
+                    let due = (system.time() - end).abs() < 1e-9 && end < 0.5;
+                    if due { Err("cut") } else { Ok(()) }
+                };
+                let ended = scene.run(0.5).observe(every, &mut rows).observe(Every::Steps(1), &mut cut).go();
+                assert_eq!(ended.is_err(), end < 0.5);
+                saved = Some(scene.checkpoint(""));
+            }
+            texts.push(std::fs::read_to_string(path(name)).unwrap());
+            std::fs::remove_file(path(name)).unwrap();
+        }
+        assert_eq!(texts[0], texts[1], "cut at {cut}");
+        assert!(texts[0].lines().count() > 14);
+    }
+}
