@@ -71,7 +71,8 @@ fn a_film_drains_as_it_should() {
         (gap / exact - 1.0, scene.steps())
     });
     assert!(exact < 0.08 && runs[2].0.abs() < 5e-3 && runs.iter().all(|run| run.1 < 60), "{exact} {runs:?}");
-    assert!(runs[2].0.abs() < 0.25 * runs[1].0.abs().min(runs[0].0.abs()), "{runs:?}");
+    // What is left in the end is what the inside gives way.
+    assert!(runs.windows(2).all(|pair| pair[1].0.abs() < 0.7 * pair[0].0.abs()), "{runs:?}");
 }
 
 /// At rest the repulsion carries the force: `-dE/dd = FORCE` with the energy `E(d)` of a circle at the gap d.
