@@ -18,7 +18,7 @@ use motile::active_interface::{
     observables::{InterfaceState, centroid_velocity},
 };
 use motile::ib_core::{Every, Handle, System, Vec2};
-use motile::{AnyFlow, Built, DropletSetup, Particles, Region, RepulsionSetup};
+use motile::{AnyFlow, Built, DropletSetup, Particles, Region};
 use motile_examples::{DropletFlags, Job, MethodFlags, OutputFlags, Summary, pair, positive, settle_contrast};
 use motile_output::{CsvTable, Look, Raster, Snapshot};
 
@@ -51,9 +51,6 @@ struct Flags {
     /// Viscosity of the second droplet; without it that of the first
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     second_viscosity_in: Option<f64>,
-    /// Strength and range of a short-range repulsion between the droplets; without it there is none
-    #[arg(long, value_name = "STRENGTH,RANGE", value_parser = pair, allow_hyphen_values = true)]
-    repulsion: Option<[f64; 2]>,
     #[command(flatten)]
     droplet: DropletFlags,
     #[command(flatten)]
@@ -89,7 +86,8 @@ fn meet(flags: &Flags) -> Result<()> {
     };
     let mut setup = flags.method.setup(&flags.droplet, None)?;
     setup.region = Region::Box { lengths: flags.sides };
-    setup.repulsion = flags.repulsion.map(|[strength, range]| RepulsionSetup { strength, range });
+    // Films that a method cannot see drain until the droplets overlap: that is an error here.
+    setup.least_gap = setup.least_gap.or(Some(0.0));
     let first = DropletSetup { name: "first droplet".to_owned(), centre: places[0], ..setup.droplets[0].clone() };
     let activity = flags.second_activity.unwrap_or(first.activity());
     let second = DropletSetup {
@@ -102,10 +100,8 @@ fn meet(flags: &Flags) -> Result<()> {
     };
     setup.droplets = vec![first, second];
     settle_contrast(&mut setup);
-    let Built { scene, droplets, .. } = setup.build()?;
+    let Built { mut scene, droplets, .. } = setup.build()?;
     let (droplets, sides) = ([droplets[0], droplets[1]], Vec2::from(flags.sides));
-    // Films that a method cannot see drain until the droplets overlap: that is an error here.
-    let mut scene = scene.with_least_gap(0.0)?;
 
     // The run, observed.
     let mut job = Job::new(&mut scene, &setup, flags.method.time, &flags.output, "two_droplets")?;
@@ -124,7 +120,11 @@ fn meet(flags: &Flags) -> Result<()> {
     summary.put("second_speed", speed2, "(R0 per time)");
     summary.put("distance", distance, "of the centres (R0)");
     summary.put("minimum_gap", scene.system().minimum_gap(), "between the interfaces, over the run (R0)");
-    summary.put("repulsion", flags.repulsion.map(|values| values.to_vec()), "strength and range, if there was one");
+    summary.put(
+        "repulsion",
+        flags.method.repulsion.map(|values| values.to_vec()),
+        "strength and range, if there was one",
+    );
     for (name, droplet) in ["first_area_change", "second_area_change"].into_iter().zip(droplets) {
         let body = scene.body(droplet)?;
         let change = polygon_moments(body.markers())?.area / body.initial_area() - 1.0;

@@ -3,11 +3,11 @@
 use anyhow::{Result, ensure};
 use clap::{Args, ValueEnum};
 use motile::ib_core::{AnyKernel, StepSize};
-use motile::{Contrast, GridMethod, IntegralMethod, Method, MethodKind, Setup};
+use motile::{Contrast, GridMethod, IntegralMethod, Method, MethodKind, RepulsionSetup, Setup};
 
 use crate::DropletFlags;
 use crate::flags::RADIUS;
-use crate::parse::{cells, kernel, nodes, one_of, positive, time_step};
+use crate::parse::{cells, kernel, nodes, one_of, pair, positive, time_step};
 
 /// Settings that go together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -57,6 +57,12 @@ pub struct MethodFlags {
     /// Cells of the concentration without a grid [default: 288]
     #[arg(long, value_parser = cells, allow_hyphen_values = true)]
     pub concentration_cells: Option<usize>,
+    /// Strength and range of a short-range repulsion between interfaces, solids and walls; without it there is none
+    #[arg(long, value_name = "STRENGTH,RANGE", value_parser = pair, allow_hyphen_values = true)]
+    pub repulsion: Option<[f64; 2]>,
+    /// Gap (R0) below which the run ends
+    #[arg(long, value_name = "GAP", allow_hyphen_values = true)]
+    pub least_gap: Option<f64>,
     /// Settings that go together
     #[arg(long, value_enum, default_value_t = Preset::Accurate)]
     pub preset: Preset,
@@ -83,6 +89,9 @@ impl MethodFlags {
             MethodKind::Integral => Method::Integral(self.integral(integral)?),
         };
         setup.step = self.dt.unwrap_or(setup.step);
+        let repulsion = self.repulsion.map(|[strength, range]| RepulsionSetup { strength, range });
+        setup.repulsion = repulsion.or(setup.repulsion);
+        setup.least_gap = self.least_gap.or(setup.least_gap);
         if let StepSize::Fixed(dt) = setup.step {
             ensure!(dt <= self.time, "--dt {dt} is longer than --time {}: give a smaller time step", self.time);
         }

@@ -2,6 +2,7 @@
 
 mod allocation;
 mod channel;
+mod contact;
 mod contrast;
 mod curved_walls;
 mod elastic_walls;

@@ -2,6 +2,7 @@
 
 mod between;
 mod boundary;
+mod films;
 mod overlap;
 mod repulsion;
 mod solid_gap;
@@ -9,6 +10,7 @@ mod wall_gap;
 
 pub(crate) use between::Outline;
 pub use boundary::Boundary;
+pub(crate) use films::{Films, Surroundings};
 pub use overlap::Overlap;
 pub use repulsion::Repulsion;
 pub use solid_gap::{NearestSolid, SolidEntered, SolidGap};
@@ -17,7 +19,7 @@ pub use wall_gap::wall_gap;
 use crate::{Body, Discretisation, Domain, MarkerKind, Markers, Vec2};
 
 /// How far boundaries are looked for during steps, in units of what a contact is measured in.
-const REACH: f64 = 4.0;
+pub(crate) const REACH: f64 = 4.0;
 
 /// The narrowest gap between an interface and another body, or between an interface and its own image in a periodic
 /// domain.

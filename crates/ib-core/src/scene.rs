@@ -14,11 +14,13 @@ pub use step_control::{Limiting, StepReport, StepSize};
 pub use system::{BodyFlow, System};
 pub use warning::{Warning, Warnings};
 
-use input_checks::{finite, positive};
+use input_checks::{InputError, finite, positive};
 
 use crate::integrator::ErrorEstimate;
 use crate::{
-    Body, Hydrodynamics, Integrator, Midpoint, Observe, Repulsion, SceneError, body::StepInfo, checkpoint::SavedState,
+    Body, Hydrodynamics, Integrator, Midpoint, Observe, Repulsion, SceneError,
+    body::{StepCause, StepInfo},
+    checkpoint::SavedState,
     integrator::IntegratorWork,
 };
 
@@ -67,7 +69,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         Scene { system, integrator, step_size, control, report, saved, saved_lengths, error }
     }
 
-    /// The same scene with a short-range repulsion between different interfaces (none by default).
+    /// The same scene with a short-range repulsion between interfaces, solids and walls (none by default).
     #[must_use]
     pub fn with_repulsion(mut self, repulsion: Repulsion) -> Self {
         self.system.repulsion = Some(repulsion);
@@ -81,7 +83,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     ///
     /// # Errors
     /// A bound that is not finite.
-    pub fn with_least_gap(mut self, bound: f64) -> Result<Self, SceneError> {
+    pub fn with_least_gap(mut self, bound: f64) -> Result<Self, InputError> {
         self.system.least_gap = Some(finite("the bound on gaps", bound)?);
         Ok(self)
     }
@@ -146,7 +148,7 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
     /// [`SceneError::Input`], [`SceneError::TimeStepTooLarge`].
     pub fn check_step(&self, dt: f64) -> Result<(), SceneError> {
         positive("the time step", dt)?;
-        if let Some((limit, reason, body)) = self.step_limit()
+        if let Some((limit, reason, body)) = self.stable_step()
             && dt > limit
         {
             return Err(SceneError::TimeStepTooLarge { dt, limit, reason, body: body.to_owned() });
@@ -154,14 +156,24 @@ impl<H: Hydrodynamics, I: Integrator> Scene<H, I> {
         Ok(())
     }
 
-    /// The largest stable step of the scene's integrator at the present state (time), what sets it, and of which body.
+    /// The largest stable step of the scene's integrator at the present state (time), or the time in which a film would
+    /// close at its present velocity where that is shorter, what sets it, and of which body.
     #[must_use]
     pub fn step_limit(&self) -> Option<(f64, &'static str, &str)> {
+        self.least_limit(|_| true)
+    }
+
+    /// The same for what is stable alone.
+    pub(crate) fn stable_step(&self) -> Option<(f64, &'static str, &str)> {
+        self.least_limit(|cause| cause != StepCause::Accuracy)
+    }
+
+    fn least_limit(&self, counts: impl Fn(StepCause) -> bool) -> Option<(f64, &'static str, &str)> {
         let (interval, stabilised) = (self.integrator.stability_interval(), self.integrator.stabilised());
         let mut least: Option<(f64, &str, &str)> = None;
         self.system.each_limit(&mut |limit, body| {
             let dt = limit.for_interval(interval, stabilised);
-            if least.is_none_or(|(shortest, ..)| dt.total_cmp(&shortest).is_lt()) {
+            if counts(limit.cause) && least.is_none_or(|(shortest, ..)| dt.total_cmp(&shortest).is_lt()) {
                 least = Some((dt, limit.reason, body));
             }
         });

@@ -92,11 +92,11 @@ impl Plan {
     /// A file that cannot be read or is no plan.
     pub(crate) fn read(path: &Path) -> Result<Self> {
         let read = || -> Result<Self> {
-            let mut plan: Self = toml::from_str(&fs::read_to_string(path)?)?;
+            let mut plan: Self = toml::from_str(&text_of(path)?)?;
             ensure!(plan.time.is_finite() && plan.time > 0.0, "time = {}: give a time above 0", plan.time);
             if let SceneEntry::File(file) = &plan.scene {
                 let file = path.parent().unwrap_or(Path::new("")).join(file);
-                let text = fs::read_to_string(&file).with_context(|| format!("scene {}", file.display()))?;
+                let text = text_of(&file).with_context(|| format!("scene {}", file.display()))?;
                 plan.scene = SceneEntry::Here(toml::from_str(&text)?);
             }
             Ok(plan)
@@ -183,6 +183,12 @@ fn perturbed(base: &mut Table) -> Vec<String> {
         paths.push(format!("droplets.{k}.particles.start.perturbed.seed"));
     }
     paths
+}
+
+fn text_of(path: &Path) -> Result<String> {
+    // A device could go on for ever.
+    ensure!(!path.exists() || path.is_file(), "it is no regular file");
+    Ok(fs::read_to_string(path)?)
 }
 
 /// All pairs.

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use motile::active_interface::{ActiveDroplet, Flux, curve::polygon_area};
 use motile::ib_core::{Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, StepSize, System, Vec2};
-use motile::{AnyFlow, GridMethod, IntegralMethod, MarkerMotion, Method, Particles, Setup};
+use motile::{AnyFlow, GridMethod, IntegralMethod, MarkerMotion, Method, Particles, RepulsionSetup, Setup};
 
 use crate::hard_cases::{CaseError, Ending, Look, Outcome, Way};
 
@@ -92,6 +92,9 @@ pub(crate) fn measured<I: Integrator>(
         seconds,
     }
 }
+
+/// What holds films open in the cases that are held apart: 0.2 R0 is two spacings or nodes.
+pub(crate) const HELD: RepulsionSetup = RepulsionSetup { strength: 1000.0, range: 0.2 };
 
 /// Half of what is stable.
 pub(crate) const AUTO: StepSize = StepSize::OfLimit(0.5);

@@ -2,9 +2,9 @@
 
 use motile::ib_core::Body;
 use motile::stokes_grid::Drive;
-use motile::{Built, DropletSetup, Exclusion, GridMethod, Method, Particles, Region, Setup};
+use motile::{Built, DropletSetup, Exclusion, GridMethod, Method, Particles, Region, RepulsionSetup, Setup};
 
-use crate::hard_cases::drive::{ADAPTIVE, by, run, run_way};
+use crate::hard_cases::drive::{ADAPTIVE, HELD, by, run, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
 
 const ALL: &[Way] = &[Way::Grid, Way::Integral, Way::Thesis];
@@ -74,8 +74,14 @@ pub(crate) fn trials() -> Vec<Trial> {
         Recipe::new(3, "viscosity 10, tension up to 1000", &[Way::Thesis], low_viscosity).ending_in(UNFILTERED),
         Recipe::new(5, "five cells a radius", &[Way::Grid], five_cells),
         Recipe::new(5, "five cells a radius", &[Way::Thesis], five_cells).ending_in(UNFILTERED),
-        Recipe::new(6, "a box of 2.2 R0", &[Way::Integral], narrow_box),
-        Recipe::new(6, "a box of 2.2 R0", &[Way::Grid, Way::Thesis], narrow_box).ending_in(DRAINED),
+        Recipe::new(6, "a box of 2.2 R0", &[Way::Integral], |way, extent, look| narrow_box(None, way, extent, look)),
+        Recipe::new(6, "a box of 2.2 R0", &[Way::Grid, Way::Thesis], |way, extent, look| {
+            narrow_box(None, way, extent, look)
+        })
+        .ending_in(DRAINED),
+        Recipe::new(6, "a box of 2.2 R0, held apart", &[Way::Grid], |way, extent, look| {
+            narrow_box(Some(HELD), way, extent, look)
+        }),
         Recipe::new(7, "a circle that touches both walls", ALL, |way, extent, look| {
             let region = Region::Channel { length: 6.0, width: 2.0, drive: Drive::ZeroGradient };
             let base = Setup { region, droplets: one(-4.0, 10.0), ..coarse() };
@@ -102,11 +108,13 @@ pub(crate) fn trials() -> Vec<Trial> {
         })
         .ending_in(&[Ending::Finished, Ending::Stagnated, Ending::SelfCrossing]),
         Recipe::new(16, "a grid of 7 x 1000", &[Way::Grid, Way::Thesis], |way, extent, look| {
-            let base = on_grid(GridMethod::of_spacing(0.3), [2.1, 300.0]);
-            run_by(way, &base, extent.pick(1.0, 10.0), look)
+            seven_columns(None, way, extent, look)
         })
         .ending_in(DRAINED)
         .area_within(1e-2),
+        Recipe::new(16, "a grid of 7 x 1000, held apart", &[Way::Grid], |way, extent, look| {
+            seven_columns(Some(RepulsionSetup { range: 0.6, ..HELD }), way, extent, look)
+        }),
         Recipe::new(16, "a grid of 997 x 991", &[Way::Grid], |way, extent, look| {
             let base = on_grid(GridMethod::of_spacing(0.0125), [12.4625, 12.3875]);
             run_by(way, &base, extent.pick(0.01, 0.1), look)
@@ -144,8 +152,23 @@ fn film(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> 
     run_by(way, &Setup { region, droplets, ..coarse() }, extent.pick(10.0, 20.0), look)
 }
 
-fn narrow_box(way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
-    let base = Setup { droplets: one(-3.0, 10.0), ..on_grid(GridMethod::of_spacing(0.1), [2.2, 2.2]) };
+fn seven_columns(
+    repulsion: Option<RepulsionSetup>,
+    way: Way,
+    extent: Extent,
+    look: Look<'_>,
+) -> Result<Outcome, CaseError> {
+    let base = Setup { repulsion, ..on_grid(GridMethod::of_spacing(0.3), [2.1, 300.0]) };
+    run_by(way, &base, extent.pick(1.0, 10.0), look)
+}
+
+fn narrow_box(
+    repulsion: Option<RepulsionSetup>,
+    way: Way,
+    extent: Extent,
+    look: Look<'_>,
+) -> Result<Outcome, CaseError> {
+    let base = Setup { repulsion, droplets: one(-3.0, 10.0), ..on_grid(GridMethod::of_spacing(0.1), [2.2, 2.2]) };
     run_by(way, &base, extent.pick(5.0, 60.0), look)
 }
 

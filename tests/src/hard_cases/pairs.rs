@@ -3,8 +3,26 @@
 use motile::stokes_grid::Drive;
 use motile::{DropletSetup, Exclusion, GridMethod, Method, Particles, Region, RepulsionSetup, Setup};
 
-use crate::hard_cases::drive::{by, run_way};
-use crate::hard_cases::{Ending, Recipe, Trial, Way, expand};
+use crate::hard_cases::drive::{HELD, by, run_way};
+use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
+
+/// Two swimmers that press against each other, with or without a repulsion.
+fn head_on(repulsion: Option<RepulsionSetup>, way: Way, extent: Extent, look: Look<'_>) -> Result<Outcome, CaseError> {
+    let droplet = |name: &str, x: f64, angle: f64| DropletSetup {
+        name: name.to_owned(),
+        centre: [x, 0.0],
+        angle,
+        ..DropletSetup::active(-4.0)
+    };
+    let setup = Setup {
+        region: Region::Box { lengths: [8.0, 4.0] },
+        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        repulsion,
+        droplets: vec![droplet("first droplet", -1.3, 0.0), droplet("second droplet", 1.3, std::f64::consts::PI)],
+        ..Setup::default()
+    };
+    run_way(way, by(way, &setup).build()?.scene, extent.pick(6.0, 60.0), look)
+}
 
 pub(crate) fn trials() -> Vec<Trial> {
     expand(&[
@@ -12,29 +30,18 @@ pub(crate) fn trials() -> Vec<Trial> {
             13,
             "two swimmers head-on",
             &[Way::Grid, Way::Integral, Way::Thesis, Way::Chebyshev],
-            |way, extent, look| {
-                let droplet = |name: &str, x: f64, angle: f64| DropletSetup {
-                    name: name.to_owned(),
-                    centre: [x, 0.0],
-                    angle,
-                    ..DropletSetup::active(-4.0)
-                };
-                let setup = Setup {
-                    region: Region::Box { lengths: [8.0, 4.0] },
-                    method: Method::Grid(GridMethod::of_spacing(0.1)),
-                    droplets: vec![
-                        droplet("first droplet", -1.3, 0.0),
-                        droplet("second droplet", 1.3, std::f64::consts::PI),
-                    ],
-                    ..Setup::default()
-                };
-                let scene = by(way, &setup).build()?.scene;
-                run_way(way, scene, extent.pick(6.0, 60.0), look)
-            },
+            |way, extent, look| head_on(None, way, extent, look),
         )
         // They press against each other until the film between them is thinner than the method can see, later the finer
         // it is.
         .ending_in(&[Ending::Finished, Ending::Crossing, Ending::Stagnated, Ending::SelfCrossing])
+        .area_within(2e-3),
+        Recipe::new(
+            13,
+            "two swimmers head-on, held apart",
+            &[Way::Grid, Way::Integral, Way::Chebyshev],
+            |way, extent, look| head_on(Some(HELD), way, extent, look),
+        )
         .area_within(2e-3),
         Recipe::new(13, "a passive droplet overtakes another", &[Way::Grid, Way::Integral], |way, extent, look| {
             // At the centre line the flow is faster than beside it.

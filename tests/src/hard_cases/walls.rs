@@ -5,7 +5,7 @@ use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid};
 use motile::{AnyFlow, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
 
-use crate::hard_cases::drive::{by, run_way};
+use crate::hard_cases::drive::{HELD, by, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
 
 /// Walls that give way around a throat far narrower than the droplet fold at its corners: where a triangle is
@@ -22,6 +22,14 @@ fn between_walls(k: f64, shape: &ChannelShape, h: f64, length: f64) -> Result<Se
         solids: SolidSetup::walls(shape, &Material::Springs { shear }),
         ..Setup::default()
     })
+}
+
+/// A strong swimmer before a throat of a quarter of its radius, between soft walls.
+fn throat() -> Result<Setup, CaseError> {
+    let shape = ChannelShape::Constriction { width: 2.0, throat: 0.25, throat_length: 1.0, ramp: 1.0, centre: 0.0 };
+    let mut setup = between_walls(1e4, &shape, 0.125, 8.0)?;
+    setup.droplets = vec![DropletSetup { centre: [-2.2, 0.0], ..DropletSetup::active(-5.0) }];
+    Ok(setup)
 }
 
 /// A swimmer of activity -2 in a channel as wide as it, between walls of Cowley's spring constant k.
@@ -82,13 +90,18 @@ pub(crate) fn trials() -> Vec<Trial> {
             stiff(1e7, 10.0, [0.003, 0.2], way, extent, look)
         }),
         Recipe::new(8, "a throat of R0/4", both, |way, extent, look| {
-            let shape =
-                ChannelShape::Constriction { width: 2.0, throat: 0.25, throat_length: 1.0, ramp: 1.0, centre: 0.0 };
-            let mut setup = between_walls(1e4, &shape, 0.125, 8.0)?;
-            setup.droplets = vec![DropletSetup { centre: [-2.2, 0.0], ..DropletSetup::active(-5.0) }];
+            let setup = throat()?;
             run_way(way, by(way, &setup).build()?.scene, extent.pick(1.0, 40.0), look)
         })
         .ending_in(SQUEEZED)
+        .area_within(5e-3),
+        // A material whose energy grows without a bound as a triangle is flattened, and no contact.
+        Recipe::new(8, "a throat of R0/4, neo-Hookean, held apart", both, |way, extent, look| {
+            let mut setup = Setup { repulsion: Some(HELD), ..throat()? };
+            let shear = Moduli::from_thesis_spring_constant(1e4)?.shear();
+            setup.solids.iter_mut().for_each(|wall| wall.material = Material::NeoHookean { shear, bulk: 2.0 * shear });
+            run_way(way, by(way, &setup).build()?.scene, extent.pick(1.0, 40.0), look)
+        })
         .area_within(5e-3),
         Recipe::new(15, "a highly irregular wall mesh", both, |way, extent, look| {
             let mesh = disturbed(|k, p| p + 0.025 * Vec2::new(noise(2 * k), noise(2 * k + 1)))?;

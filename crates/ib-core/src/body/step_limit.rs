@@ -13,6 +13,9 @@ pub enum StepCause {
     },
     /// Something that is carried along, which no integrator here allows longer steps for.
     Transport,
+    /// Something that longer steps do not follow: steps of a part of the limit and adaptive ones keep it, fixed ones
+    /// may be longer.
+    Accuracy,
 }
 
 /// A bound on the time step.
@@ -42,7 +45,7 @@ impl StepLimit {
         match self.cause {
             StepCause::Decay => 0.5 * interval * self.dt,
             StepCause::Stabilised { bare } if !stabilised => 0.5 * interval * bare,
-            StepCause::Stabilised { .. } | StepCause::Transport => self.dt,
+            StepCause::Stabilised { .. } | StepCause::Transport | StepCause::Accuracy => self.dt,
         }
     }
 
@@ -52,7 +55,7 @@ impl StepLimit {
         match self.cause {
             StepCause::Decay => 2.0 / self.dt,
             StepCause::Stabilised { bare } => 2.0 / bare,
-            StepCause::Transport => 0.0,
+            StepCause::Transport | StepCause::Accuracy => 0.0,
         }
     }
 }

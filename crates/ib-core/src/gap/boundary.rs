@@ -92,15 +92,21 @@ pub(super) fn nearest(mut difference: Vec2, periods: [Option<f64>; 2]) -> Vec2 {
 
 /// The nearest place of a boundary so far.
 #[derive(Debug, Clone, Copy)]
-struct Nearest {
+pub(super) struct Nearest {
     squared: f64,
     /// Distance from the line through the side, positive outside.
     height: f64,
+    /// Number of the side.
+    pub(super) side: usize,
+    /// How far along it the place is, from 0 at its start to 1 at its end.
+    pub(super) part: f64,
+    /// From there to the point (length).
+    pub(super) away: Vec2,
 }
 
 impl Nearest {
     /// Looks at a side, and where it is so long that another image of it may be nearer, at that too.
-    fn look(&mut self, side: &[Vec2; 2], point: Vec2, periods: [Option<f64>; 2]) {
+    fn look(&mut self, number: usize, side: &[Vec2; 2], point: Vec2, periods: [Option<f64>; 2]) {
         let along = side[1] - side[0];
         let from_middle = nearest(point - 0.5 * (side[0] + side[1]), periods);
         let other = |k: usize| {
@@ -110,26 +116,32 @@ impl Nearest {
         let [x, y] = [other(0), other(1)];
         for dx in [Some(0.0), x].into_iter().flatten() {
             for dy in [Some(0.0), y].into_iter().flatten() {
-                self.look_at(along, from_middle + Vec2::new(dx, dy));
+                self.look_at(number, along, from_middle + Vec2::new(dx, dy));
             }
         }
     }
 
     /// Looks at a straight side along `along`, from whose middle the point is `from_middle` away.
-    fn look_at(&mut self, along: Vec2, from_middle: Vec2) {
+    fn look_at(&mut self, side: usize, along: Vec2, from_middle: Vec2) {
         let length = along.length_squared();
         if length == 0.0 {
             return;
         }
         let part = (from_middle.dot(along) / length).clamp(-0.5, 0.5);
-        let squared = (from_middle - part * along).length_squared();
+        let away = from_middle - part * along;
+        let squared = away.length_squared();
         let height = from_middle.perp_dot(along) / length.sqrt();
         // At a corner both sides are equally far; the one that the point stands more upright on says whether it is
         // inside.
         let tie = self.squared.is_finite() && (squared - self.squared).abs() <= TIE * (squared + self.squared);
         if (tie && height.abs() > self.height.abs()) || (!tie && squared < self.squared) {
-            *self = Self { squared, height };
+            *self = Self { squared, height, side, part: part + 0.5, away };
         }
+    }
+
+    /// The signed distance (length). What is on a side has no height and is at no distance.
+    pub(super) fn distance(&self) -> f64 {
+        self.squared.sqrt().copysign(self.height)
     }
 }
 
@@ -224,13 +236,17 @@ impl Boundary {
 
     /// The same if it is below `reach` (length).
     pub(crate) fn distance_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<f64> {
+        self.nearest_within(point, periods, reach).map(|found| found.distance())
+    }
+
+    /// The nearest place to `point` below `reach` (length).
+    pub(super) fn nearest_within(&self, point: Vec2, periods: [Option<f64>; 2], reach: f64) -> Option<Nearest> {
         if self.frame()?.squared_distance(point, periods) > reach * reach {
             return None;
         }
-        let mut found = Nearest { squared: reach * reach, height: 0.0 };
+        let mut found = Nearest { squared: reach * reach, height: 0.0, side: 0, part: 0.0, away: Vec2::ZERO };
         self.search(self.levels.len().checked_sub(1)?, 0, point, periods, &mut found);
-        // What is on a side has no height and is at no distance.
-        (found.squared < reach * reach).then(|| found.squared.sqrt().copysign(found.height))
+        (found.squared < reach * reach).then_some(found)
     }
 
     /// Looks at what is in a box of a level, nearest boxes first.
@@ -238,7 +254,7 @@ impl Boundary {
         let start = frame * GROUP;
         let Some(below) = level.checked_sub(1) else {
             let end = (start + GROUP).min(self.sides.len());
-            return self.sides[start..end].iter().for_each(|side| found.look(side, point, periods));
+            return (start..end).for_each(|side| found.look(side, &self.sides[side], point, periods));
         };
         let frames = &self.levels[below];
         let end = (start + GROUP).min(frames.len());

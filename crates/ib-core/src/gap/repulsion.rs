@@ -1,24 +1,28 @@
-//! A short-range repulsion between interfaces.
+//! A short-range repulsion between surfaces.
 
 use input_checks::{InputError, positive};
 
-use super::boundary::nearest;
-use crate::{MarkerKind, Markers};
-
-/// A repulsion between different interfaces that come close, an option for scenes of several droplets whose films the
-/// grid does not resolve; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of
+/// A repulsion between surfaces that come closer than its range, an option for films that are not resolved or that
+/// would drain for ever; off unless a scene is told otherwise ([`crate::Scene::with_repulsion`]). It is not part of
 /// Cowley's model.
 ///
-/// Each pair of pieces of interfaces of lengths ds and ds', a distance r < range apart, is pushed apart by the force
+/// It acts between different interfaces, between an interface and its own images, solids, and rigid walls of any shape,
+/// and has an energy: per length of an interface at the gap d from another surface
 /// ```text
-/// strength ds ds' (1 - r/range)^2
+/// phi(d) = strength range^2 (1/x + 2 ln x - x),    x = d/range < 1,      and nothing beyond,
 /// ```
-/// along the line between them, so that all forces together have no resultant and no torque.
+/// so that surfaces are pushed apart by the pressure `-phi' = strength range (1/x - 1)^2`, which is `strength range` at
+/// half the range, without bound as the gap closes, and continuous with its derivative where it begins. All forces are
+/// minus the gradient of that energy by the places of the markers, so that those of different bodies have no resultant
+/// and no torque together; rigid walls take up what they are pushed by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Repulsion {
     strength: f64,
     range: f64,
 }
+
+/// Part of the range below which the pressure grows in proportion to the gap: steps that are tried may overlap.
+const LEAST: f64 = 0.02;
 
 impl Repulsion {
     /// A repulsion of that strength (force per length squared) and range (length).
@@ -44,48 +48,50 @@ impl Repulsion {
         self.range
     }
 
-    /// Largest stable step of the midpoint rule (time) in fluid of viscosity eta: two flat interfaces within the range
-    /// move apart at a rate of at most about `strength range / (2 eta)`.
-    pub(crate) fn step_limit(&self, viscosity: f64) -> f64 {
-        4.0 * viscosity / (self.strength * self.range)
+    /// Energy per length of an interface (force) at a gap (length).
+    #[must_use]
+    pub fn energy(&self, gap: f64) -> f64 {
+        let (x, unit) = (gap / self.range, self.strength * self.range * self.range);
+        let inner = |x: f64| unit * (1.0 / x + 2.0 * x.ln() - x);
+        if x >= 1.0 {
+            return 0.0;
+        }
+        if x >= LEAST {
+            return inner(x);
+        }
+        let below = LEAST - x;
+        let pressure = (1.0 / LEAST - 1.0).powi(2);
+        inner(LEAST) + unit * below * (pressure + 0.5 * below * slope(LEAST))
     }
 
-    /// Adds the forces between all interfaces to those of the markers.
-    pub(crate) fn add(&self, markers: &mut Markers, periods: [Option<f64>; 2]) {
-        for first in 0..markers.groups().len() {
-            for second in first + 1..markers.groups().len() {
-                self.add_between(first, second, markers, periods);
-            }
+    /// The pressure (force per length) at a gap (length).
+    #[must_use]
+    pub fn pressure(&self, gap: f64) -> f64 {
+        let (x, unit) = (gap / self.range, self.strength * self.range);
+        if x >= 1.0 {
+            return 0.0;
         }
+        let nearest = x.max(LEAST);
+        unit * ((1.0 / nearest - 1.0).powi(2) + (nearest - x) * slope(nearest))
     }
 
-    fn add_between(&self, first: usize, second: usize, markers: &mut Markers, periods: [Option<f64>; 2]) {
-        let [a, b] = [first, second].map(|index| markers.groups()[index].clone());
-        if [a.kind, b.kind].contains(&MarkerKind::Points) {
-            return;
-        }
-        // Half the distance of the neighbours.
-        let length = |markers: &Markers, range: &std::ops::Range<usize>, k: usize| {
-            let (count, i) = (range.len(), k - range.start);
-            let [before, after] =
-                [(i + count - 1) % count, (i + 1) % count].map(|i| markers.positions[range.start + i]);
-            0.5 * (after - before).length()
-        };
-        for i in a.range.clone() {
-            let (place, piece) = (markers.positions[i], length(markers, &a.range, i));
-            for j in b.range.clone() {
-                let apart = nearest(place - markers.positions[j], periods);
-                let distance = apart.length();
-                if distance < self.range && distance > 0.0 {
-                    let closeness = 1.0 - distance / self.range;
-                    let size = self.strength * piece * length(markers, &b.range, j) * closeness * closeness;
-                    let force = size / distance * apart;
-                    markers.forces[i] += force;
-                    markers.forces[j] -= force;
-                }
-            }
-        }
+    /// The fastest rate (1/time) at which a film of this thickness (length) opens in fluid of viscosity eta: a pressure
+    /// between two surfaces at the distance d moves them apart by at most d/(4 eta) of it, which is a film's with
+    /// surfaces that slip.
+    pub(crate) fn rate(&self, gap: f64, viscosity: f64) -> f64 {
+        let x = (gap / self.range).clamp(LEAST, 1.0);
+        0.25 * self.strength * self.range * x * slope(x) / viscosity
     }
+
+    /// The same of films as they are where a moderate pressure is held.
+    pub(crate) fn usual_rate(&self, viscosity: f64) -> f64 {
+        self.rate(0.7 * self.range, viscosity)
+    }
+}
+
+/// Minus the derivative of (1/x - 1)^2.
+fn slope(x: f64) -> f64 {
+    2.0 * (1.0 / x - 1.0) / (x * x)
 }
 
 #[cfg(test)]

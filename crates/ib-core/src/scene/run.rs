@@ -331,12 +331,15 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
 
     /// Refuses a step size that is a part of the stability limit where nothing that moves has one.
     fn check_limit(&mut self) -> Result<(), SceneError> {
-        let moves = self.scene.system().state_len() > 0;
-        if matches!(self.step, StepSize::OfLimit(_)) && moves && self.limit().is_none() {
+        if !matches!(self.step, StepSize::OfLimit(_)) || self.scene.system().state_len() == 0 {
+            return Ok(());
+        }
+        let unknown = |scene: &Scene<H, I>| scene.stable_step().is_none_or(|(dt, ..)| dt.is_infinite());
+        if unknown(self.scene) {
             // Some limits are those of the flow, which may not be known yet.
             self.scene.system_mut().evaluate()?;
         }
-        if matches!(self.step, StepSize::OfLimit(_)) && moves && self.limit().is_none() {
+        if unknown(self.scene) {
             return Err(SceneError::NoStepLimit { time: self.scene.time() });
         }
         Ok(())

@@ -10,10 +10,10 @@ pub use bodies::BodyFlow;
 use stokes_grid::Drive;
 
 use super::SceneId;
-use crate::gap::{Gap, Gaps};
+use crate::gap::{Films, Gap, Gaps, Surroundings};
 use crate::{
     Body, BodyError, FlowSample, Handle, Hydrodynamics, Markers, Repulsion, SceneError, Vec2,
-    body::{StepInfo, StepLimit},
+    body::{StepCause, StepInfo, StepLimit},
     checkpoint::SavedState,
     hydrodynamics::SolveReport,
 };
@@ -45,6 +45,11 @@ pub struct System<H> {
     minimum_wall_gap: Option<f64>,
     minimum_gap: Option<f64>,
     gaps: Gaps,
+    films: Films,
+    /// The time in which a film of the present state would close at its velocity, and of which body.
+    closing: Option<(f64, usize)>,
+    /// How fast a repulsion opens the films of the present state (1/time).
+    opening: f64,
     /// The interface that each body lies in, the innermost one, and the viscosity there where that is not the exterior
     /// fluid's.
     around: Vec<Option<usize>>,
@@ -73,6 +78,9 @@ impl<H: Hydrodynamics> System<H> {
             minimum_wall_gap: None,
             minimum_gap: None,
             gaps: Gaps::default(),
+            films: Films::default(),
+            closing: None,
+            opening: 0.0,
             around: Vec::new(),
             outside: Vec::new(),
             before: Vec::new(),
@@ -211,6 +219,7 @@ impl<H: Hydrodynamics> System<H> {
             self.markers.velocities.iter_mut().zip(velocities).for_each(|(to, from)| *to = from);
             self.report = report;
         }
+        self.measure_films();
         Ok(())
     }
 
@@ -222,6 +231,7 @@ impl<H: Hydrodynamics> System<H> {
         if !self.current {
             self.check_bodies()?;
             self.compute_flow()?;
+            self.measure_films();
             self.current = true;
         }
         Ok(&self.markers)
@@ -255,8 +265,13 @@ impl<H: Hydrodynamics> System<H> {
         for (body, &outside) in self.bodies.iter().zip(&self.outside) {
             body.step_limits(&discretisation.in_fluid(outside), &mut |limit| each(limit, body.name()));
         }
+        if let Some((dt, body)) = self.closing {
+            let cause = StepCause::Accuracy;
+            each(StepLimit { dt, reason: "the closing of a film", cause }, self.bodies[body].name());
+        }
         if let Some(repulsion) = &self.repulsion {
-            each(StepLimit::decay(repulsion.step_limit(discretisation.viscosity), "the repulsion"), "the interfaces");
+            let rate = self.opening.max(repulsion.usual_rate(discretisation.viscosity));
+            each(StepLimit::decay(2.0 / rate, "the repulsion"), "the interfaces");
         }
     }
 
@@ -312,7 +327,10 @@ impl<H: Hydrodynamics> System<H> {
             return Err(body_error(time, self.bodies[index].as_ref(), source));
         }
         if let Some(repulsion) = &self.repulsion {
-            repulsion.add(&mut self.markers, discretisation.domain.periods);
+            let (domain, walls) = (discretisation.domain, self.hydrodynamics.walls());
+            let surroundings = Surroundings { domain, walls, around: &self.around };
+            self.films.find(&self.markers, surroundings, repulsion.range());
+            self.films.push_apart(repulsion, &mut self.markers);
         }
         self.report =
             self.hydrodynamics.velocities(&mut self.markers).map_err(|source| SceneError::Flow { time, source })?;

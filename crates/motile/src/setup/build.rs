@@ -61,6 +61,9 @@ impl Setup {
         if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
             scene = scene.with_repulsion(ib_core::Repulsion::new(strength, range).map_err(ib_core::FlowError::from)?);
         }
+        if let Some(bound) = self.least_gap {
+            scene = scene.with_least_gap(bound).map_err(ib_core::FlowError::from)?;
+        }
         let droplets = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
         let solids = solids.into_iter().map(|solid| scene.add(solid)).collect();
         Ok(Built { scene, droplets, solids })

@@ -86,10 +86,9 @@ impl Setup {
         if let Some(repulsion) = self.repulsion {
             top.positive("repulsion.strength", repulsion.strength)?;
             top.positive("repulsion.range", repulsion.range)?;
-            if self.droplets.len() < 2 {
-                let remedy = "it acts between droplets: give two, or leave it out";
-                top.refuse("repulsion", &format!("{repulsion:?}"), remedy)?;
-            }
+        }
+        if let Some(bound) = self.least_gap {
+            top.finite("least-gap", bound)?;
         }
         for (number, droplet) in self.droplets.iter().enumerate() {
             droplet.check(&format!("droplets[{number}]"))?;

@@ -63,8 +63,11 @@ pub struct Setup {
     pub viscosity: f64,
     /// How long the steps of runs are.
     pub step: StepSize,
-    /// A short-range repulsion between different interfaces; no part of the physics of the model.
+    /// A short-range repulsion between interfaces, solids and walls, by which a run goes on where films would become
+    /// thinner than is resolved; no part of the physics of the model.
     pub repulsion: Option<RepulsionSetup>,
+    /// A bound on gaps (length), below which a run ends ([`ib_core::Scene::with_least_gap`]).
+    pub least_gap: Option<f64>,
     /// The droplets; a file that names none has none.
     #[serde(default)]
     pub droplets: Vec<DropletSetup>,
@@ -76,7 +79,7 @@ pub struct Setup {
     pub rigid: Vec<RigidSetup>,
 }
 
-/// A short-range repulsion between different interfaces (see [`ib_core::Repulsion`]).
+/// A short-range repulsion between interfaces, solids and walls (see [`ib_core::Repulsion`]).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct RepulsionSetup {
@@ -95,6 +98,7 @@ impl Default for Setup {
             viscosity: 100.0,
             step: StepSize::default(),
             repulsion: None,
+            least_gap: None,
             droplets: vec![DropletSetup::default()],
             solids: Vec::new(),
             rigid: Vec::new(),

@@ -80,7 +80,11 @@ fn what_makes_no_scene_is_refused_with_its_key() {
         ("method.grid.corrected = true", {
             Setup { droplets: vec![contrast], ..grid(GridMethod { contrast: Contrast::Arithmetic, ..coarse }) }
         }),
-        ("repulsion", Setup { repulsion: Some(RepulsionSetup { strength: 1.0, range: 0.1 }), ..Setup::default() }),
+        (
+            "repulsion.range",
+            Setup { repulsion: Some(RepulsionSetup { strength: 1.0, range: 0.0 }), ..Setup::default() },
+        ),
+        ("least-gap", Setup { least_gap: Some(f64::NAN), ..Setup::default() }),
         ("droplets[0]: a region of 1.9 x 6 does not hold it: move it", {
             Setup { region: Region::Box { lengths: [1.9, 6.0] }, ..Setup::default() }
         }),
@@ -382,6 +386,7 @@ mod file {
         setup.region = Region::Channel { length: 40.0, width: 5.0, drive: Drive::Flux(-0.25) };
         setup.step = StepSize::Adaptive { tolerance: 1e-4 };
         setup.repulsion = Some(RepulsionSetup { strength: 2.0, range: 0.1 });
+        setup.least_gap = Some(0.01);
         setup.droplets.extend(shapes.into_iter().enumerate().map(|(k, shape)| DropletSetup {
             centre: [4.0 * k as f64 - 16.0, 0.1],
             shape,

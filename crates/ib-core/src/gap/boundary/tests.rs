@@ -101,13 +101,15 @@ proptest! {
         star.sort();
         for periods in [PLANE, [Some(period), None], [Some(period), Some(4.0)]] {
             let point = Vec2::new(x, y);
-            let mut all = Nearest { squared: f64::INFINITY, height: 0.0 };
+            let mut all = Nearest { squared: f64::INFINITY, height: 0.0, side: 0, part: 0.0, away: Vec2::ZERO };
             let images = |k: usize| if periods[k].is_some() { -4..=4 } else { 0..=0 };
             for (i, j) in images(0).flat_map(|i| images(1).map(move |j| (i, j))) {
                 let image = point + Vec2::new(f64::from(i) * periods[0].unwrap_or(0.0), f64::from(j) * 4.0);
-                star.sides.iter().for_each(|side| all.look(side, image, PLANE));
+                star.sides.iter().enumerate().for_each(|(k, side)| all.look(k, side, image, PLANE));
             }
             let found = star.distance(point, periods);
+            let nearest = star.nearest_within(point, periods, 100.0).unwrap();
+            prop_assert!((nearest.away.length() - found.abs()).abs() < 1e-12);
             prop_assert!((found - all.squared.sqrt().copysign(all.height)).abs() < 1e-12, "{found} {all:?}");
         }
     }

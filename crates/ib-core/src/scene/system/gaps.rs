@@ -3,7 +3,7 @@
 use stokes_grid::Drive;
 
 use super::System;
-use crate::gap::{Boundary, Gap, Gaps, Outline, Overlap, wall_gap};
+use crate::gap::{Boundary, Gap, Gaps, Outline, Overlap, REACH, Surroundings, wall_gap};
 use crate::{Body, Discretisation, Handle, Hydrodynamics, Repulsion, SceneError, Vec2, Warning};
 
 /// The narrowest films in which velocities are within about a per cent, in grid spacings, and in distances of
@@ -12,6 +12,9 @@ const RESOLVED_CELLS: f64 = 1.0;
 /// The same in channels of given flux: what a droplet displaces has to pass it, and slow swimmers err by more.
 const RESOLVED_CELLS_CLOSED: f64 = 5.5;
 const RESOLVED_NODES: f64 = 0.3;
+/// Gaps below this, in units of what a contact is measured in, close as if they were that wide: what touches at the
+/// start sets no step.
+const THINNEST: f64 = 0.02;
 
 impl<H: Hydrodynamics> System<H> {
     /// The smallest distance of an interface to a rigid wall or obstacle at the present state (length; negative beyond
@@ -207,6 +210,24 @@ impl<H: Hydrodynamics> System<H> {
                 enclosing.take(self.bodies.len()).find_map(|outer| self.bodies[outer].kind().viscosity_inside());
         }
         self.markers.set_outside(&self.outside);
+    }
+
+    /// Finds how fast films close, and how fast a repulsion opens them, at the present state.
+    pub(super) fn measure_films(&mut self) {
+        (self.closing, self.opening) = (None, 0.0);
+        if !self.markers.groups().iter().any(|group| group.kind.is_interface()) {
+            return;
+        }
+        let discretisation = self.hydrodynamics.discretisation();
+        let scale = self.gaps.contact_scale(&discretisation);
+        let reach = self.repulsion.map_or(0.0, |repulsion| repulsion.range()).max(REACH * scale);
+        let (domain, walls) = (discretisation.domain, self.hydrodynamics.walls());
+        self.films.find(&self.markers, Surroundings { domain, walls, around: &self.around }, reach);
+        self.closing = self.films.closing(&self.markers, THINNEST * scale);
+        if let Some(repulsion) = &self.repulsion {
+            let stiffness = discretisation.interface_stiffness;
+            self.opening = self.films.relaxation(repulsion, discretisation.viscosity, stiffness);
+        }
     }
 
     /// Takes the gap that was found last into the smallest one.
