@@ -3,14 +3,14 @@
 //! `cargo run --release --example constriction` simulates it until it is clear what becomes of the droplet, prints that
 //! and what was measured, and writes to `out/constriction/` what the example `elastic_channel` writes. The channel is
 //! that of Cowley figure 4.18, the droplet starts in the middle of its wide part; `--width`, `--throat` and
-//! `--throat-length` change it. Walls are set back (`--surface set-back`) unless another `--surface` is asked for.
+//! `--throat-length` change it.
 //! `--help` lists the flags.
 
 use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::Parser;
-use motile::{ChannelShape, Surface};
+use motile::ChannelShape;
 use motile_examples::{ElasticFlags, Passage, SceneFlags, WatchedRun, positive};
 
 /// An active droplet meets a constriction between elastic walls.
@@ -48,8 +48,7 @@ fn meet(flags: &Flags) -> Result<()> {
          smaller"
     );
     let shape = ChannelShape::Constriction { width, throat, throat_length, ramp, centre: 0.0 };
-    // Droplets that are pressed against the mouth for long enter corrected surfaces.
-    let setup = flags.setup(&shape, -0.5 * period, Some(Surface::SetBack))?;
+    let setup = flags.setup(&shape, -0.5 * period)?;
 
     // The run, with all that watches it, until the verdict.
     let mut run = WatchedRun::new(setup.build()?, &setup, flags, "constriction")?;

@@ -39,7 +39,6 @@ fn build_with(setup: &Setup, shape: &Channel) -> Result<Built> {
     let Method::Grid(grid) = &setup.method else { bail!("elastic walls need a grid") };
     let mut scene = Scene::new(setup.flow()?).with_step_size(setup.step);
     let droplets = vec![scene.add(setup.droplet(&setup.droplets[0])?)];
-    let shape = if setup.set_back() > 0.0 { shape.widened(2.0 * setup.set_back())? } else { shape.clone() };
     let (walls, top) = (&setup.solids, 0.5 * setup.region.lengths()[1]);
     let lower = walls[0].on_mesh(shape.lower_wall(-top, &walls[0].mesher(grid)?)?, &setup.region)?;
     let upper = walls[1].on_mesh(shape.upper_wall(top, &walls[1].mesher(grid)?)?, &setup.region)?;
@@ -84,7 +83,7 @@ fn swim(Flags { case, scene: flags }: &Flags) -> Result<()> {
         Case::Ratchet => ratchet(width),
         Case::Branch => branch(length, width),
     };
-    let setup = flags.setup(&shape, -0.5 * length, None)?;
+    let setup = flags.setup(&shape, -0.5 * length)?;
     let built = match case {
         Case::Closure => build_with(&setup, &closure(length, width)?)?,
         Case::Ratchet | Case::Branch => setup.build()?,

@@ -26,7 +26,7 @@ fn main() -> ExitCode {
 fn swim(Flags { scene: flags }: &Flags) -> Result<()> {
     // The droplet and the walls.
     let shape = ChannelShape::Straight { width: flags.region.width };
-    let setup = flags.setup(&shape, 0.0, None)?;
+    let setup = flags.setup(&shape, 0.0)?;
     let built = setup.build()?;
     for wall in &built.solids {
         let wall = built.scene.body(*wall)?;

@@ -51,7 +51,7 @@ pub struct MethodFlags {
     /// How a grid treats two viscosities; without it the preset's
     #[arg(long, value_parser = one_of(&CONTRASTS))]
     pub contrast_method: Option<Contrast>,
-    /// Nodes of the interface without a grid [default: 72]
+    /// Nodes of the interface without a grid or beside elastic walls [default: 72]
     #[arg(long, value_parser = nodes, allow_hyphen_values = true)]
     pub nodes: Option<usize>,
     /// Cells of the concentration without a grid [default: 288]

@@ -4,11 +4,9 @@ use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::SetupError;
 use motile::elastic_solids::Moduli;
-use motile::{
-    ChannelShape, GridMethod, IntegralMethod, MeshKind, Method, MethodKind, Setup, SolidOutline, SolidSetup, Surface,
-};
+use motile::{ChannelShape, IntegralMethod, MeshKind, Method, MethodKind, Setup, SolidSetup, Surface};
 
-use crate::parse::{nodes, one_of, positive};
+use crate::parse::{one_of, positive};
 use crate::{AlongFlags, MethodFlags, Preset, RegionFlags, SceneFlags};
 
 /// Spring constant of Cowley's softest walls.
@@ -32,11 +30,10 @@ const MESHES: [(&str, &str, MeshKind); 2] = [
     ("equilateral", "Equilateral triangles where the shape allows it", MeshKind::Equilateral),
     ("unstructured", "An even mesh that is no lattice", MeshKind::Unstructured),
 ];
-/// What is done about the smearing of the walls' surfaces over the grid.
-const SURFACES: [(&str, &str, Surface); 3] = [
-    ("set-back", "The walls are meshed as much further back", Surface::SetBack),
-    ("corrected", "A mobility correction", Surface::Corrected),
-    ("plain", "Nothing", Surface::Plain),
+/// How the walls' surfaces meet the fluid.
+const SURFACES: [(&str, &str, Surface); 2] = [
+    ("layer", "As layers, exact in films; only the inside of the walls is on the grid", Surface::Layer),
+    ("plain", "Smeared over the grid, as in Cowley", Surface::Plain),
 ];
 
 /// A channel with elastic walls, periodic in x.
@@ -57,17 +54,13 @@ pub struct ElasticFlags {
     /// How the points of the walls are arranged; without it the preset's
     #[arg(long, value_parser = one_of(&MESHES))]
     pub mesh: Option<MeshKind>,
-    /// Spacing of the points of the walls (R0); without it that of the grid
+    /// Spacing of the points of the walls (R0); without it twice that of the grid, and that where surfaces are plain
     #[arg(long, value_parser = positive, allow_hyphen_values = true)]
     pub mesh_spacing: Option<f64>,
-    /// Droplet and surfaces of the walls as layers, exact in films between them, with so many nodes of the droplet
-    /// [72 if no number is given]; only the inside of the walls is on the grid
-    #[arg(long, value_parser = nodes, num_args = 0..=1, default_missing_value = "72", value_name = "NODES")]
-    pub layers: Option<usize>,
     /// Thickness of each wall (R0)
     #[arg(long, default_value_t = 1.5, value_parser = positive, allow_hyphen_values = true)]
     pub wall_thickness: f64,
-    /// What is done about the smearing of the walls' surfaces over the grid; without it the preset's
+    /// How the walls' surfaces meet the fluid; without it the preset's
     #[arg(long, value_parser = one_of(&SURFACES))]
     pub surface: Option<Surface>,
     /// Width of the channel (R0); in one narrower than the droplet this starts squeezed
@@ -84,17 +77,18 @@ impl SceneFlags<ElasticFlags> {
     /// # Errors
     /// Flags that do not fit together: a method without a grid, a bulk modulus of springs, a time step longer
     /// than the run.
-    pub fn setup(&self, shape: &ChannelShape, x: f64, preset: Option<Surface>) -> Result<Setup> {
+    pub fn setup(&self, shape: &ChannelShape, x: f64) -> Result<Setup> {
         let Self { droplet, region: walls, method, .. } = self;
         ensure!(
-            method.method != Some(MethodKind::Integral) && method.nodes.is_none(),
-            "elastic walls need a grid: leave --method boundary-integral and --nodes out"
+            method.method != Some(MethodKind::Integral),
+            "elastic walls need a grid: leave --method boundary-integral out"
         );
-        let method = MethodFlags { method: Some(MethodKind::Grid), ..method.clone() };
+        // Of the droplet beside surfaces that are layers.
+        let nodes = method.nodes;
+        let method = MethodFlags { method: Some(MethodKind::Grid), nodes: None, ..method.clone() };
         let mut setup = method.setup(droplet, None)?;
-        if let (Some(nodes), Method::Grid(grid)) = (walls.layers, &mut setup.method) {
-            let layers = Some(IntegralMethod { nodes, cells: 4 * nodes });
-            *grid = GridMethod { corrected: false, filter: false, layers, ..*grid };
+        if let (Some(nodes), Method::Grid(grid)) = (nodes, &mut setup.method) {
+            grid.layers = IntegralMethod { nodes, cells: 4 * nodes };
         }
         setup.solids = SolidSetup::walls(shape, &walls.material()?);
         for solid in &mut setup.solids {
@@ -103,14 +97,11 @@ impl SceneFlags<ElasticFlags> {
             }
             solid.mesh = walls.mesh.unwrap_or(solid.mesh);
             solid.mesh_spacing = walls.mesh_spacing;
-            let surface = walls.surface.or(preset.filter(|_| method.preset == Preset::Accurate));
-            solid.surface = match surface.unwrap_or(solid.surface) {
-                // Islands are meshed as they are.
-                Surface::SetBack if matches!(solid.outline, SolidOutline::Island { .. }) => Surface::Plain,
-                surface => surface,
-            };
+            solid.surface = walls.surface.unwrap_or(solid.surface);
         }
-        walls.check_mesh(&setup, method.spacing(&setup))?;
+        let plain = setup.solids.iter().any(|solid| solid.surface == Surface::Plain);
+        ensure!(!plain || nodes.is_none(), "--nodes means nothing with plain surfaces: leave it out");
+        walls.check_mesh(if plain { 1.0 } else { 2.0 } * method.spacing(&setup))?;
         walls.along.apply(&mut setup, x, walls.width + 2.0 * walls.wall_thickness)?;
         if let Err(SetupError::NoRoom { .. }) = setup.droplet(&setup.droplets[0]) {
             let AlongFlags { length, lateral_offset, .. } = walls.along;
@@ -126,21 +117,20 @@ impl SceneFlags<ElasticFlags> {
 
 impl ElasticFlags {
     /// Walls that hold their mesh.
-    fn check_mesh(&self, setup: &Setup, grid: f64) -> Result<()> {
+    fn check_mesh(&self, usual: f64) -> Result<()> {
         let (length, thickness) = (self.along.length, self.wall_thickness);
-        let spacing = self.mesh_spacing.unwrap_or(grid);
+        let spacing = self.mesh_spacing.unwrap_or(usual);
         let flag = if self.mesh_spacing.is_some() { "--mesh-spacing" } else { "--spacing" };
         ensure!(
             LEAST_ALONG * spacing <= length,
             "points {spacing} apart are too few along --length {length}: give {flag} {} or less",
             length / LEAST_ALONG
         );
-        let thinnest = spacing + setup.set_back();
         ensure!(
-            thickness >= thinnest,
+            thickness >= spacing,
             "walls of --wall-thickness {thickness} do not hold points {spacing} apart: give {} or more, or a smaller \
              {flag}",
-            rounded_up(thinnest)
+            rounded_up(spacing)
         );
         // Two walls, which between them may fill the channel.
         let finest = (length * (self.width + 2.0 * thickness) / MOST_POINTS).sqrt();

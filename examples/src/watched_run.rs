@@ -75,10 +75,8 @@ impl WatchedRun {
         let (method, spacing) = (setup.method.kind(), flags.method.spacing(setup));
         let watched = raster(if method == MethodKind::Grid { spacing } else { COARSER * spacing })?;
         let still = raster(spacing)?;
-        let mut recorder = TrajectoryCsv::create(job.directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
-        // Widths and gaps are those between the surfaces where walls stop the fluid.
-        recorder.set_back(setup.set_back());
-        let gap = SolidGap::new(SOLID_OVERLAP * spacing).with_set_back(setup.set_back());
+        let recorder = TrajectoryCsv::create(job.directory.join("trajectory.csv"), scene.system_mut(), droplet)?;
+        let gap = SolidGap::new(SOLID_OVERLAP * spacing);
         let mut pictures = None;
         if job.draws() {
             let caption = caption(setup, &particles, &flags.region.caption()?);

@@ -16,8 +16,7 @@ use motile::ib_core::{
 };
 use motile::stokes_grid::Drive;
 use motile::{
-    AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup,
-    SolidSetup, Surface,
+    AnyFlow, Built, ChannelShape, DropletSetup, GridMethod, IntegralMethod, Material, Method, Region, Setup, SolidSetup,
 };
 use motile_examples::{positive, say};
 use motile_tests::validation::Table;
@@ -82,15 +81,12 @@ type Channel<I> = Scene<AnyFlow, I>;
 fn channel<I: Integrator>(integrator: I, activity: f64) -> Result<(Channel<I>, Handle<ActiveDroplet>)> {
     let shear = Moduli::from_thesis_spring_constant(1e6)?.shear();
     let walls = SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear });
-    // The grid does not resolve the edge of the active region here. Between corrected surfaces there are then two
-    // states, and which one a run finds says nothing about the error of its steps.
-    let surface = Surface::SetBack;
     let setup = Setup {
         region: Region::Channel { length: 6.0, width: 5.0, drive: Drive::ZeroGradient },
         method: Method::Grid(GridMethod::of_spacing(0.1)),
         viscosity: 10.0,
         droplets: vec![DropletSetup::active(activity)],
-        solids: walls.into_iter().map(|wall| SolidSetup { surface, ..wall }).collect(),
+        solids: walls,
         ..Setup::default()
     };
     let Built { scene, droplets, .. } = setup.build()?;

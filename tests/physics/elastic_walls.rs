@@ -2,7 +2,7 @@
 
 use motile::active_interface::curve::polygon_moments;
 use motile::elastic_solids::Moduli;
-use motile::{Built, ChannelShape, DropletSetup, GridMethod, Material, Method, Setup, SolidSetup, Surface};
+use motile::{Built, ChannelShape, DropletSetup, Material, Setup, SolidSetup};
 use motile_tests::validation::scene::{on_grid, open_channel};
 
 /// Where a droplet has swum to along a channel at t = 3.
@@ -13,40 +13,19 @@ fn place(setup: &Setup) -> f64 {
 }
 
 /// How far it swims between walls of springs of Cowley's k = 1e6, over how far it swims between rigid ones.
-fn error(activity: f64, width: f64, grid: GridMethod, surface: Surface) -> f64 {
+fn error(activity: f64, width: f64, h: f64) -> f64 {
     let droplets = vec![DropletSetup::active(activity)];
     let rigid = Setup { region: open_channel(6.0, width), droplets: droplets.clone(), ..Setup::default() };
     let shear = Moduli::from_thesis_spring_constant(1e6).expect("moduli").shear();
-    let walls = SolidSetup::walls(&ChannelShape::Straight { width }, &Material::Springs { shear });
-    let solids = walls.into_iter().map(|wall| SolidSetup { surface, ..wall }).collect();
-    place(&Setup {
-        region: open_channel(6.0, width + 3.0),
-        droplets,
-        solids,
-        method: Method::Grid(grid),
-        ..on_grid(grid.spacing)
-    }) / place(&rigid)
-        - 1.0
-}
-
-/// Springs of 1e6 are not rigid: what is left at h = 0.05 is theirs, 0.1 and 0.3 %. The grid's part is what changes
-/// with h.
-#[test]
-fn stiff_walls_are_where_they_are_said_to_be() {
-    for activity in [-2.0, -4.0] {
-        let errors = |surface| [0.1, 0.05].map(|h| error(activity, 3.0, GridMethod::of_spacing(h), surface));
-        let (corrected, plain) = (errors(Surface::Corrected), errors(Surface::Plain));
-        assert!(corrected[0].abs() < 6e-3 && corrected[1].abs() < 3e-3, "{activity}: {corrected:?}");
-        let [change, change_plain] = [corrected, plain].map(|[coarse, fine]| (coarse - fine).abs());
-        assert!(change < 0.35 * change_plain, "{activity}: {corrected:?} {plain:?}");
-    }
+    let solids = SolidSetup::walls(&ChannelShape::Straight { width }, &Material::Springs { shear });
+    place(&Setup { region: open_channel(6.0, width + 3.0), droplets, solids, ..on_grid(h) }) / place(&rigid) - 1.0
 }
 
 /// As far as the droplet swims in the narrow film at width 2, where the grid alone is 4 % off.
 #[test]
 fn layers_have_the_same_error_on_any_grid() {
     for (activity, softness) in [(-2.0, 0.01), (-4.0, 0.04)] {
-        let errors = [0.125, 0.1].map(|h| error(activity, 2.0, GridMethod::with_layers(h), Surface::Corrected));
+        let errors = [0.125, 0.1].map(|h| error(activity, 2.0, h));
         println!("{activity} {errors:?}");
         assert!(errors[1].abs() < softness && (errors[0] - errors[1]).abs() < 3e-3, "{activity}: {errors:?}");
     }

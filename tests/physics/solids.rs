@@ -30,13 +30,6 @@ fn a_sheared_layer_relaxes_as_kelvin_voigt() {
     }
 }
 
-#[test]
-fn the_surface_correction_takes_the_first_order_error_off() {
-    for errors in layers(Surface::Corrected) {
-        assert!(errors[0].abs() < 1e-3 && errors[1].abs() < 2e-4 && errors[2].abs() < 2e-4, "{errors:?}");
-    }
-}
-
 /// What is left is the time step's.
 #[test]
 fn a_layer_on_the_surface_leaves_no_error_of_the_grid() {

@@ -313,7 +313,7 @@ fn makers() -> Vec<Maker> {
             let start = Start::Perturbed { amplitude: v[0], seed: 3 };
             particles_build(Particles { start, ..Particles::default() })
         }),
-        maker("Setup solid.mesh-spacing", &[0.2], "+", |v| solid_builds(|s| s.mesh_spacing = Some(v[0]))),
+        maker("Setup solid.mesh-spacing", &[0.5], "+", |v| solid_builds(|s| s.mesh_spacing = Some(v[0]))),
         maker("Setup solid.hold.tethered", &[10.0], "+", |v| {
             solid_builds(|s| s.hold = Hold::Tethered { stiffness: v[0] })
         }),

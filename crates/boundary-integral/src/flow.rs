@@ -109,7 +109,6 @@ impl Hydrodynamics for BoundaryIntegral {
             spacing: None,
             shape_modes: Some(self.settings().nodes),
             interface_stiffness: self.stiffness,
-            mobility_deficit: None,
         }
     }
 

@@ -39,8 +39,7 @@
 //! * **Materials**: [`NeoHookean`] (Cowley's), others in [`material`], or an [`EnergyDensity`] of your own;
 //!   [`Moduli`] converts between constants, Cowley's spring constant among them.
 //! * **Forces** of a mesh by themselves ([`forces`]), and what every law of your own must satisfy ([`check`]).
-//! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid, [`Solid::surface_corrected`] for a
-//!   surface that the flow knows to a few hundredths of a grid spacing instead of a third.
+//! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid.
 //! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`channel::width_between`] walls.
 //!
 //! # Conventions

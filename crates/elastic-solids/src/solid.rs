@@ -2,8 +2,6 @@
 
 mod body;
 mod deformation;
-mod rounded_kink;
-mod surface_correction;
 
 use std::sync::Arc;
 
@@ -12,7 +10,6 @@ use ib_core::input::{all_points_finite, at_least, positive, same_length};
 
 use crate::forces::{Hyperelastic, Springs};
 use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
-use surface_correction::SurfaceCorrection;
 
 pub use deformation::Deformation;
 
@@ -55,9 +52,6 @@ pub struct Solid {
     /// Mean edge of the mesh.
     pub(crate) spacing: f64,
     pub(crate) may_invert: bool,
-    pub(crate) corrected: bool,
-    /// Made at the first evaluation, when the kernel is known.
-    pub(crate) surface: Option<SurfaceCorrection>,
 }
 
 /// A spring from a point to a fixed place.
@@ -143,8 +137,6 @@ impl Solid {
             forces: vec![Vec2::ZERO; count],
             spacing: mesh.quality().mean_edge,
             may_invert: false,
-            corrected: false,
-            surface: None,
             mesh,
         }
     }
@@ -175,7 +167,6 @@ impl Solid {
         let points = self.mesh.points();
         self.free.retain(|&point| !condition(points[point]));
         at_least("free points", self.free.len(), 1)?;
-        self.surface = None;
         Ok(self)
     }
 
@@ -191,38 +182,6 @@ impl Solid {
         self.tethers.extend(held.map(|(point, &anchor)| Tether { point, anchor, stiffness }));
         at_least("tethered points", self.tethers.len() - before, 1)?;
         Ok(self)
-    }
-
-    /// The same with the mobility correction of its surface, for the kernel and grid of the flow in which it is (known
-    /// from the first evaluation on, which fails where there is no grid).
-    ///
-    /// Spreading and interpolation round off the kink that tangential forces at the surface leave in the velocity, so
-    /// that points at the distance d from it lack `(h/eta) phi(d/h) f_t`, f_t being the force per length along the
-    /// surface and `phi(0)` the deficit of a flat interface ([`ib_core::MobilityDeficit::flat`], and the grid's
-    /// harmonic where the surface runs along the grid). Points within some four grid spacings of the surface are moved
-    /// by that, by a flow without divergence, and by an operator that is symmetric and positive in the forces. Measured
-    /// with the default kernel: a stiff wall stops the fluid 0.31 to 0.44 h in front of its surface, with the
-    /// correction within 0.017 h of it at h = 0.1 and 0.007 h at 0.05 for a channel of width 1
-    /// (`tests/stokes_flow.rs`). Stable time steps stay the same.
-    ///
-    /// Only the solid's own points are corrected, not markers of others that come within reach; surfaces closer than
-    /// that to each other or to a no-slip wall are corrected as if they stood alone.
-    ///
-    /// ```
-    /// use elastic_solids::mesh::equilateral_strip;
-    /// use elastic_solids::{Solid, SolidError};
-    /// use ib_core::Vec2;
-    ///
-    /// let mesh = equilateral_strip(Vec2::ZERO, 20, 10, 0.1)?;
-    /// let wall = Solid::springs(mesh, 1000.0)?.pinned(|s| s.y < 0.01)?.surface_corrected();
-    /// println!("{} points move", wall.free_points().len()); // 200
-    /// assert_eq!(wall.free_points().len(), 200);
-    /// # Ok::<(), SolidError>(())
-    /// ```
-    #[must_use]
-    pub fn surface_corrected(mut self) -> Self {
-        self.corrected = true;
-        self
     }
 
     /// The same in a deformed state: every point, pinned ones too, at a function of its reference position (length).

@@ -4,14 +4,14 @@ mod markers;
 
 pub use markers::{MarkerGroup, MarkerKind, Markers, SurfaceCurve};
 
-use std::{borrow::Cow, sync::Arc};
+use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 use stokes_grid::Drive;
 pub use stokes_grid::SolveReport;
 pub use stokes_layers::{FlowSample, Vec2};
 
-use crate::{FlowError, MobilityDeficit, checkpoint::SavedState, gap::Boundary};
+use crate::{FlowError, checkpoint::SavedState, gap::Boundary};
 
 /// The region that the fluid fills.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -40,9 +40,6 @@ pub struct Discretisation {
     /// displacement normal to an interface of tension gamma decays at most at the rate
     /// `stiffness * gamma / viscosity`.
     pub interface_stiffness: f64,
-    /// The mobility that an interface loses to the kernel and the grid, uncorrected; `None` where there is no grid. A
-    /// body that corrects its own surface takes it from here, so that it cannot be that of another kernel.
-    pub mobility_deficit: Option<Arc<MobilityDeficit>>,
 }
 
 impl Discretisation {

@@ -6,16 +6,14 @@ mod smeared_contrast;
 
 pub use smeared_contrast::SmearedContrast;
 
-use std::sync::Arc;
-
 use input_checks::{all_points_finite, same_length};
 use stokes_grid::{CentreField, Drive, Grid, SolveReport, StaggeredField, StokesSolver};
 
 use crate::contrast::other_viscosities;
-use crate::mobility::{Clearance, MobilityCorrection};
+use crate::mobility::{MobilityCorrection, MobilityDeficit};
 use crate::{
-    Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, MobilityDeficit,
-    Transfer, Vec2, checkpoint::SavedState, hydrodynamics::FlowWork,
+    Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Transfer, Vec2,
+    checkpoint::SavedState, hydrodynamics::FlowWork,
 };
 use contrast_flow::ContrastFlow;
 
@@ -49,9 +47,7 @@ pub struct ImmersedBoundary<S, K> {
     transfer: Transfer<K>,
     density: StaggeredField,
     velocity: StaggeredField,
-    deficit: Arc<MobilityDeficit>,
     correction: Option<MobilityCorrection>,
-    clearance: Clearance,
     stiffness: f64,
     variance: f64,
     contrast: Option<ContrastFlow<K>>,
@@ -84,7 +80,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
 
     fn build(solver: S, kernel: K, corrected: bool) -> Self {
         let grid = *solver.grid();
-        let deficit = Arc::new(MobilityDeficit::new(&kernel));
+        let deficit = MobilityDeficit::new(&kernel);
         let stiffness = deficit.interface_stiffness(corrected) / grid.spacing();
         // c(theta) at q = 0 is sqrt(variance_eff / pi)-like: the tangential velocity profile is the kernel smeared
         // twice.
@@ -93,11 +89,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             transfer: Transfer::new(grid, kernel),
             density: StaggeredField::zeros(grid),
             velocity: StaggeredField::zeros(grid),
-            correction: corrected.then(|| MobilityCorrection::new(Arc::clone(&deficit))),
-            deficit,
+            correction: corrected.then(|| MobilityCorrection::new(deficit)),
             stiffness,
             variance: std::f64::consts::PI * constant * constant,
-            clearance: Clearance::default(),
             contrast: None,
             varying: false,
             work: FlowWork::default(),
@@ -171,15 +165,14 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
 
     /// Adds the mobility correction of a group to its velocities.
     fn correct(&mut self, index: usize, markers: &mut Markers) -> Result<(), FlowError> {
-        let (setting, period) = (self.setting(), self.grid().lengths()[0]);
+        let setting = self.setting();
         let group = &markers.groups()[index];
         if let Some(correction) = self.correction.as_mut()
             && matches!(group.kind, MarkerKind::Interface { .. })
         {
             let range = group.range.clone();
             let (positions, forces) = (&markers.positions[range.clone()], &markers.forces[range.clone()]);
-            let gaps = self.clearance.gaps(markers, index, setting.spacing, period);
-            correction.apply(&setting, gaps, positions, forces, &mut markers.velocities[range])?;
+            correction.apply(&setting, positions, forces, &mut markers.velocities[range])?;
             self.work.corrections += 1;
         }
         Ok(())
@@ -238,7 +231,6 @@ impl<S: StokesSolver, K: Kernel> Hydrodynamics for ImmersedBoundary<S, K> {
             spacing: Some(grid.spacing()),
             shape_modes: None,
             interface_stiffness: self.stiffness,
-            mobility_deficit: Some(Arc::clone(&self.deficit)),
         }
     }
 

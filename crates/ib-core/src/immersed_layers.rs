@@ -253,7 +253,6 @@ impl<S: StokesSolver, K: Kernel + Clone> Hydrodynamics for ImmersedLayers<S, K> 
             spacing: Some(grid.spacing()),
             shape_modes: Some(self.modes),
             interface_stiffness: self.stiffness,
-            mobility_deficit: None,
         }
     }
 

@@ -72,6 +72,5 @@ pub use immersed_layers::ImmersedLayers;
 pub use input_checks as input;
 pub use integrator::{Integrator, Midpoint, RungeKuttaChebyshev};
 pub use kernel::{AnyKernel, CubicQuadratic, Kernel};
-pub use mobility::MobilityDeficit;
 pub use scene::{Every, Handle, Observer, Run, Scene, StepSize, System, Warning, Warnings};
 pub use transfer::Transfer;

@@ -1,10 +1,8 @@
 //! What spreading, the grid and interpolation take from the mobility of an interface.
 
-mod clearance;
 mod correction;
 mod quadrature;
 
-pub(crate) use clearance::Clearance;
 pub(crate) use correction::{MobilityCorrection, Setting};
 pub(crate) use quadrature::GAUSS_10;
 

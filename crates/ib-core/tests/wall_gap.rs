@@ -21,7 +21,6 @@ impl Hydrodynamics for Wind {
             spacing: None,
             shape_modes: None,
             interface_stiffness: 1.0,
-            mobility_deficit: None,
         }
     }
 

@@ -86,7 +86,6 @@ pub(crate) fn stress_deviators(solid: &Solid) -> Vec<f64> {
 #[derive(Debug, Clone)]
 pub struct SolidMeter {
     gap: SolidGap,
-    set_back: f64,
 }
 
 impl SolidMeter {
@@ -108,14 +107,7 @@ impl SolidMeter {
     /// A meter for a system with solids; `None` for one without.
     #[must_use]
     pub fn of<H: Hydrodynamics>(system: &System<H>) -> Option<Self> {
-        solids(system).next().map(|_| Self { gap: SolidGap::new(f64::INFINITY), set_back: 0.0 })
-    }
-
-    /// For solids that are meshed this far behind the surfaces where they stop the fluid (length): widths and gaps are
-    /// those between these surfaces.
-    pub fn set_back(&mut self, set_back: f64) {
-        self.gap = SolidGap::new(f64::INFINITY).with_set_back(set_back);
-        self.set_back = set_back;
+        solids(system).next().map(|_| Self { gap: SolidGap::new(f64::INFINITY) })
     }
 
     /// The values of [`SolidMeter::NAMES`] at the present state; not a number where there is none.
@@ -136,8 +128,7 @@ impl SolidMeter {
             energy += solid.elastic_energy()?;
             jacobian = jacobian.min(seen.smallest_jacobian);
         }
-        let [narrowest, widest] =
-            width.map_or([f64::NAN; 2], |width| [width.minimum, width.maximum].map(|w| w - 2.0 * self.set_back));
+        let [narrowest, widest] = width.map_or([f64::NAN; 2], |width| [width.minimum, width.maximum]);
         Ok([narrowest, widest, gap, total, normal, drift, energy, jacobian])
     }
 }

@@ -95,13 +95,6 @@ impl TrajectoryCsv {
         self.records.records().iter().map(|record| (record.time, record.observables.centroid)).collect()
     }
 
-    /// Tells how far solids are meshed behind the surfaces where they stop the fluid ([`SolidMeter::set_back`]).
-    pub fn set_back(&mut self, set_back: f64) {
-        if let Some(meter) = &mut self.solids {
-            meter.set_back(set_back);
-        }
-    }
-
     /// What was last measured of the solids ([`SolidMeter::NAMES`]); `None` without solids.
     #[must_use]
     pub fn last_solids(&self) -> Option<&[f64; 8]> {

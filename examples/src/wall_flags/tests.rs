@@ -10,7 +10,7 @@ struct Flags {
 
 fn channel(line: &str) -> Result<Setup> {
     let flags = Flags::try_parse_from(std::iter::once("test").chain(line.split_whitespace()))?;
-    flags.scene.setup(&ChannelShape::Straight { width: flags.scene.region.width }, 0.0, None)
+    flags.scene.setup(&ChannelShape::Straight { width: flags.scene.region.width }, 0.0)
 }
 
 #[test]
@@ -19,8 +19,9 @@ fn walls_that_do_not_hold_their_mesh_are_refused_with_the_flag_to_change() {
         ("--mesh-spacing 5", "give --mesh-spacing 2 or less"),
         ("--mesh-spacing 0.001", "give --mesh-spacing 0.0039 or more"),
         ("--wall-thickness 0.1 --mesh-spacing 0.15", "give 0.15 or more, or a smaller --mesh-spacing"),
-        ("--wall-thickness 0.05 --surface set-back", "give 0.0675 or more, or a smaller --spacing"),
-        ("--wall-thickness 0.01", "give 0.05 or more, or a smaller --spacing"),
+        ("--wall-thickness 0.01", "give 0.1 or more, or a smaller --spacing"),
+        ("--wall-thickness 0.01 --surface plain", "give 0.05 or more, or a smaller --spacing"),
+        ("--surface plain --nodes 100", "leave it out"),
         ("--width 0.1", "give a larger --width"),
         ("--bulk-modulus 3", "leave --bulk-modulus out"),
     ] {

@@ -67,14 +67,13 @@ pub(crate) fn without(summary: &Summary) -> Summary {
 #[derive(Debug)]
 pub(crate) struct History {
     droplet: Handle<ActiveDroplet>,
-    set_back: f64,
     rows: Rows,
 }
 
 impl History {
-    /// Of a droplet between the first two solids of its scene, which are meshed `set_back` (R0) behind their surfaces.
-    pub(crate) fn new(droplet: Handle<ActiveDroplet>, set_back: f64) -> Self {
-        Self { droplet, set_back, rows: Rows::default() }
+    /// Of a droplet between the first two solids of its scene.
+    pub(crate) fn new(droplet: Handle<ActiveDroplet>) -> Self {
+        Self { droplet, rows: Rows::default() }
     }
 
     pub(crate) fn put(&self, summary: &mut Summary) {
@@ -94,8 +93,7 @@ impl<H: Hydrodynamics> Observer<H> for History {
         let walls: Vec<&Solid> = system.bodies().map(|(_, wall)| wall).collect();
         let [lower, upper, ..] = walls[..] else { return Err("a channel without walls".into()) };
         let width = width_between(lower, upper)?;
-        let [minimum, maximum] = [width.minimum, width.maximum].map(|width| width - 2.0 * self.set_back);
-        self.rows.0.push([system.time(), seen.speed(), seen.aspect_ratio_moments, minimum, maximum]);
+        self.rows.0.push([system.time(), seen.speed(), seen.aspect_ratio_moments, width.minimum, width.maximum]);
         Ok(())
     }
 }

@@ -12,7 +12,7 @@ use motile::ib_core::{Every, Handle, Hydrodynamics, Scene, SceneError, StepSize}
 use motile::stokes_grid::Drive;
 use motile::{
     Built, ChannelShape, DropletSetup, Exclusion, GridMethod, MarkerMotion, Material, MeshKind, Method, Particles,
-    Region, Setup, SolidSetup, Surface,
+    Region, Setup, SolidSetup,
 };
 use motile_examples::{Decided, Passage, Steadiness, Summary};
 
@@ -75,8 +75,6 @@ pub(crate) struct Job {
     pub(crate) stiffness: f64,
     pub(crate) material: WallMaterial,
     pub(crate) mesh: MeshKind,
-    /// What is done about the walls' surfaces.
-    pub(crate) surface: Surface,
     pub(crate) thesis: bool,
     /// Whether markers are kept equally spaced, also by the method of Cowley.
     pub(crate) equidistant: bool,
@@ -99,7 +97,6 @@ impl Job {
             stiffness,
             material: WallMaterial::Springs,
             mesh: MeshKind::Equilateral,
-            surface: if purpose == Purpose::Passage { Surface::SetBack } else { Surface::Corrected },
             thesis: false,
             equidistant: false,
             back: 0.0,
@@ -114,7 +111,7 @@ impl Job {
         let method = if self.thesis { "_thesis" } else { "" };
         let equidistant = if self.equidistant { "_equidistant" } else { "" };
         let back = if self.back == 0.0 { String::new() } else { format!("_back{}", self.back) };
-        let surface = if self.surface == Surface::SetBack { "_setback" } else { "" };
+        let surface = if self.thesis { "" } else { "_layer" };
         let ratio = if self.ratio == 1.0 { String::new() } else { format!("_ratio{}", self.ratio) };
         format!(
             "{kind}_w{width}_z{activity}_A{excluded_volume}_eta{viscosity}{ratio}_k{stiffness}_h{spacing}_t{time}\
@@ -175,7 +172,7 @@ impl Job {
             WallMaterial::NeoHookean => Material::NeoHookean { shear: moduli.shear(), bulk: moduli.bulk() },
         };
         let walls = SolidSetup::walls(&self.shape(), &material).into_iter().map(|wall| {
-            let wall = SolidSetup { mesh: self.mesh, surface: self.surface, ..wall };
+            let wall = SolidSetup { mesh: self.mesh, ..wall };
             // Whether springs are inverted is reported.
             SolidSetup { may_invert: true, ..if self.thesis { wall.thesis() } else { wall } }
         });
@@ -201,7 +198,7 @@ impl Job {
             return Ok(setup.build()?);
         }
         let Method::Grid(grid) = &setup.method else { bail!("elastic walls need a grid") };
-        let shape = self.shape().channel(LENGTH)?.widened(2.0 * (self.back + setup.set_back()))?;
+        let shape = self.shape().channel(LENGTH)?.widened(2.0 * self.back)?;
         let mut scene = Scene::new(setup.flow()?).with_step_size(setup.step);
         let droplets = vec![scene.add(setup.droplet(&setup.droplets[0])?)];
         let (walls, top) = (&setup.solids, 0.5 * self.width + Self::THICKNESS);
@@ -259,10 +256,10 @@ impl Job {
     fn with_solids(&self) -> Result<Summary> {
         let setup = self.setup()?;
         let Built { mut scene, droplets, solids: walls } = self.build(&setup)?;
-        let (droplet, set_back) = (droplets[0], setup.set_back());
+        let droplet = droplets[0];
         let mut recorder = TrajectoryRecorder::new(droplet);
-        let mut gap = SolidGap::new(OVERLAP * self.spacing).with_set_back(set_back);
-        let mut history = History::new(droplet, set_back);
+        let mut gap = SolidGap::new(OVERLAP * self.spacing);
+        let mut history = History::new(droplet);
         let mut passage = Passage::new(if self.purpose == Purpose::Passage { 3.0 } else { f64::INFINITY });
         let mut run = scene
             .run(self.time)
@@ -279,7 +276,7 @@ impl Job {
         };
         let mut summary = measured(&recorder)?;
         history.put(&mut summary);
-        self.measure_walls(&scene, &walls, set_back, &mut summary)?;
+        self.measure_walls(&scene, &walls, &mut summary)?;
         summary.put("minimum_gap", gap.smallest().map(|(gap, _)| gap), "");
         if self.purpose == Purpose::Passage {
             passage.put(&mut summary);
@@ -294,13 +291,12 @@ impl Job {
         &self,
         scene: &Scene<H>,
         walls: &[Handle<Solid>],
-        set_back: f64,
         summary: &mut Summary,
     ) -> Result<()> {
         let [lower, upper] = [scene.body(walls[0])?, scene.body(walls[1])?];
         let width = width_between(lower, upper)?;
-        summary.put("channel_width_min", width.minimum - 2.0 * set_back, "");
-        summary.put("channel_width_max", width.maximum - 2.0 * set_back, "");
+        summary.put("channel_width_min", width.minimum, "");
+        summary.put("channel_width_max", width.maximum, "");
         let seen = [lower, upper].map(Deformation::of);
         let largest = |of: fn(&Deformation) -> f64| of(&seen[0]).max(of(&seen[1]));
         summary.put("largest_displacement", largest(|wall| wall.largest_displacement), "");

@@ -67,7 +67,7 @@ fn layers(quick: bool) -> Result<Table, StudyError> {
         &format!("A sheared layer relaxing below a fluid (Kelvin-Voigt): error of the rate at h = {spacings:?}, %"),
         &["material", "mesh", "surface", "errors", "order"],
     );
-    for (surface, called) in [(Surface::Plain, "plain"), (Surface::Corrected, "corrected")] {
+    for (surface, called) in [(Surface::Plain, "plain"), (Surface::Layer, "layer")] {
         for (material, unstructured) in [
             (Material::Springs, false),
             (Material::Springs, true),

@@ -127,7 +127,7 @@ impl Settings {
                 corrected: self.corrected,
                 filter,
                 contrast,
-                layers: None,
+                layers: IntegralMethod::default(),
             }),
         };
         Setup { method, step: self.step, ..base }

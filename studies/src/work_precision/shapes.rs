@@ -114,7 +114,7 @@ pub(crate) fn elastic_layer(settings: &Settings) -> Result<(f64, Cost)> {
         let solid = Solid::hyperelastic(mesh, NeoHookean::new(SHEAR, 3.0 * SHEAR)?)
             .pinned(|s| s.y < -0.5 * HEIGHT + 1e-9)?
             .deformed(|s| s + Vec2::new(AMPLITUDE * (s.y + 0.5 * HEIGHT), 0.0))?;
-        Ok(if settings.corrected { solid.surface_corrected() } else { solid })
+        Ok(solid)
     };
     let make = || {
         let flow = ImmersedBoundary::new(ChannelStokes::new(grid, VISCOSITY)?, settings.kernel);

@@ -3,7 +3,7 @@
 use motile::elastic_solids::{Mesher, Moduli, Solid, TriangleMesh, forces::Springs};
 use motile::ib_core::{CubicQuadratic, ImmersedBoundary, Scene, Vec2};
 use motile::stokes_grid::{ChannelStokes, Drive, Grid};
-use motile::{AnyFlow, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup, Surface};
+use motile::{AnyFlow, ChannelShape, DropletSetup, GridMethod, Material, Method, Region, Setup, SolidSetup};
 
 use crate::hard_cases::drive::{HELD, by, run_way};
 use crate::hard_cases::{CaseError, Ending, Extent, Look, Outcome, Recipe, Trial, Way, expand};
@@ -29,7 +29,6 @@ fn throat() -> Result<Setup, CaseError> {
     let shape = ChannelShape::Constriction { width: 2.0, throat: 0.25, throat_length: 1.0, ramp: 1.0, centre: 0.0 };
     let mut setup = between_walls(1e4, &shape, 0.125, 8.0)?;
     setup.droplets = vec![DropletSetup { centre: [-2.2, 0.0], ..DropletSetup::active(-5.0) }];
-    setup.solids.iter_mut().for_each(|wall| wall.surface = Surface::SetBack);
     Ok(setup)
 }
 

@@ -1,5 +1,6 @@
 //! Elastic solids: energies, forces and moduli, and a layer in a flow.
 
+pub use motile::Surface;
 use motile::elastic_solids::{
     ElasticForces, EnergyDensity, Interior, Mesher, NeoHookean, Outline, Solid, SolidError, TriangleMesh,
     check::{ForceBalance, InnerPoints, MeasuredModuli, force_balance, measured_moduli, patch_residual, stress_error},
@@ -150,19 +151,8 @@ pub struct Layer {
     pub material: Material,
     /// Whether its mesh is no lattice.
     pub unstructured: bool,
-    /// What is done about the smearing of its surface over the grid.
+    /// How its surface meets the fluid.
     pub surface: Surface,
-}
-
-/// What is done about the smearing of a surface over the grid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Surface {
-    /// Nothing.
-    Plain,
-    /// The mobility correction.
-    Corrected,
-    /// It is a layer with points as far apart as the grid's, those below it twice as far.
-    Layer,
 }
 
 const LENGTH: f64 = 1.6;
@@ -225,8 +215,7 @@ impl Layer {
         let mut scene = Scene::new(flow);
         let above = |s: Vec2| s.y + 0.5 * HEIGHT;
         let solid = solid.pinned(|s| above(s) < 1e-9)?.deformed(|s| s + Vec2::new(shear * above(s), 0.0))?;
-        let corrected = self.surface == Surface::Corrected;
-        let handle = scene.add(if corrected { solid.surface_corrected() } else { solid });
+        let handle = scene.add(solid);
         let start = slide(scene.body(handle)?);
         let time = VISCOSITY / LAYER_SHEAR;
         for _ in 0..50 {

@@ -19,7 +19,6 @@ impl Hydrodynamics for Converging {
             spacing: (!self.smooth).then_some(0.1),
             interface_stiffness: 1.0,
             shape_modes: self.smooth.then_some(41),
-            mobility_deficit: None,
         }
     }
 

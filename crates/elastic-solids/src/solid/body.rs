@@ -5,7 +5,6 @@ use ib_core::{
     hydrodynamics::SurfaceCurve, input::same_length,
 };
 
-use crate::solid::surface_correction::SurfaceCorrection;
 use crate::{Solid, SolidError};
 
 impl From<SolidError> for BodyError {
@@ -39,15 +38,8 @@ impl Body for Solid {
         }
     }
 
-    fn write_forces(&mut self, discretisation: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
+    fn write_forces(&mut self, _medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
         self.compute_forces()?;
-        if self.corrected {
-            let surface = match self.surface.take() {
-                Some(surface) if surface.suits(discretisation) => surface,
-                _ => SurfaceCorrection::new(&self.mesh, &self.free, discretisation)?,
-            };
-            self.surface.insert(surface).update(&self.mesh, &self.free, discretisation, &self.positions, &self.forces);
-        }
         for (force, &point) in forces.iter_mut().zip(&self.free) {
             *force = self.forces[point];
         }
@@ -77,9 +69,6 @@ impl Body for Solid {
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
         for (pair, velocity) in rate.chunks_exact_mut(2).zip(velocities) {
             pair.copy_from_slice(&velocity.to_array());
-        }
-        if let Some(surface) = &self.surface {
-            surface.add(rate);
         }
     }
 

@@ -11,14 +11,7 @@ use crate::{Mesher, NeoHookean};
 
 fn discretisation() -> Discretisation {
     let domain = Domain { origin: [-2.0, -2.0], periods: [Some(4.0), None], walls: Some([-2.0, 2.0]) };
-    Discretisation {
-        domain,
-        viscosity: 10.0,
-        spacing: Some(0.2),
-        shape_modes: None,
-        interface_stiffness: 1.0,
-        mobility_deficit: None,
-    }
+    Discretisation { domain, viscosity: 10.0, spacing: Some(0.2), shape_modes: None, interface_stiffness: 1.0 }
 }
 
 fn block() -> TriangleMesh {

@@ -41,7 +41,6 @@ impl Gaps {
     /// let domain = Domain { origin: [0.0; 2], periods: [Some(6.0), None], walls: None };
     /// let discretisation = Discretisation {
     ///     domain, viscosity: 1.0, spacing: Some(0.1), shape_modes: None, interface_stiffness: 1.0,
-    ///     mobility_deficit: None,
     /// };
     /// assert_eq!(Gaps::of([square(0.0), square(2.0)]).first_overlap(&discretisation), None);
     /// // the image of the third overlaps the first

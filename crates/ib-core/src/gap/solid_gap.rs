@@ -22,7 +22,6 @@ use crate::{Body, Handle, Hydrodynamics, Observer, System, Vec2};
 #[derive(Debug, Clone)]
 pub struct SolidGap {
     allowed: f64,
-    set_back: f64,
     surfaces: Boundary,
     markers: Vec<Vec2>,
     present: Option<f64>,
@@ -60,15 +59,7 @@ impl SolidGap {
     #[must_use]
     pub fn new(allowed: f64) -> Self {
         let (surfaces, markers) = (Boundary::default(), Vec::new());
-        Self { allowed, set_back: 0.0, surfaces, markers, present: None, smallest: None }
-    }
-
-    /// The same for solids that are meshed this far behind the surfaces where they stop the fluid (length): gaps
-    /// are those from there.
-    #[must_use]
-    pub fn with_set_back(mut self, set_back: f64) -> Self {
-        self.set_back = set_back;
-        self
+        Self { allowed, surfaces, markers, present: None, smallest: None }
     }
 
     /// The gap at the last look (length; negative inside a solid); `None` before the first and without solids.
@@ -86,7 +77,7 @@ impl SolidGap {
     /// The smallest gap at the present state of a system, the interface, and its marker where it is; `None` without
     /// solids or interfaces.
     pub fn measure<H: Hydrodynamics>(&mut self, system: &System<H>) -> Option<NearestSolid> {
-        let Self { surfaces, markers, set_back, .. } = self;
+        let Self { surfaces, markers, .. } = self;
         let place = |body: &dyn Body, markers: &mut Vec<Vec2>| {
             markers.resize(body.marker_count(), Vec2::ZERO);
             body.write_markers(markers);
@@ -102,7 +93,7 @@ impl SolidGap {
         let nearest = interfaces.filter_map(|(interface, body)| {
             place(body, markers);
             let (gap, marker) = surfaces.smallest(markers, periods)?;
-            Some(NearestSolid { gap: gap - *set_back, interface, marker, place: markers[marker] })
+            Some(NearestSolid { gap, interface, marker, place: markers[marker] })
         });
         nearest.min_by(|a, b| a.gap.total_cmp(&b.gap))
     }

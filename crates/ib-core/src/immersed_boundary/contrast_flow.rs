@@ -1,12 +1,12 @@
 //! Interfaces to other viscosities on the grid.
 
-use stokes_grid::{Grid, StaggeredField, StokesSolver};
+use stokes_grid::{StaggeredField, StokesSolver};
 use stokes_layers::{Forcing, Geometry};
 
 use super::{ImmersedBoundary, sampling};
 use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
 use crate::gap::wall_gap;
-use crate::mobility::{Clearance, Setting};
+use crate::mobility::Setting;
 use crate::{
     FlowError, FlowSample, Kernel, Markers, Transfer, Vec2, checkpoint::SavedState, hydrodynamics::SolveReport,
 };
@@ -23,7 +23,6 @@ pub(super) struct ContrastFlow<K> {
     imposed: Imposed,
     /// At the droplets' nodes.
     nodes: Nodes,
-    clearance: Clearance,
     /// Forces of all markers but the droplets'; then velocities of all markers.
     all: Vec<Vec2>,
     /// The flow of these forces and what is imposed.
@@ -38,8 +37,6 @@ type Imposed = Option<(StaggeredField, [f64; 2])>;
 #[derive(Debug, Clone, Default)]
 struct Nodes {
     positions: Vec<Vec2>,
-    /// Distances from solids (grid spacings); empty without solids.
-    gaps: Vec<f64>,
     forces: Vec<Vec2>,
     /// The part of the forces that carries the droplets' net forces and torques.
     rigid: Vec<Vec2>,
@@ -85,10 +82,9 @@ impl<K: Kernel> ContrastFlow<K> {
     }
 
     /// Takes over the droplets.
-    fn load(&mut self, grid: &Grid, markers: &Markers) -> Result<(), FlowError> {
+    fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         self.contrast.load(markers)?;
-        let Nodes { positions, gaps, forces, rigid, own, pulled, other, velocities, target } = &mut self.nodes;
-        gaps.clear();
+        let Nodes { positions, forces, rigid, own, pulled, other, velocities, target } = &mut self.nodes;
         for array in [&mut *positions, &mut *forces, &mut *velocities] {
             array.clear();
         }
@@ -96,7 +92,6 @@ impl<K: Kernel> ContrastFlow<K> {
             positions.extend_from_slice(&markers.positions[droplet.markers.clone()]);
             forces.extend_from_slice(&markers.forces[droplet.markers.clone()]);
             velocities.extend_from_slice(&markers.velocities[droplet.markers.clone()]);
-            gaps.extend_from_slice(self.clearance.gaps(markers, droplet.group, grid.spacing(), grid.lengths()[0]));
         }
         for array in [own, rigid, pulled, other, target] {
             array.resize(positions.len(), Vec2::ZERO);
@@ -133,7 +128,6 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             transfer: Transfer::new(grid, self.transfer.kernel().clone()),
             imposed,
             nodes: Nodes::default(),
-            clearance: Clearance::default(),
             all: Vec::new(),
             other: velocity,
             other_density: density,
@@ -151,7 +145,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     }
 
     fn contrast_with(&mut self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<SolveReport, FlowError> {
-        flow.load(self.solver.grid(), markers)?;
+        flow.load(markers)?;
         self.check_films(flow, markers)?;
         self.work.evaluations += 1;
         let mut gradient = self.solve_others(flow, markers)?;
@@ -239,9 +233,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
 
     /// Velocities at the nodes of the forces that carry the droplets' net forces and torques.
     fn solve_rigid_part(&mut self, flow: &mut ContrastFlow<K>) -> Result<(), FlowError> {
-        let Nodes { positions, gaps, forces, rigid, pulled, .. } = &mut flow.nodes;
+        let Nodes { positions, forces, rigid, pulled, .. } = &mut flow.nodes;
         if flow.contrast.rigid_part(forces, rigid) {
-            self.respond((&flow.contrast, &flow.transfer, &flow.imposed), [positions, rigid], gaps, pulled)?;
+            self.respond((&flow.contrast, &flow.transfer, &flow.imposed), [positions, rigid], pulled)?;
         } else {
             pulled.fill(Vec2::ZERO);
         }
@@ -250,8 +244,8 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
 
     /// Velocities at the nodes of the droplets' own forces, and the mean pressure gradient.
     fn solve_own(&mut self, flow: &mut ContrastFlow<K>) -> Result<[f64; 2], FlowError> {
-        let Nodes { positions, gaps, forces, own, .. } = &mut flow.nodes;
-        self.respond((&flow.contrast, &flow.transfer, &flow.imposed), [positions, forces], gaps, own)
+        let Nodes { positions, forces, own, .. } = &mut flow.nodes;
+        self.respond((&flow.contrast, &flow.transfer, &flow.imposed), [positions, forces], own)
     }
 
     /// Velocities of one viscosity, without what is imposed, of forces at the droplets' nodes.
@@ -259,12 +253,11 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         &mut self,
         (contrast, transfer, imposed): (&Contrast, &Transfer<K>, &Imposed),
         [positions, forces]: [&[Vec2]; 2],
-        gaps: &[f64],
         velocities: &mut [Vec2],
     ) -> Result<[f64; 2], FlowError> {
         let gradient = self.solve_droplets(transfer, imposed, forces)?;
         transfer.interpolate(&self.velocity, velocities)?;
-        self.correct_droplets(contrast, gaps, positions, forces, velocities)?;
+        self.correct_droplets(contrast, positions, forces, velocities)?;
         Ok(gradient)
     }
 
@@ -289,7 +282,6 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     fn correct_droplets(
         &mut self,
         contrast: &Contrast,
-        gaps: &[f64],
         positions: &[Vec2],
         forces: &[Vec2],
         velocities: &mut [Vec2],
@@ -302,8 +294,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             }
             let nodes = curve.first..curve.first + curve.len();
             let (positions, forces) = (&positions[nodes.clone()], &forces[nodes.clone()]);
-            let gaps = gaps.get(nodes.clone()).unwrap_or_default();
-            correction.apply(&setting, gaps, positions, forces, &mut velocities[nodes])?;
+            correction.apply(&setting, positions, forces, &mut velocities[nodes])?;
             self.work.corrections += 1;
         }
         Ok(())
@@ -314,7 +305,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     /// the droplets' own.
     fn find_equivalent(&mut self, flow: &mut ContrastFlow<K>) -> Result<Outcome, FlowError> {
         let viscosity = self.solver.viscosity();
-        let Nodes { positions, gaps, forces, rigid, own, other, velocities, target, .. } = &mut flow.nodes;
+        let Nodes { positions, forces, rigid, own, other, velocities, target, .. } = &mut flow.nodes;
         let means = flow.contrast.curves().iter().map(|curve| curve.outside + 0.5 * curve.contrast);
         let share = viscosity / means.fold(0.5 * viscosity, f64::max);
         for i in 0..target.len() {
@@ -324,7 +315,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         let (contrast, transfer, imposed) = (&flow.contrast, &flow.transfer, &flow.imposed);
         let spacing = self.grid().spacing();
         let outcome = flow.equivalent.solve(contrast.curves(), spacing, target, |forces, out| {
-            self.respond((contrast, transfer, imposed), [positions, forces], gaps, out)?;
+            self.respond((contrast, transfer, imposed), [positions, forces], out)?;
             out.iter_mut().for_each(|velocity| *velocity *= viscosity);
             Ok(())
         })?;
@@ -362,7 +353,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         points: &[Vec2],
         out: &mut [FlowSample],
     ) -> Result<(), FlowError> {
-        flow.load(self.solver.grid(), markers)?;
+        flow.load(markers)?;
         let mut scratch = markers.clone();
         self.solve_others(flow, &mut scratch)?;
         flow.contrast.prepare()?;

@@ -1,7 +1,5 @@
 //! Putting the lost mobility of an interface back.
 
-use std::sync::Arc;
-
 use fourier::{ComplexTransform, InputError, RealTransform};
 use num_complex::Complex;
 
@@ -36,7 +34,7 @@ use crate::{FlowError, Vec2};
 /// wave number, so that H fades by itself where the interface turns away from the axis.
 #[derive(Debug, Clone)]
 pub(crate) struct MobilityCorrection {
-    deficit: Arc<MobilityDeficit>,
+    deficit: MobilityDeficit,
     plan: Option<Plan>,
 }
 
@@ -68,7 +66,7 @@ const MODULATED: usize = 5;
 struct Place {
     /// Unit tangent; zero between coinciding neighbours, which give no direction.
     tangent: Vec2,
-    /// What walls and solids leave of the tangential and of the normal part.
+    /// What walls leave of the tangential and of the normal part.
     left: [f64; 2],
 }
 
@@ -88,16 +86,14 @@ pub(crate) struct Setting {
 }
 
 impl MobilityCorrection {
-    pub(crate) fn new(deficit: Arc<MobilityDeficit>) -> Self {
+    pub(crate) fn new(deficit: MobilityDeficit) -> Self {
         Self { deficit, plan: None }
     }
 
-    /// Adds the correction of one equally spaced closed interface to `velocities`; `gaps` are the distances of its
-    /// markers from elastic solids (grid spacings), empty without.
+    /// Adds the correction of one equally spaced closed interface to `velocities`.
     pub(crate) fn apply(
         &mut self,
         setting: &Setting,
-        gaps: &[f64],
         positions: &[Vec2],
         forces: &[Vec2],
         velocities: &mut [Vec2],
@@ -110,7 +106,7 @@ impl MobilityCorrection {
             self.plan = Some(Plan::new(count)?);
         }
         let Some(plan) = self.plan.as_mut() else { return Ok(()) };
-        let perimeter = plan.place(setting, gaps, positions, forces);
+        let perimeter = plan.place(setting, positions, forces);
         plan.transform(&self.deficit, setting, perimeter, positions)?;
         for (velocity, (place, [along, across])) in velocities.iter_mut().zip(plan.places.iter().zip(plan.restored())) {
             let tau = place.tangent;
@@ -122,16 +118,12 @@ impl MobilityCorrection {
 }
 
 impl Setting {
-    /// How much of the tangential and of the normal part is left at height y and at the distance `to_solids` (grid
-    /// spacings) from elastic solids, if there are any: the image of the force in the wall cancels it at the wall, and
-    /// so do the forces of a solid. `1 - exp(-x^2) + sqrt(pi) x erfc(x)`, x = gap/(h sqrt(variance)), and `(1 -
+    /// How much of the tangential and of the normal part is left at height y: the image of the force in the wall
+    /// cancels it at the wall. `1 - exp(-x^2) + sqrt(pi) x erfc(x)`, x = gap/(h sqrt(variance)), and `(1 -
     /// exp(-gap/2h))^2`.
-    fn left(&self, y: f64, to_solids: Option<&f64>) -> [f64; 2] {
-        let to_walls = self.walls.map(|[bottom, top]| (y - bottom).min(top - y).max(0.0) / self.spacing);
-        let gap = to_walls.unwrap_or(f64::INFINITY).min(to_solids.copied().unwrap_or(f64::INFINITY));
-        if gap == f64::INFINITY {
-            return [1.0; 2];
-        }
+    fn left(&self, y: f64) -> [f64; 2] {
+        let Some([bottom, top]) = self.walls else { return [1.0; 2] };
+        let gap = (y - bottom).min(top - y).max(0.0) / self.spacing;
         let x = gap / self.variance.sqrt();
         let tangential = if x > 6.0 { 1.0 } else { 1.0 - (-x * x).exp() + std::f64::consts::PI.sqrt() * x * erfc(x) };
         // Beyond 80 spacings the rest is below round-off.
@@ -167,7 +159,7 @@ impl Plan {
 
     /// Tangents and forces per length along and across them, for `d = (X_{k+1} - X_{k-1}) / 2 = w tau`, n = (tau_y,
     /// -tau_x), the normal ones less their mean; the sum of w.
-    fn place(&mut self, setting: &Setting, gaps: &[f64], positions: &[Vec2], forces: &[Vec2]) -> f64 {
+    fn place(&mut self, setting: &Setting, positions: &[Vec2], forces: &[Vec2]) -> f64 {
         let count = positions.len();
         let [tangential, normal] = &mut self.forces;
         let (mut perimeter, mut pressure) = (0.0, 0.0);
@@ -182,7 +174,7 @@ impl Plan {
             tangential[k] = force.dot(tau);
             normal[k] = force.x * tau.y - force.y * tau.x;
             pressure += normal[k];
-            *place = Place { tangent: tau, left: setting.left(positions[k].y, gaps.get(k)) };
+            *place = Place { tangent: tau, left: setting.left(positions[k].y) };
         }
         pressure /= count as f64;
         normal.iter_mut().for_each(|force| *force -= pressure);

@@ -78,20 +78,6 @@ fn stiffness_of_the_kernels() {
     assert!(of(MobilityDeficit::new(&Gaussian6)) < 0.12);
 }
 
-#[test]
-fn bodies_are_told_the_deficit_of_the_kernel_in_use() {
-    use crate::{Hydrodynamics, ImmersedBoundary};
-    let solver = || {
-        let grid = stokes_grid::Grid::periodic(16, 16, 0.1).unwrap();
-        stokes_grid::PeriodicStokes::new(grid, 1.0).unwrap()
-    };
-    let of_peskin = ImmersedBoundary::uncorrected(solver(), Peskin4).discretisation().mobility_deficit.unwrap();
-    assert_eq!(*of_peskin, MobilityDeficit::new(&Peskin4));
-    let of_default =
-        ImmersedBoundary::new(solver(), CubicQuadratic::default()).discretisation().mobility_deficit.unwrap();
-    assert_ne!(*of_default, *of_peskin);
-}
-
 /// A kernel that spreads nothing loses all of the mobility 1/(4 q), tangential and normal, and couples neither.
 #[test]
 fn a_kernel_that_spreads_nothing_loses_everything() {

@@ -50,7 +50,7 @@ impl Setup {
         let droplets = self.droplets.iter().enumerate().map(|(k, droplet)| self.droplet(droplet).map_err(keyed(k)));
         let droplets = droplets.collect::<Result<Vec<_>, _>>()?;
         let solids = || self.solids.iter().zip(self.droplets.len()..);
-        let regions = solids().map(|(solid, k)| solid.enclosed(&self.region, 0.0).map_err(keyed(k)));
+        let regions = solids().map(|(solid, k)| solid.enclosed(&self.region).map_err(keyed(k)));
         let (regions, flow) = (regions.collect::<Result<Vec<_>, _>>()?, self.flow()?);
         self.check_places(&droplets, &regions, &flow.discretisation())?;
         for (k, droplet) in droplets.iter().enumerate() {
@@ -82,8 +82,10 @@ impl Setup {
         };
         let curve = placed(curve, turned);
         let count = match &self.method {
-            Method::Grid(GridMethod { layers: Some(IntegralMethod { nodes, cells }), .. })
-            | Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
+            Method::Grid(GridMethod { layers: IntegralMethod { nodes, cells }, .. }) if self.has_layers() => {
+                *(cells.max(nodes))
+            }
+            Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
             Method::Grid(grid) => {
                 let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
                 let wanted = curve.perimeter() / spacing;
@@ -119,7 +121,7 @@ impl Setup {
         let motion = match droplet.motion {
             MarkerMotion::WithFluid => Motion::WithFluid,
             MarkerMotion::Equidistributed { relaxation } => {
-                let filter = !matches!(&self.method, Method::Grid(grid) if !grid.filter);
+                let filter = !matches!(&self.method, Method::Grid(grid) if !grid.filter || self.has_layers());
                 Motion::Equidistributed { relaxation, filter }
             }
         };
@@ -174,14 +176,19 @@ impl Setup {
         }))
     }
 
+    /// Whether the surfaces of solids are layers.
+    pub(super) fn has_layers(&self) -> bool {
+        self.solids.iter().any(|solid| solid.surface == Surface::Layer)
+    }
+
     /// Takes a boxed solver, for which the method is compiled once, not once for each kind.
     fn coupled(&self, grid: &GridMethod, solver: Box<dyn StokesSolver>) -> Result<AnyFlow, SetupError> {
         let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
-        Ok(if let Some(IntegralMethod { nodes, .. }) = grid.layers {
-            Box::new(ImmersedLayers::new(solver, grid.kernel, nodes, LAYER_TOLERANCE)?)
+        Ok(if self.has_layers() {
+            Box::new(ImmersedLayers::new(solver, grid.kernel, grid.layers.nodes, LAYER_TOLERANCE)?)
         } else if differs && grid.contrast == Contrast::Arithmetic {
             Box::new(SmearedContrast::new(solver, grid.kernel)?)
-        } else if grid.corrected {
+        } else if grid.corrected && self.solids.is_empty() {
             Box::new(ImmersedBoundary::new(solver, grid.kernel))
         } else {
             Box::new(ImmersedBoundary::uncorrected(solver, grid.kernel))
@@ -194,10 +201,10 @@ impl Setup {
         let y = droplet.centre[1];
         let [length, width] = self.region.lengths();
         // Walls of solids bound the channel where there are some; they know nothing of a film unless they are
-        // corrected.
+        // layers.
         let sides = || self.solids.iter().filter_map(|solid| Some((solid, solid.side()?)));
         let beside = sides().map(|(solid, side)| {
-            (if side < 0.0 { y - side } else { side - y }, if solid.surface == Surface::Corrected { FILM } else { 0.0 })
+            (if side < 0.0 { y - side } else { side - y }, if solid.surface == Surface::Layer { FILM } else { 0.0 })
         });
         let (room, film, to) = match (beside.reduce(|a, b| if b.0 < a.0 { b } else { a }), &self.method, self.region) {
             (Some((room, film)), ..) => (room, film, Squeezed::Stadium),
@@ -223,14 +230,6 @@ impl Setup {
             return Err(SetupError::NoRoom { length, width });
         }
         Ok(DropletShape::Squeezed { radius, half_height, to })
-    }
-
-    /// How far the meshed surfaces of the walls lie behind those where they stop the fluid (length), see
-    /// [`crate::SolidSetup::set_back`]; the largest where they differ.
-    #[must_use]
-    pub fn set_back(&self) -> f64 {
-        let Method::Grid(grid) = &self.method else { return 0.0 };
-        self.solids.iter().map(|solid| solid.set_back(grid)).fold(0.0, f64::max)
     }
 }
 

@@ -117,8 +117,8 @@ impl Setup {
             checked.positive("marker-spacing", spacing)?;
         }
         self.cells(grid, self.region.lengths())?;
-        if let Some(layers) = &grid.layers {
-            return self.check_layers(grid, layers);
+        if self.has_layers() {
+            return self.check_layers(grid);
         }
         let (with_fluid, equal): (Vec<_>, Vec<_>) =
             self.droplets.iter().partition(|droplet| droplet.motion == MarkerMotion::WithFluid);
@@ -139,32 +139,31 @@ impl Setup {
         Ok(())
     }
 
-    fn check_layers(&self, grid: &GridMethod, layers: &IntegralMethod) -> Result<(), SetupError> {
+    fn check_layers(&self, grid: &GridMethod) -> Result<(), SetupError> {
         let checked = Checked { place: "method.grid" };
-        layers.check("method.grid.layers")?;
-        for (key, set) in [("corrected", grid.corrected), ("filter", grid.filter)] {
-            if set {
-                checked.refuse(key, &true, "layers need none: give false")?;
-            }
-        }
+        grid.layers.check("method.grid.layers")?;
         if let Some(spacing) = grid.marker_spacing {
             checked.refuse("marker-spacing", &spacing, "layers have a number of cells: leave it out")?;
         }
         if grid.contrast == Contrast::Arithmetic {
-            checked.refuse("contrast", &"arithmetic", "layers have none: give sharp")?;
+            checked.refuse("contrast", &"arithmetic", "layers have none: give sharp, or plain surfaces of solids")?;
         }
         if let AnyKernel::Peskin4 | AnyKernel::Roma3 | AnyKernel::Gaussian6 = grid.kernel {
-            let remedy = "solids lose volume to layers with it: give a composite B-spline, such as bspline4";
+            let remedy = "solids lose volume to layers with it: give a composite B-spline, such as bspline4, or plain \
+                          surfaces of solids";
             checked.refuse("kernel", &format!("{:?}", grid.kernel), remedy)?;
         }
         for (number, solid) in self.solids.iter().enumerate() {
             let place = Checked { place: &format!("solids[{number}]") };
-            if solid.surface == Surface::SetBack {
-                place.refuse("surface", &"set-back", "layers stand where they are: give corrected")?;
+            if solid.surface == Surface::Plain {
+                place.refuse("surface", &"plain", "others are layers: give layer, or plain for all")?;
             }
             let least = 2.0 * grid.spacing;
             if let Some(spacing) = solid.mesh_spacing.filter(|spacing| *spacing < least * (1.0 - 1e-9)) {
-                let remedy = format!("the grid hardly sees inner points so close to a layer: give {least} or more");
+                let remedy = format!(
+                    "the grid hardly sees inner points so close to a layer: give {least} or more, or plain \
+                     surfaces"
+                );
                 place.refuse("mesh-spacing", &spacing, remedy)?;
             }
         }
@@ -347,9 +346,6 @@ impl SolidSetup {
         if self.hold == Hold::Pinned && self.side().is_none() {
             let remedy = "only walls reach the rigid walls of the region: give tethered or free";
             checked.refuse("hold", &"pinned", remedy)?;
-        }
-        if self.surface == Surface::SetBack && self.side().is_none() {
-            checked.refuse("surface", &"set-back", "only walls are set back: give corrected or plain")?;
         }
         if let Hold::Tethered { stiffness } = self.hold {
             checked.positive("hold.tethered.stiffness", stiffness)?;

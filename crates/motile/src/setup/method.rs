@@ -79,17 +79,16 @@ pub struct GridMethod {
     pub kernel: AnyKernel,
     /// Whether interface velocities are corrected to second order ([`ib_core::ImmersedBoundary`]). Needs markers of
     /// equal spacing ([`crate::MarkerMotion::Equidistributed`]), and a sharp contrast where viscosities differ.
+    /// Concerns scenes without solids only.
     pub corrected: bool,
     /// Whether modes of an interface that are shorter than the kernel are filtered after each step; without it they
     /// grow in long runs. Concerns markers of equal spacing only.
     pub filter: bool,
     /// How interfaces between fluids of different viscosity are treated.
     pub contrast: Contrast,
-    /// Interfaces and the surfaces of solids as layers of this resolution ([`ib_core::ImmersedLayers`]), for scenes
-    /// with solids: exact in films between them. Points of solids are then twice the grid spacing apart unless their
-    /// description says otherwise, on surfaces half of that. Takes the place of corrections, filter and marker spacing,
-    /// and needs a composite B-spline.
-    pub layers: Option<IntegralMethod>,
+    /// Resolution of interfaces where surfaces of solids are layers ([`crate::Surface::Layer`]), in place of
+    /// corrections, filter and marker spacing. Concerns no other scenes.
+    pub layers: IntegralMethod,
 }
 
 impl Default for GridMethod {
@@ -101,7 +100,7 @@ impl Default for GridMethod {
             corrected: true,
             filter: true,
             contrast: Contrast::Sharp,
-            layers: None,
+            layers: IntegralMethod::default(),
         }
     }
 }
@@ -124,12 +123,6 @@ impl GridMethod {
     #[must_use]
     pub fn of_spacing(spacing: f64) -> Self {
         Self { spacing, ..Self::default() }
-    }
-
-    /// A grid of this spacing (length) with interfaces and surfaces of solids as layers of the default resolution.
-    #[must_use]
-    pub fn with_layers(spacing: f64) -> Self {
-        Self { corrected: false, filter: false, layers: Some(IntegralMethod::default()), ..Self::of_spacing(spacing) }
     }
 }
 

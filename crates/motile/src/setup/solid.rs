@@ -3,7 +3,7 @@
 use elastic_solids::channel::ChannelShape;
 use elastic_solids::material::{MooneyRivlin, SaintVenantKirchhoff};
 use elastic_solids::{Interior, Mesher, NeoHookean, Outline, Solid, SolidError, TriangleMesh};
-use ib_core::{MobilityDeficit, Vec2};
+use ib_core::Vec2;
 use serde::{Deserialize, Serialize};
 
 use super::{GridMethod, Method, Region, Setup};
@@ -30,7 +30,7 @@ use crate::SetupError;
 /// scene.run(0.2).go()?;
 /// let lower = scene.body(solids[0])?;
 /// println!("{} points of the lower wall move", lower.free_points().len());
-/// assert_eq!(lower.free_points().len(), 2006);
+/// assert_eq!(lower.free_points().len(), 620);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -42,10 +42,10 @@ pub struct SolidSetup {
     /// How its points are arranged.
     #[serde(default)]
     pub mesh: MeshKind,
-    /// Spacing of its points (length); `None` for that of the grid, twice that where its surface is a layer.
+    /// Spacing of its points (length), on a layer half of that; `None` for that of the grid, twice that with a layer.
     #[serde(default)]
     pub mesh_spacing: Option<f64>,
-    /// What is done about the smearing of its surface over the grid.
+    /// How its surface meets the fluid.
     #[serde(default)]
     pub surface: Surface,
     /// Whether triangles of springs may be inverted ([`Solid::allow_inversion`]).
@@ -177,22 +177,18 @@ pub enum MeshKind {
     Unstructured,
 }
 
-/// What is done about the smearing of a solid's surface over the grid, by which a stiff one stops the fluid 0.31 to
-/// 0.44 grid spacings in front of its surface (with the default kernel).
+/// How the surface of a solid meets the fluid; the same for all solids of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Surface {
-    /// The mobility correction of the surface ([`Solid::surface_corrected`]), of second order, and none where it is a
-    /// layer ([`GridMethod::layers`]), which needs none. A round droplet that
-    /// would start in contact with the walls starts squeezed a little, beside a film.
+    /// As a layer, where it is and exact in films ([`ib_core::ImmersedLayers`]), beside interfaces that are layers of
+    /// the resolution [`GridMethod::layers`]. Needs a composite B-spline, inner points two or more grid spacings apart,
+    /// 16 or more points on the surface and a sharp contrast where viscosities differ. A round droplet that would start
+    /// in contact with walls starts squeezed a little, beside a film.
     #[default]
-    Corrected,
-    /// Walls, and only they, are meshed as much further back ([`SolidSetup::set_back`]). Leaves an error of first
-    /// order, of a few tenths of a grid spacing where droplets keep away, but tolerates droplets that are pressed
-    /// against a bent wall for long, such as the mouth of a constriction, where in time they enter corrected surfaces
-    /// or invert a triangle of springs.
-    SetBack,
-    /// Nothing, as in Cowley.
+    Layer,
+    /// Smeared over the grid like all points, as in Cowley: a stiff surface stops the fluid 0.31 to 0.44 grid spacings
+    /// in front of it (with the default kernel).
     Plain,
 }
 
@@ -214,15 +210,9 @@ pub enum Hold {
 
 /// Angle by which the seeds of unstructured meshes are turned (radians).
 const TURN: f64 = 0.2;
-/// Offset of the plane where a stiff wall stops the fluid, over the deficit of its surface and the grid spacing: 0.315
-/// grid spacings for the default kernel. Measured offsets are 0.31 to 0.44, depending on where the surface lies between
-/// grid lines; this value gives droplets in films of 0.1 R0 between walls of k = 1e6 and h = 0.05 the speed they have
-/// between rigid walls within 2 %.
-const OFFSET: f64 = 1.35;
 
 impl SolidSetup {
-    /// A solid that is pinned to the rigid walls of the region, on a lattice as fine as the grid, its surface
-    /// corrected.
+    /// A solid that is pinned to the rigid walls of the region, its surface a layer.
     #[must_use]
     pub fn new(outline: SolidOutline, material: Material) -> Self {
         Self {
@@ -256,22 +246,10 @@ impl SolidSetup {
     }
 
     /// The same by the method of Cowley (section 4.1): springs on an unstructured mesh (where the material is
-    /// springs), nothing done about the surface, and triangles may be inverted.
+    /// springs), a surface that is smeared over the grid, and triangles may be inverted.
     #[must_use]
     pub fn thesis(self) -> Self {
         Self { mesh: MeshKind::Unstructured, surface: Surface::Plain, may_invert: true, ..self }
-    }
-
-    /// How far the meshed surface of a wall lies behind the one where it stops the fluid (length), on a grid; islands
-    /// and other closed outlines are meshed as they are.
-    #[must_use]
-    pub fn set_back(&self, grid: &GridMethod) -> f64 {
-        let wall = matches!(self.outline, SolidOutline::WallBelow(_) | SolidOutline::WallAbove(_));
-        if self.surface == Surface::SetBack && wall {
-            OFFSET * MobilityDeficit::new(&grid.kernel).at(0.0).tangential * grid.spacing
-        } else {
-            0.0
-        }
     }
 
     /// What makes the mesh of this solid on a grid.
@@ -279,7 +257,7 @@ impl SolidSetup {
     /// # Errors
     /// A spacing that is no length.
     pub fn mesher(&self, grid: &GridMethod) -> Result<Mesher, SetupError> {
-        let usual = if grid.layers.is_some() { 2.0 * grid.spacing } else { grid.spacing };
+        let usual = if self.surface == Surface::Layer { 2.0 * grid.spacing } else { grid.spacing };
         let mesher = Mesher::new(self.mesh_spacing.unwrap_or(usual))?;
         Ok(if self.mesh == MeshKind::Unstructured { mesher.turned(TURN)? } else { mesher })
     }
@@ -289,18 +267,17 @@ impl SolidSetup {
     /// # Errors
     /// Moduli out of their range; a solid that is to be pinned and has no point on a rigid wall of the region.
     pub fn on_mesh(&self, mesh: TriangleMesh, region: &Region) -> Result<Solid, SetupError> {
+        let half = 0.5 * region.lengths()[1];
+        let fixed = |s: Vec2| self.hold == Hold::Pinned && s.y.abs() > half * (1.0 - 1e-9);
+        let mesh = if self.surface == Surface::Layer { mesh.with_finer_boundary(|s| !fixed(s))? } else { mesh };
         let share = mesh.area() / mesh.points().len() as f64;
         let solid = self.at_rest(mesh)?.named(&self.name);
         let held = match self.hold {
-            Hold::Pinned => {
-                let half = 0.5 * region.lengths()[1];
-                solid.pinned(|s| s.y.abs() > half * (1.0 - 1e-9))?
-            }
+            Hold::Pinned => solid.pinned(fixed)?,
             Hold::Tethered { stiffness } => solid.tethered(stiffness * share, |_| true)?,
             Hold::Free => solid,
         };
-        let held = if self.may_invert { held.allow_inversion() } else { held };
-        Ok(if self.surface == Surface::Corrected { held.surface_corrected() } else { held })
+        Ok(if self.may_invert { held.allow_inversion() } else { held })
     }
 }
 
@@ -311,28 +288,17 @@ impl SolidSetup {
     /// The solid of this description in a scene.
     pub(super) fn build(&self, setup: &Setup) -> Result<Solid, SetupError> {
         let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
-        let enclosed = self.enclosed(&setup.region, self.set_back(grid))?;
+        let enclosed = self.enclosed(&setup.region)?;
         let mesh = self.mesher(grid)?.mesh(&enclosed)?;
-        let half = 0.5 * setup.region.lengths()[1];
-        let moves = |s: Vec2| self.hold != Hold::Pinned || s.y.abs() < half * (1.0 - 1e-9);
-        if grid.layers.is_some() {
-            // Layers are exact as they are.
-            let plain = Self { surface: Surface::Plain, ..self.clone() };
-            return plain.on_mesh(mesh.with_finer_boundary(moves)?, &setup.region);
-        }
         self.on_mesh(mesh, &setup.region)
     }
 
-    /// What it fills, a wall set back by that much (length); islands are as they are.
-    pub(super) fn enclosed(&self, region: &Region, set_back: f64) -> Result<Interior, SetupError> {
+    /// What it fills.
+    pub(super) fn enclosed(&self, region: &Region) -> Result<Interior, SetupError> {
         let [period, height] = region.lengths();
-        let channel = |shape: &ChannelShape| {
-            let channel = shape.channel(period)?;
-            if set_back > 0.0 { channel.widened(2.0 * set_back) } else { Ok(channel) }
-        };
         let closed = match &self.outline {
-            SolidOutline::WallBelow(shape) => return Ok(channel(shape)?.below(-0.5 * height)?),
-            SolidOutline::WallAbove(shape) => return Ok(channel(shape)?.above(0.5 * height)?),
+            SolidOutline::WallBelow(shape) => return Ok(shape.channel(period)?.below(-0.5 * height)?),
+            SolidOutline::WallAbove(shape) => return Ok(shape.channel(period)?.above(0.5 * height)?),
             outline => outline.line(period)?,
         };
         Ok(Interior::new([closed])?)

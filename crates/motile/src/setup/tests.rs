@@ -104,21 +104,22 @@ fn what_makes_no_scene_is_refused_with_its_key() {
 
 #[test]
 fn layers_that_make_no_scene_are_refused() {
-    let method = GridMethod::with_layers(0.1);
-    let base = Setup { method: Method::Grid(method), ..elastic(3.0, Surface::Corrected) };
+    let method = GridMethod::of_spacing(0.1);
+    let base = Setup { method: Method::Grid(method), ..elastic(3.0, Surface::Layer) };
     let grid = |grid: GridMethod| Setup { method: Method::Grid(grid), ..base.clone() };
-    let nodes = |nodes, cells| grid(GridMethod { layers: Some(IntegralMethod { nodes, cells }), ..method });
+    let nodes = |nodes, cells| grid(GridMethod { layers: IntegralMethod { nodes, cells }, ..method });
     let solid = |solid: SolidSetup| Setup { solids: vec![solid], ..base.clone() };
     let wall = base.solids[0].clone();
     let cases = [
         ("method.grid.layers.nodes = 4", nodes(4, 64)),
         ("method.grid.layers.cells = 32", nodes(64, 32)),
-        ("method.grid.corrected = true", grid(GridMethod { corrected: true, ..method })),
-        ("method.grid.filter = true", grid(GridMethod { filter: true, ..method })),
         ("method.grid.marker-spacing = 0.05", grid(GridMethod { marker_spacing: Some(0.05), ..method })),
         ("method.grid.contrast = arithmetic", grid(GridMethod { contrast: Contrast::Arithmetic, ..method })),
         ("method.grid.kernel = Peskin4", grid(GridMethod { kernel: ib_core::AnyKernel::Peskin4, ..method })),
-        ("solids[0].surface = set-back", solid(SolidSetup { surface: Surface::SetBack, ..wall.clone() })),
+        ("solids[0].surface = plain", {
+            let plain = SolidSetup { surface: Surface::Plain, ..wall.clone() };
+            Setup { solids: vec![plain, wall.clone()], ..base.clone() }
+        }),
         ("solids[0].mesh-spacing = 0.1", solid(SolidSetup { mesh_spacing: Some(0.1), ..wall.clone() })),
     ];
     for (start, setup) in cases {
@@ -134,9 +135,8 @@ fn layers_that_make_no_scene_are_refused() {
 
 #[test]
 fn solids_that_make_no_scene_are_refused() {
-    let base = elastic(3.0, Surface::Corrected);
+    let base = elastic(3.0, Surface::Plain);
     let wall = base.solids[0].clone();
-    let set_back = SolidSetup { surface: Surface::SetBack, ..disc(0.0, 0.0, 0.3) };
     let disc = SolidOutline::Disc { centre: [0.0, 0.0], radius: 0.3 };
     let along = |factors: Vec<[f64; 2]>| Grading::Along { axis: Axis::X, factors };
     let cases = [
@@ -156,7 +156,6 @@ fn solids_that_make_no_scene_are_refused() {
         ("solids[0].outline.wall-below.straight.width = 5", {
             SolidSetup { outline: SolidOutline::WallBelow(ChannelShape::Straight { width: 5.0 }), ..wall.clone() }
         }),
-        ("solids[0].surface = set-back: only walls are set back", set_back),
         ("solids[0].hold = pinned", SolidSetup { outline: disc, ..wall.clone() }),
         (
             "solids[0].hold.tethered.stiffness = 0",
@@ -209,7 +208,7 @@ fn bodies_in_one_another_are_refused_before_anything_is_meshed() {
         }
     }
     let named = |name: &str, solid: SolidSetup| SolidSetup { name: name.to_owned(), ..solid };
-    let mut walls = elastic(3.0, Surface::Plain).solids;
+    let mut walls = elastic(3.0, Surface::Layer).solids;
     let material = Material::Springs { shear: 10.0 };
     let long = SolidOutline::Ellipse { centre: [0.0, 0.0], half_axes: [4.0, 0.5] };
     let cases = [
@@ -305,7 +304,7 @@ fn round_droplets_are_squeezed_where_they_have_no_room() {
     for (setup, half_height) in [
         (&narrow, 0.95),
         (&wide, 1.0),
-        (&elastic(2.0, Surface::Corrected), 0.95),
+        (&elastic(2.0, Surface::Layer), 0.95),
         (&elastic(2.0, Surface::Plain), 1.0),
         (&elastic(1.6, Surface::Plain), 0.75),
     ] {
@@ -325,7 +324,7 @@ fn a_misplaced_droplet_is_refused_and_not_squeezed() {
     };
     for y in [0.7, -0.9, 1.2] {
         assert!(refused(&at(3.0, y)).starts_with("droplets[0]: a region of 6 x 3 does not hold it"), "{y}");
-        let mut elastic = Setup { droplets: at(3.0, y).droplets, ..elastic(3.0, Surface::Corrected) };
+        let mut elastic = Setup { droplets: at(3.0, y).droplets, ..elastic(3.0, Surface::Layer) };
         assert!(refused(&elastic).contains(" overlaps droplets[0] by"), "{y}: {}", refused(&elastic));
         elastic.solids.clear();
         assert!(elastic.build().is_ok());
@@ -349,7 +348,7 @@ fn bodies_stand_in_the_order_of_the_description() {
             Material::MooneyRivlin { shear: 100.0, bulk: 200.0, fraction: 0.5 },
         )
     };
-    let mut setup = Setup { droplets: droplets.to_vec(), ..elastic(3.0, Surface::Plain) };
+    let mut setup = Setup { droplets: droplets.to_vec(), ..elastic(3.0, Surface::Layer) };
     setup.solids.push(core);
     let Built { mut scene, droplets, solids } = setup.build().unwrap();
     let names: Vec<&str> = droplets.iter().map(|&handle| scene.body(handle).unwrap().name()).collect();
@@ -383,7 +382,7 @@ mod file {
             DropletShape::Modes { radius: 1.0, cosines: vec![0.0, 0.1], sines: vec![0.05] },
             DropletShape::Points((0..9).map(|k| f64::from(k) * 0.69).map(|t| [t.cos(), t.sin()]).collect()),
         ];
-        let mut setup = elastic(3.0, Surface::SetBack);
+        let mut setup = elastic(3.0, Surface::Plain);
         setup.region = Region::Channel { length: 40.0, width: 5.0, drive: Drive::Flux(-0.25) };
         setup.step = StepSize::Adaptive { tolerance: 1e-4 };
         setup.repulsion = Some(RepulsionSetup { strength: 2.0, range: 0.1 });
@@ -406,6 +405,7 @@ mod file {
             grading: graded,
             mesh: MeshKind::Unstructured,
             mesh_spacing: Some(0.07),
+            surface: Surface::Plain,
             ..SolidSetup::new(
                 SolidOutline::Polygon { corners: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], fillet: 0.1 },
                 Material::SaintVenantKirchhoff { shear: 10.0, bulk: 30.0 },
@@ -419,8 +419,7 @@ mod file {
         let passive = Setup { droplets: vec![DropletSetup::passive(3.0)], ..Setup::default() };
         let mut layers = varied();
         layers.droplets.iter_mut().for_each(|droplet| droplet.viscosity = None);
-        layers.method = Method::Grid(GridMethod::with_layers(0.1));
-        layers.solids.iter_mut().for_each(|solid| (solid.mesh_spacing, solid.surface) = (None, Surface::Corrected));
+        layers.solids.iter_mut().for_each(|solid| (solid.mesh_spacing, solid.surface) = (None, Surface::Layer));
         for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, Surface::Plain), varied(), layers] {
             let text = setup.to_toml().unwrap();
             assert_eq!(Setup::from_toml(&text).unwrap(), setup, "{text}");

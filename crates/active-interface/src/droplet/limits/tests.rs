@@ -9,7 +9,6 @@ fn limits_of(droplet: &ActiveDroplet) -> Vec<(&'static str, f64)> {
         spacing: Some(0.1),
         shape_modes: None,
         interface_stiffness: 0.5,
-        mobility_deficit: None,
     };
     let mut found = Vec::new();
     droplet.limits(&discretisation, &mut |limit| {

@@ -24,14 +24,7 @@ impl Hydrodynamics for Wind {
     fn discretisation(&self) -> Discretisation {
         let domain =
             Domain { origin: [0.0, -1.0], periods: [Some(10.0), None], walls: self.walls.then_some([-1.0, 3.0]) };
-        Discretisation {
-            domain,
-            viscosity: 1.0,
-            spacing: None,
-            interface_stiffness: 1.0,
-            shape_modes: None,
-            mobility_deficit: None,
-        }
+        Discretisation { domain, viscosity: 1.0, spacing: None, interface_stiffness: 1.0, shape_modes: None }
     }
 
     fn velocities(&mut self, markers: &mut Markers) -> Result<SolveReport, FlowError> {

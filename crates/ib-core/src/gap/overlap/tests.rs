@@ -8,15 +8,8 @@ const INTERFACE: MarkerKind = MarkerKind::Interface { viscosity_inside: None };
 /// A box of 6 x 6 with a grid spacing of 0.1 and fluid of viscosity 1.
 fn discretisation() -> Discretisation {
     let domain = Domain { origin: [0.0; 2], periods: [Some(6.0); 2], walls: None };
-    let (shape_modes, mobility_deficit) = (None, None);
-    Discretisation {
-        domain,
-        viscosity: 1.0,
-        spacing: Some(0.1),
-        shape_modes,
-        interface_stiffness: 1.0,
-        mobility_deficit,
-    }
+    let shape_modes = None;
+    Discretisation { domain, viscosity: 1.0, spacing: Some(0.1), shape_modes, interface_stiffness: 1.0 }
 }
 
 fn circle(x: f64, radius: f64) -> Boundary {
