@@ -1,8 +1,8 @@
 #!/bin/sh
 # Sweeps on two engines for real: a job array of Slurm on this machine, and HyperQueue with two workers; in both a task
-# is killed in the middle and its share submitted again. Both must give the same bytes as the runs one after the other. Installs what it needs (Debian
-# packages slurmctld, slurmd, slurm-client; the Python package hyperqueue), for which it has to be root; what cannot
-# be installed is said and left out, and the script then ends with 77.
+# is killed in the middle and its share submitted again. Both must give the same bytes as the runs one after the other.
+# Installs what it needs (Debian packages slurmctld, slurmd, slurm-client, munge; the Python package hyperqueue), for
+# which it has to be root; what cannot be installed is said and left out, and the script then ends with 77.
 #
 #     tests/cluster.sh [DIRECTORY]
 set -eu

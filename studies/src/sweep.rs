@@ -1,9 +1,9 @@
 //! Parameter sweeps: many runs of one scene, on all cores of a machine or on many machines.
 //!
-//! `cargo run --release -p studies -- sweep plan.toml` makes the runs of a plan (scene, time, ranges of its entries), each
-//! in a folder of its own with scene file, trajectory, checkpoint and summary. What is finished is not run again, what was
-//! cut goes on from its checkpoint, what fails is listed and does not keep the others from running. Any number of
-//! processes may work on one sweep: a run belongs to the first that takes it. `--shard 2/4` takes the second of four
+//! `cargo run --release -p studies -- sweep plan.toml` makes the runs of a plan (scene, time, ranges of its entries),
+//! each in a folder of its own with scene file, trajectory, checkpoint and summary. What is finished is not run again,
+//! what was cut goes on from its checkpoint, what fails is listed and does not keep the others from running. Any number
+//! of processes may work on one sweep: a run belongs to the first that takes it. `--shard 2/4` takes the second of four
 //! shares. `sweep plan.toml collect` makes one table of the results, the same bytes whoever made the runs in whatever
 //! order; `sweep plan.toml status` tells what is left.
 

@@ -45,8 +45,8 @@ pub struct TrajectoryCsv {
 }
 
 impl TrajectoryCsv {
-    /// A recorder of a droplet that writes to `path`. Where the system is past time 0, as after resuming, the rows up to
-    /// its time that the file has stay, and the others follow as if the run had not been cut.
+    /// A recorder of a droplet that writes to `path`. Where the system is past time 0, as after resuming, the rows up
+    /// to its time that the file has stay, and the others follow as if the run had not been cut.
     ///
     /// # Errors
     /// [`Error::Write`]; [`Error::Observer`]: a state that cannot be measured.

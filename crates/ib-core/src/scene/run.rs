@@ -32,8 +32,9 @@ where
 pub enum Every {
     /// After every n steps (0 counts as 1).
     Steps(usize),
-    /// At all multiples of this time, exactly: steps are shortened to end there as they are at the end of a run. At most
-    /// ten million of them a run. Multiples are counted from time 0, so that a run that is resumed goes on with them.
+    /// At all multiples of this time, exactly: steps are shortened to end there as they are at the end of a run. At
+    /// most ten million of them a run. Multiples are counted from time 0, so that a run that is resumed goes on with
+    /// them.
     Time(f64),
     /// At the end of the first step that reaches a multiple of this time, counted from time 0; no step is shortened for
     /// it.

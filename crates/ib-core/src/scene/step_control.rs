@@ -9,9 +9,9 @@ use crate::checkpoint::SavedState;
 ///
 /// Errors are of second order in the step, but for two parts that a swimmer has under the midpoint rule: its stabiliser
 /// (orders of 1.5 to 1.9 where steps are longer than the marker spacing squared over its diffusivity, and two below)
-/// and, on a grid, its filter of short waves (of first order, `dt gamma (q h/2)^4 / (4 eta h)` of a displacement of wave
-/// number q). A swimmer of activity -2 in Cowley's units changes by 4e-7 R0 and 2.6e-6 of its mean number of particles
-/// by each between steps of 0.002 and 0.001 at h = R0/5.
+/// and, on a grid, its filter of short waves (of first order, `dt gamma (q h/2)^4 / (4 eta h)` of a displacement of
+/// wave number q). A swimmer of activity -2 in Cowley's units changes by 4e-7 R0 and 2.6e-6 of its mean number of
+/// particles by each between steps of 0.002 and 0.001 at h = R0/5.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum StepSize {

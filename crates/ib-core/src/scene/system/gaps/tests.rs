@@ -223,8 +223,8 @@ fn the_smallest_gap_is_that_of_the_nearest_approach() {
     assert!((gap - 0.1).abs() < 5e-3, "{gap}");
 }
 
-/// The bound on the step is for flat interfaces that slip; the repulsion of circles, which face each other along a fifth
-/// of their length and do not slip, decays at some part of that rate.
+/// The bound on the step is for flat interfaces that slip; the repulsion of circles, which face each other along a
+/// fifth of their length and do not slip, decays at some part of that rate.
 #[test]
 fn the_bound_of_the_repulsion_is_that_of_its_decay() {
     let approach = |gap: f64| {
