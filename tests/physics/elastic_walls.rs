@@ -17,7 +17,9 @@ fn error(activity: f64, width: f64, h: f64) -> f64 {
     let droplets = vec![DropletSetup::active(activity)];
     let rigid = Setup { region: open_channel(6.0, width), droplets: droplets.clone(), ..Setup::default() };
     let shear = Moduli::from_thesis_spring_constant(1e6).expect("moduli").shear();
-    let solids = SolidSetup::walls(&ChannelShape::Straight { width }, &Material::Springs { shear });
+    let walls = SolidSetup::walls(&ChannelShape::Straight { width }, &Material::Springs { shear });
+    // Walls as stiff as these are not compressed so that finer surfaces would fold.
+    let solids = walls.into_iter().map(|wall| SolidSetup { finer_surface: Some(true), ..wall }).collect();
     place(&Setup { region: open_channel(6.0, width + 3.0), droplets, solids, ..on_grid(h) }) / place(&rigid) - 1.0
 }
 

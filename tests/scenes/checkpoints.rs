@@ -158,7 +158,10 @@ fn an_elastic_channel() {
     let shear = Moduli::from_thesis_spring_constant(1e4).expect("moduli").shear();
     let setup = Setup {
         region: Region::Channel { length: 4.0, width: 5.4, drive: Drive::ZeroGradient },
-        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear }),
+        solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.4 }, &Material::Springs { shear })
+            .into_iter()
+            .map(|wall| SolidSetup { finer_surface: Some(true), ..wall })
+            .collect(),
         ..coarse()
     };
     let make = || scene(&setup);

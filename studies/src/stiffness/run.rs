@@ -174,7 +174,11 @@ impl Job {
         let walls = SolidSetup::walls(&self.shape(), &material).into_iter().map(|wall| {
             let wall = SolidSetup { mesh: self.mesh, ..wall };
             // Whether springs are inverted is reported.
-            SolidSetup { may_invert: true, ..if self.thesis { wall.thesis() } else { wall } }
+            SolidSetup {
+                may_invert: true,
+                finer_surface: (self.purpose == Purpose::Passage).then_some(false),
+                ..if self.thesis { wall.thesis() } else { wall }
+            }
         });
         Ok(walls.collect())
     }

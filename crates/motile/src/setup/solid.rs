@@ -42,12 +42,17 @@ pub struct SolidSetup {
     /// How its points are arranged.
     #[serde(default)]
     pub mesh: MeshKind,
-    /// Spacing of its points (length), on a layer half of that; `None` for that of the grid, twice that with a layer.
+    /// Spacing of its points (length), on a finer surface half of that; `None` for that of the grid, twice that with a
+    /// layer.
     #[serde(default)]
     pub mesh_spacing: Option<f64>,
     /// How its surface meets the fluid.
     #[serde(default)]
     pub surface: Surface,
+    /// Whether a surface that is a layer has a point more in the middle of each side: more accurate beside thin films,
+    /// but it folds where it is compressed by a third along itself, springs first; `None` for all but springs.
+    #[serde(default)]
+    pub finer_surface: Option<bool>,
     /// Whether triangles of springs may be inverted ([`Solid::allow_inversion`]).
     #[serde(default)]
     pub may_invert: bool,
@@ -220,6 +225,7 @@ impl SolidSetup {
             mesh: MeshKind::default(),
             mesh_spacing: None,
             surface: Surface::default(),
+            finer_surface: None,
             may_invert: false,
             hold: Hold::default(),
             outline,
@@ -269,7 +275,9 @@ impl SolidSetup {
     pub fn on_mesh(&self, mesh: TriangleMesh, region: &Region) -> Result<Solid, SetupError> {
         let half = 0.5 * region.lengths()[1];
         let fixed = |s: Vec2| self.hold == Hold::Pinned && s.y.abs() > half * (1.0 - 1e-9);
-        let mesh = if self.surface == Surface::Layer { mesh.with_finer_boundary(|s| !fixed(s))? } else { mesh };
+        let springs = matches!(self.material, Material::Springs { .. });
+        let finer = self.surface == Surface::Layer && self.finer_surface.unwrap_or(!springs);
+        let mesh = if finer { mesh.with_finer_boundary(|s| !fixed(s))? } else { mesh };
         let share = mesh.area() / mesh.points().len() as f64;
         let solid = self.at_rest(mesh)?.named(&self.name);
         let held = match self.hold {

@@ -125,12 +125,15 @@ fn layers_that_make_no_scene_are_refused() {
     for (start, setup) in cases {
         assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
     }
-    let Built { mut scene, solids, .. } = base.build().unwrap();
-    scene.step(1e-3).unwrap();
-    // Points on the surface as far apart as the grid's, those below it twice as far.
-    let mesh = scene.body(solids[0]).unwrap().mesh();
-    let [lower, upper] = [0, 1].map(|k| mesh.boundary_loops()[k].points.len());
-    assert!(lower.abs_diff(30) < 4 && upper == 2 * lower, "{lower} {upper}");
+    // Points on a finer surface are as far apart as the grid's, those below it twice as far.
+    for (finer_surface, times) in [(None, 1), (Some(true), 2)] {
+        let wall = SolidSetup { finer_surface, ..wall.clone() };
+        let Built { mut scene, solids, .. } = solid(wall).build().unwrap();
+        scene.step(1e-3).unwrap();
+        let mesh = scene.body(solids[0]).unwrap().mesh();
+        let [lower, upper] = [0, 1].map(|k| mesh.boundary_loops()[k].points.len());
+        assert!(lower.abs_diff(30) < 4 && upper == times * lower, "{lower} {upper}");
+    }
 }
 
 #[test]
