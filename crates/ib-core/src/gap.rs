@@ -69,7 +69,7 @@ impl Gaps {
     #[must_use]
     pub fn contact(&self, discretisation: &Discretisation) -> Option<(usize, usize, Vec2)> {
         let interfaces = |gap: &Gap| self.kinds[gap.body].is_interface() && self.kinds[gap.other].is_interface();
-        let narrowest = self.narrowest_near(discretisation).filter(interfaces);
+        let narrowest = self.narrowest_near(discretisation, 0.0).filter(interfaces);
         narrowest.filter(|gap| gap.width <= 0.0).map(|gap| (gap.body, gap.other, gap.place))
     }
 
@@ -79,9 +79,10 @@ impl Gaps {
         around && self.boundaries[inner].lies_in(&self.boundaries[outer], periods, 0.0)
     }
 
-    /// The narrowest gap of those that are looked at during steps, below four times what contacts are measured in.
-    pub(crate) fn narrowest_near(&self, discretisation: &Discretisation) -> Option<Gap> {
-        self.narrowest(&discretisation.domain, REACH * self.contact_scale(discretisation))
+    /// The narrowest gap of those that are looked at during steps, below `bound` (length) or four times what contacts
+    /// are measured in.
+    pub(crate) fn narrowest_near(&self, discretisation: &Discretisation, bound: f64) -> Option<Gap> {
+        self.narrowest(&discretisation.domain, bound.max(REACH * self.contact_scale(discretisation)))
     }
 
     /// The narrowest gap below `reach` (length), if there is one: from the corners of interfaces to all bodies, and

@@ -195,7 +195,7 @@ impl<H: Hydrodynamics> System<H> {
     fn find_gaps(&mut self) -> f64 {
         self.find_surroundings();
         let discretisation = self.hydrodynamics.discretisation();
-        self.narrowest = self.gaps.narrowest_near(&discretisation);
+        self.narrowest = self.gaps.narrowest_near(&discretisation, self.least_gap.unwrap_or_default());
         self.gaps.allowed(&discretisation)
     }
 

@@ -291,6 +291,21 @@ fn bodies_of_the_same_name_are_told_apart() {
     assert!((depth - 0.5).abs() < 0.02, "{depth}");
 }
 
+/// However wide the bound is against the grid.
+#[test]
+fn a_wide_bound_on_gaps_ends_the_run_too() {
+    let mut scene = scene().with_least_gap(0.7).unwrap();
+    scene.add(ring("left", Vec2::new(-0.7, 0.0), 0.3, None, Vec2::new(0.1, 0.0)));
+    scene.add(ring("right", Vec2::new(0.7, 0.0), 0.3, None, Vec2::ZERO));
+    match scene.run(3.0).go().unwrap_err() {
+        SceneError::Gap { time, gap, bound, .. } => {
+            assert!(bound == 0.7 && (0.68..0.7).contains(&gap), "{gap}");
+            assert!((0.95..1.2).contains(&time), "{time}");
+        }
+        other => panic!("{other}"),
+    }
+}
+
 #[test]
 fn the_least_gap_to_solids_is_kept_with_its_time() {
     let mut scene = scene();
