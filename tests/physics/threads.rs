@@ -37,7 +37,7 @@ fn elastic_walls_of_many_points() {
         region: open_channel(12.0, 5.0),
         droplets: vec![DropletSetup::active(-4.0)],
         solids: SolidSetup::walls(&ChannelShape::Straight { width: 2.0 }, &Material::Springs { shear }),
-        ..on_grid(0.025)
+        ..on_grid(1.0 / 60.0)
     };
     let expected = bits(1, &setup);
     assert!(expected.len() > 120_000, "enough points for several threads");
