@@ -2,7 +2,7 @@
 
 /// How the director meets the interface of its droplet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum Anchoring {
     /// Along the outward normal.
     Homeotropic,

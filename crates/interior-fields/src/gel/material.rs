@@ -6,7 +6,7 @@ use crate::InteriorError;
 
 /// The constants of a gel; its viscosity is that of the fluid that it lies in.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct GelMaterial {
     /// Frank constant K (force): what it takes to bend or splay the director.
     pub frank: f64,
@@ -17,6 +17,13 @@ pub struct GelMaterial {
     pub alignment: f64,
     /// Activity zeta_b (stress): negative for a contractile gel, positive for an extensile one.
     pub activity: f64,
+}
+
+impl Default for GelMaterial {
+    /// A contractile gel of rods whose director relaxes over a radius in some ten units of time, in those of the model.
+    fn default() -> Self {
+        Self { frank: 10.0, rotational_viscosity: 100.0, alignment: -0.5, activity: -100.0 }
+    }
 }
 
 impl GelMaterial {

@@ -10,7 +10,7 @@ use crate::InteriorError;
 
 /// A director to start from.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum DirectorStart {
     /// The same direction everywhere (angle to x), each node turned by a random angle of up to `noise` to either side
     /// that the seed decides.
