@@ -15,7 +15,7 @@ pub enum Anchoring {
 
 impl Anchoring {
     /// Angle from the counter-clockwise tangent to the director; `None` where it is free.
-    pub(super) fn from_tangent(self) -> Option<f64> {
+    pub(super) fn angle_from_tangent(self) -> Option<f64> {
         match self {
             Self::Homeotropic => Some(-std::f64::consts::FRAC_PI_2),
             Self::Planar => Some(0.0),

@@ -125,8 +125,7 @@ impl Director {
         let anchored = self.anchored();
         let Self { material, elements, directors, couples, stresses, .. } = self;
         let area = elements.areas[elements.least];
-        // The negation also catches what is not a number.
-        if !(area > 0.0) {
+        if area.is_nan() || area <= 0.0 {
             let Vec2 { x, y } = elements.place(elements.least, nodes, [1.0 / 3.0; 3]);
             return Err(InteriorError::Folded { x, y });
         }
@@ -145,10 +144,10 @@ impl Director {
             }
         }
         // The couples on an anchored boundary turn its normals, all others the fluid.
-        for node in 0..anchored {
+        for (node, couple) in couples[..anchored].iter().enumerate() {
             let [before, after] = neighbours(node, anchored);
             let chord = nodes[after] - nodes[before];
-            let push = couples[node] / chord.length_squared() * chord.perp();
+            let push = couple / chord.length_squared() * chord.perp();
             forces[after] += push;
             forces[before] -= push;
         }

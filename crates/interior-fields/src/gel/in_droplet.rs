@@ -74,7 +74,7 @@ impl GelInDroplet {
         mesh.place(&mut nodes);
         let angles = start.angles(&nodes, markers.iter().sum::<Vec2>() / markers.len() as f64)?;
         let elements = Elements::new(mesh.triangles().to_vec(), nodes.len(), [None; 2]);
-        let anchored = anchoring.from_tangent().map(|angle| (angle, markers.len()));
+        let anchored = anchoring.angle_from_tangent().map(|angle| (angle, markers.len()));
         let mut director = Director::new(material.checked()?, elements, angles, anchored);
         director.move_to(&nodes);
         let mut forces = vec![Vec2::ZERO; nodes.len()];

@@ -20,7 +20,7 @@ fn bent(material: GelMaterial, anchoring: Anchoring) -> (Director, Vec<Vec2>) {
     mesh.place(&mut nodes);
     let angles = nodes.iter().map(|node| 2.0 * node.x + (3.0 * node.y).sin()).collect();
     let elements = Elements::new(mesh.triangles().to_vec(), nodes.len(), [None; 2]);
-    let anchored = anchoring.from_tangent().map(|angle| (angle, 24));
+    let anchored = anchoring.angle_from_tangent().map(|angle| (angle, 24));
     let mut director = Director::new(material, elements, angles, anchored);
     director.move_to(&nodes);
     (director, nodes)
