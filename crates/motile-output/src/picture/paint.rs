@@ -175,7 +175,7 @@ impl Painter<'_> {
         for gel in &seen.gels {
             let mut taken = HashSet::new();
             let corner = gel.nodes.first().copied().unwrap_or_default();
-            let place = |node: Vec2| ((node - corner) / (1.3 * length)).floor().as_i64vec2();
+            let place = |node: Vec2| ((node - corner) / (1.3 * length)).to_array().map(|cell| cell.floor() as i64);
             let shown = gel.nodes.iter().zip(&gel.directors).filter(|(node, _)| taken.insert(place(**node)));
             let shown: Vec<[Vec2; 2]> = shown.map(|(at, p)| [at - 0.5 * length * p, at + 0.5 * length * p]).collect();
             for shift in self.images(&gel.nodes.iter()) {
