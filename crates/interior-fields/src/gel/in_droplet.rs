@@ -1,5 +1,7 @@
 //! A gel that fills a droplet.
 
+use std::any::Any;
+
 use active_interface::ActiveDroplet;
 use ib_core::body::{Guest, StepLimit};
 use ib_core::scene::BodyFlow;
@@ -45,7 +47,7 @@ pub struct GelInDroplet {
     forces: Vec<Vec2>,
     fluid: Vec<Vec2>,
     motion: Vec<Vec2>,
-    /// Whether the droplet still has as many markers as the mesh was made for.
+    /// Whether the host is a droplet that still has as many markers as the mesh was made for.
     fits: bool,
 }
 
@@ -125,7 +127,8 @@ impl Guest for GelInDroplet {
     }
 
     fn see(&mut self, host: &dyn Body) {
-        self.fits = host.marker_count() == self.mesh.marker_count();
+        let droplet: &dyn Any = host;
+        self.fits = droplet.is::<ActiveDroplet>() && host.marker_count() == self.mesh.marker_count();
         if self.fits {
             host.write_markers(&mut self.nodes[..self.mesh.marker_count()]);
             self.mesh.place(&mut self.nodes);
@@ -138,7 +141,7 @@ impl Guest for GelInDroplet {
     }
 
     fn see_motion(&mut self, host: &dyn Body, velocities: &[Vec2]) {
-        let host: &dyn std::any::Any = host;
+        let host: &dyn Any = host;
         if let Some(droplet) = host.downcast_ref::<ActiveDroplet>().filter(|_| self.fits) {
             let count = self.mesh.marker_count();
             self.fluid[..count].copy_from_slice(velocities);
