@@ -10,8 +10,11 @@ pub enum InteriorError {
     #[error(transparent)]
     Input(#[from] InputError),
     /// A droplet whose number of markers changes.
-    #[error("a droplet with a gel needs a fixed number of markers: give it equally spaced ones (`Equidistributed`)")]
+    #[error("a droplet with a gel or particles inside needs a fixed number of markers: give it equally spaced ones (`Equidistributed`)")]
     ChangingMarkers,
+    /// A droplet whose interface has no particles that could be exchanged.
+    #[error("a droplet that exchanges particles with its inside needs some on its interface: give it a list of numbers")]
+    NoParticles,
     /// A mesh with so many nodes that it would not fit.
     #[error("the mesh inside would have some {nodes:.0} nodes, more than {most}: give a wider spacing")]
     TooFine {
@@ -23,7 +26,7 @@ pub enum InteriorError {
     /// A mesh that has folded over.
     #[error(
         "the mesh inside is folded at ({x:.4}, {y:.4}): the droplet is bent too far for a mesh that started as a disc; \
-         give it more tension or the gel less activity"
+         give it more tension or less activity"
     )]
     Folded {
         /// x coordinate of a triangle of negative area (length).

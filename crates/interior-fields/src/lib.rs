@@ -2,6 +2,7 @@
 //!
 //! * [`DiscMesh`]: a triangular mesh of the inside of a closed curve that follows its markers.
 //! * [`gel`]: an active polar gel that fills a droplet ([`GelInDroplet`]) or a box ([`GelInBox`]).
+//! * [`particles`]: particles inside a droplet that are exchanged with its interface ([`ParticlesInDroplet`]).
 //!
 //! A gel is a body of its own beside the droplet that it fills. A contractile one whose director is free at the
 //! interface of a droplet of constant tension, to which nothing else happens:
@@ -32,7 +33,9 @@
 mod error;
 pub mod gel;
 mod mesh;
+pub mod particles;
 
 pub use error::InteriorError;
 pub use gel::{Anchoring, Defect, DirectorStart, GelInBox, GelInDroplet, GelMaterial, GelObservables};
 pub use mesh::DiscMesh;
+pub use particles::{InteriorObservables, ParticlesInDroplet};

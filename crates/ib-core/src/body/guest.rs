@@ -20,4 +20,8 @@ pub trait Guest {
     /// Shows it the velocities of the fluid at the host's markers (length per time), and the host, which has computed
     /// from them how its markers move, before [`Body::rate`].
     fn see_motion(&mut self, host: &dyn Body, velocities: &[Vec2]);
+
+    /// Adds to the rate of change of the host's state (unit of the state per time) what comes from the guest, after its
+    /// own [`Body::rate`]: what it puts there is what its own state loses. By default nothing.
+    fn add_host_rate(&self, _rate: &mut [f64]) {}
 }

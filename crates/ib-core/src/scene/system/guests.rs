@@ -41,6 +41,17 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
+    /// Adds what guests change in the states of their hosts.
+    pub(super) fn add_guest_rates(&mut self, rate: &mut [f64]) {
+        for &[host, guest] in &self.guests {
+            let start: usize = self.bodies[..host].iter().map(|body| body.state_len()).sum();
+            let end = start + self.bodies[host].state_len();
+            if let Some(guest) = self.bodies[guest].as_guest() {
+                guest.add_host_rate(&mut rate[start..end]);
+            }
+        }
+    }
+
     /// Shows a body how its host moves, if it fills one.
     pub(super) fn show_motion(&mut self, index: usize) {
         let Some(number) = self.guests.iter().position(|&[_, guest]| guest == index) else { return };

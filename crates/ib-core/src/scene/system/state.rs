@@ -64,13 +64,14 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     fn rate_here(&mut self, rate: &mut [f64]) {
-        let mut rest = rate;
+        let mut rest = &mut *rate;
         for index in 0..self.bodies.len() {
             self.show_motion(index);
             let (body, range) = (&mut self.bodies[index], self.markers.groups()[index].range.clone());
             let rate = part(&mut rest, body.as_ref());
             body.rate(&self.markers.velocities[range], rate);
         }
+        self.add_guest_rates(rate);
     }
 
     /// Gives the bodies a state of their present lengths.

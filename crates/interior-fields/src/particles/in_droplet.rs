@@ -1,0 +1,365 @@
+//! Particles inside a droplet.
+
+use std::any::Any;
+
+use active_interface::{ActiveDroplet, Exchange};
+use ib_core::body::{Guest, StepInfo, StepLimit};
+use ib_core::input::{not_negative, positive};
+use ib_core::scene::BodyFlow;
+use ib_core::{Body, BodyError, Discretisation, Handle, MarkerKind, Observe, Vec2, Warning};
+
+use super::{cells::Cells, diffusion::Diffusion, positivity::fill_up, transport::Transport};
+use crate::{DiscMesh, InteriorError};
+
+/// Relative change of the number of particles at which a run ends.
+const NUMBER_BOUND: f64 = 1e-8;
+/// Passes in which negative numbers are filled up.
+const PASSES: usize = 100;
+/// Cell Peclet number above which upwind fluxes add to the diffusion.
+const PECLET_LIMIT: f64 = 2.0;
+
+/// What is seen of the particles inside a droplet at one time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InteriorObservables {
+    /// Number of particles inside.
+    pub number: f64,
+    /// Number of particles on the interface.
+    pub number_on: f64,
+    /// Particles that bind to the interface less those that unbind (1/time).
+    pub flux: f64,
+    /// Least and largest density (particles per area).
+    pub range: [f64; 2],
+}
+
+/// Particles inside a droplet that diffuse there, are carried along by the fluid and are exchanged with its interface, a
+/// body of a scene ([`ib_core::body::Guest`]) without forces:
+/// ```text
+/// dC/dt + v.grad C = D_b lap C,   -D_b dC/dn = k_on C - k_off c = gain of c
+/// ```
+/// The unknowns are the numbers of particles in the cells around the nodes of a [`DiscMesh`] whose boundary are the
+/// droplet's markers; a node's density is its number over the area of its cell. All fluxes leave one cell or segment and
+/// enter another one, so particles are lost to round-off only. Diffusion is implicit, with the mesh of the start of a
+/// step; what that misses is explicit, so that a step is of second order.
+#[derive(Debug, Clone)]
+pub struct ParticlesInDroplet {
+    name: String,
+    host: Handle<ActiveDroplet>,
+    mesh: DiscMesh,
+    exchange: Exchange,
+    cells: Cells,
+    /// With the mesh of the start of the step.
+    diffusion: Diffusion,
+    transport: Transport,
+    numbers: Vec<f64>,
+    initial_number: f64,
+    /// Of all nodes, the droplet's markers first: places, velocities of the fluid and of the nodes.
+    nodes: Vec<Vec2>,
+    fluid: Vec<Vec2>,
+    motion: Vec<Vec2>,
+    /// Of the droplet's segments: lengths, particles, particles that bind less those that unbind (1/time).
+    lengths: Vec<f64>,
+    on: Vec<f64>,
+    bound: Vec<f64>,
+    /// Whether the host is a droplet that still has as many markers as the mesh was made for.
+    fits: bool,
+}
+
+impl ParticlesInDroplet {
+    /// Particles of that density (particles per area) and diffusion constant (length squared per time) in `droplet`,
+    /// which is or will be the body `host` of the scene, on a mesh of that spacing (length) inside. The droplet is to be
+    /// one whose particles come and go ([`ActiveDroplet::with_open_number`]).
+    ///
+    /// # Errors
+    /// Densities that are negative or not finite, a diffusion constant that is not positive, a spacing that cannot be
+    /// used, a droplet without particles or whose number of markers changes, or one so bent that the mesh folds.
+    pub fn new(
+        droplet: &ActiveDroplet,
+        host: Handle<ActiveDroplet>,
+        exchange: Exchange,
+        diffusion: f64,
+        density: impl Fn(Vec2) -> f64,
+        spacing: f64,
+    ) -> Result<Self, InteriorError> {
+        positive("the diffusion constant inside", diffusion)?;
+        if !matches!(droplet.kind(), MarkerKind::Interface { .. }) {
+            return Err(InteriorError::ChangingMarkers);
+        }
+        if droplet.particle_numbers().is_empty() {
+            return Err(InteriorError::NoParticles);
+        }
+        let markers = droplet.markers();
+        let radius = droplet.segment_lengths().iter().sum::<f64>() / std::f64::consts::TAU;
+        let mesh = DiscMesh::new(markers.len(), spacing / radius)?;
+        let mut nodes = vec![Vec2::ZERO; mesh.node_count()];
+        nodes[..markers.len()].copy_from_slice(markers);
+        mesh.place(&mut nodes);
+        let cells = Cells::new(mesh.triangles().to_vec(), &nodes);
+        if let Some(place) = cells.folded {
+            return Err(InteriorError::Folded { x: place.x, y: place.y });
+        }
+        let mut numbers = Vec::with_capacity(nodes.len());
+        for (node, area) in nodes.iter().zip(&cells.areas) {
+            let density = density(*node);
+            not_negative("a density of particles inside", density)?;
+            numbers.push(density * area);
+        }
+        let on = droplet.particle_numbers().to_vec();
+        Ok(Self {
+            name: format!("inside of {}", droplet.name()),
+            host,
+            exchange,
+            diffusion: Diffusion::new(diffusion, &cells),
+            transport: Transport::new(&cells)?,
+            initial_number: numbers.iter().sum::<f64>() + on.iter().sum::<f64>(),
+            numbers,
+            fluid: vec![Vec2::ZERO; nodes.len()],
+            motion: vec![Vec2::ZERO; nodes.len()],
+            lengths: droplet.segment_lengths().to_vec(),
+            bound: vec![0.0; on.len()],
+            on,
+            nodes,
+            cells,
+            mesh,
+            fits: true,
+        })
+    }
+
+    /// Where the nodes are (length), the droplet's markers first.
+    #[must_use]
+    pub fn nodes(&self) -> &[Vec2] {
+        &self.nodes
+    }
+
+    /// Triangles by the numbers of their nodes, counter-clockwise.
+    #[must_use]
+    pub fn triangles(&self) -> &[[usize; 3]] {
+        self.mesh.triangles()
+    }
+
+    /// Numbers of particles in the cells around the nodes.
+    #[must_use]
+    pub fn numbers(&self) -> &[f64] {
+        &self.numbers
+    }
+
+    /// Densities at the nodes (particles per area).
+    pub fn densities(&self) -> impl Iterator<Item = f64> {
+        self.numbers.iter().zip(&self.cells.areas).map(|(number, area)| number / area)
+    }
+
+    /// The droplet that they are in.
+    #[must_use]
+    pub fn droplet(&self) -> Handle<ActiveDroplet> {
+        self.host
+    }
+
+    fn inner(&self) -> std::ops::RangeFrom<usize> {
+        self.mesh.marker_count()..
+    }
+
+    /// Nodes at the ends of a segment.
+    fn ends(&self, segment: usize) -> [usize; 2] {
+        [segment, (segment + 1) % self.mesh.marker_count()]
+    }
+
+    /// The largest cell Peclet number, speed relative to the mesh times the width of a cell over the diffusion constant.
+    fn cell_peclet(&self) -> f64 {
+        let speeds = self.fluid.iter().zip(&self.motion).map(|(fluid, motion)| fluid.distance(*motion));
+        let widest = speeds.zip(&self.cells.areas).map(|(speed, area)| speed * area.sqrt()).fold(0.0, f64::max);
+        widest / self.diffusion.constant
+    }
+}
+
+impl Guest for ParticlesInDroplet {
+    fn host(&self) -> Handle<dyn Body> {
+        self.host.into()
+    }
+
+    fn see(&mut self, host: &dyn Body) {
+        let droplet: &dyn Any = host;
+        let droplet = droplet.downcast_ref::<ActiveDroplet>();
+        let count = self.mesh.marker_count();
+        let droplet = droplet.filter(|droplet| droplet.particle_numbers().len() == count);
+        self.fits = droplet.is_some();
+        if let Some(droplet) = droplet {
+            self.nodes[..count].copy_from_slice(droplet.markers());
+            self.mesh.place(&mut self.nodes);
+            self.cells.move_to(&self.nodes);
+            self.on.copy_from_slice(droplet.particle_numbers());
+            self.lengths.copy_from_slice(droplet.segment_lengths());
+        }
+    }
+
+    fn add_host_forces(&self, _forces: &mut [Vec2]) {}
+
+    fn see_motion(&mut self, host: &dyn Body, velocities: &[Vec2]) {
+        let host: &dyn Any = host;
+        if let Some(droplet) = host.downcast_ref::<ActiveDroplet>().filter(|_| self.fits) {
+            let count = self.mesh.marker_count();
+            self.fluid[..count].copy_from_slice(velocities);
+            self.motion[..count].copy_from_slice(droplet.marker_motion());
+            self.mesh.place(&mut self.motion);
+        }
+    }
+
+    fn add_host_rate(&self, rate: &mut [f64]) {
+        let numbers = rate.len() - self.bound.len();
+        rate[numbers..].iter_mut().zip(&self.bound).for_each(|(rate, bound)| *rate += bound);
+    }
+}
+
+impl Body for ParticlesInDroplet {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn kind(&self) -> MarkerKind {
+        MarkerKind::Points
+    }
+
+    fn marker_count(&self) -> usize {
+        self.mesh.node_count() - self.mesh.marker_count()
+    }
+
+    fn write_markers(&self, positions: &mut [Vec2]) {
+        positions.copy_from_slice(&self.nodes[self.inner()]);
+    }
+
+    fn write_forces(&mut self, _medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        if !self.fits {
+            return Err(InteriorError::ChangingMarkers.into());
+        }
+        if let Some(place) = self.cells.folded {
+            return Err(InteriorError::Folded { x: place.x, y: place.y }.into());
+        }
+        let total = self.numbers.iter().sum::<f64>() + self.on.iter().sum::<f64>();
+        let change = if self.initial_number > 0.0 { total / self.initial_number - 1.0 } else { 0.0 };
+        if change.is_nan() || change.abs() > NUMBER_BOUND {
+            return Err(BodyError::NotConserved { what: "the number of particles", change, bound: NUMBER_BOUND });
+        }
+        forces.fill(Vec2::ZERO);
+        Ok(())
+    }
+
+    fn state_len(&self) -> usize {
+        self.numbers.len()
+    }
+
+    fn write_state(&self, state: &mut [f64]) {
+        state.copy_from_slice(&self.numbers);
+    }
+
+    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
+        if let Some(index) = state.iter().position(|value| !value.is_finite()) {
+            return Err(BodyError::NonFinite { what: "particle number inside", index, value: state[index] });
+        }
+        self.numbers.copy_from_slice(state);
+        Ok(())
+    }
+
+    fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
+        let inner = self.inner();
+        self.fluid[inner].copy_from_slice(velocities);
+        self.transport.set_motion(&self.cells, &self.nodes, (&self.fluid, &self.motion));
+        rate.fill(0.0);
+        self.transport.add(&self.cells, &self.numbers, self.diffusion.constant, rate);
+        // What the implicit part adds is subtracted here.
+        self.diffusion.add(&self.cells.edges, &self.numbers, -1.0, rate);
+        for segment in 0..self.bound.len() {
+            let unbound = self.exchange.unbinding() * self.on[segment];
+            let mut gain = -unbound;
+            for node in self.ends(segment) {
+                let density = self.numbers[node] / self.cells.areas[node];
+                let binding = 0.5 * self.exchange.binding() * self.lengths[segment] * density;
+                gain += binding;
+                rate[node] += 0.5 * unbound - binding;
+            }
+            self.bound[segment] = gain;
+        }
+    }
+
+    fn begin_step(&mut self, _medium: &Discretisation, _step: StepInfo) -> Result<(), BodyError> {
+        self.diffusion.move_to(&self.cells);
+        Ok(())
+    }
+
+    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        self.diffusion.add(&self.cells.edges, state, factor, out);
+    }
+
+    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        self.diffusion.solve(&self.cells.edges, factor, state);
+    }
+
+    fn end_step(&mut self, _medium: &Discretisation, _dt: f64) -> Result<(), BodyError> {
+        fill_up(&self.cells.edges, &mut self.numbers, PASSES);
+        Ok(())
+    }
+
+    fn step_limits(&self, _medium: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
+        let mut fastest = 0.0_f64;
+        for (segment, length) in self.lengths.iter().enumerate() {
+            for node in self.ends(segment) {
+                fastest = fastest.max(length / self.cells.areas[node]);
+            }
+        }
+        let rate = self.exchange.unbinding() + self.exchange.binding() * fastest;
+        limits(StepLimit::decay(2.0 / rate, "the exchange of particles"));
+        let dt = 1.0 / self.transport.fastest;
+        limits(StepLimit { dt, reason: "the transport of particles inside", cause: ib_core::body::StepCause::Transport });
+    }
+
+    fn warnings(&self, _medium: &Discretisation) -> Vec<Warning> {
+        let peclet = self.cell_peclet();
+        if peclet <= PECLET_LIMIT {
+            return Vec::new();
+        }
+        let message = format!(
+            "the cell Peclet number inside is {peclet:.2}, above {PECLET_LIMIT}: upwind fluxes add to the diffusion, give \
+             the mesh inside a narrower spacing"
+        );
+        let cause = "particles inside not resolved";
+        vec![Warning { body: self.name.clone(), cause, excess: peclet / PECLET_LIMIT, message }]
+    }
+
+    fn write_scales(&self, scales: &mut [f64]) {
+        let mean = self.numbers.iter().sum::<f64>() / self.numbers.len() as f64;
+        scales.fill(if mean > 0.0 { mean } else { 1.0 });
+    }
+
+    fn properties(&self) -> Vec<(String, f64)> {
+        let named = [
+            ("the rate of binding", self.exchange.binding()),
+            ("the rate of unbinding", self.exchange.unbinding()),
+            ("the diffusion constant inside", self.diffusion.constant),
+            ("the number of nodes", self.nodes.len() as f64),
+        ];
+        named.map(|(name, value)| (name.to_owned(), value)).to_vec()
+    }
+
+    fn as_guest(&mut self) -> Option<&mut dyn Guest> {
+        Some(self)
+    }
+}
+
+impl Observe for ParticlesInDroplet {
+    type Observables = InteriorObservables;
+
+    fn observables(
+        &self,
+        _medium: &Discretisation,
+        _flow: &BodyFlow<'_>,
+    ) -> Result<InteriorObservables, BodyError> {
+        let number = self.numbers.iter().sum();
+        let least = self.densities().fold(f64::INFINITY, f64::min);
+        let largest = self.densities().fold(0.0, f64::max);
+        let binding = |segment: usize| {
+            let density = |node: usize| self.numbers[node] / self.cells.areas[node];
+            0.5 * self.lengths[segment] * self.ends(segment).into_iter().map(density).sum::<f64>()
+        };
+        let flux = (0..self.on.len())
+            .map(|k| self.exchange.binding() * binding(k) - self.exchange.unbinding() * self.on[k])
+            .sum();
+        Ok(InteriorObservables { number, number_on: self.on.iter().sum(), flux, range: [least, largest] })
+    }
+}

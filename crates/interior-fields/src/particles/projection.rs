@@ -1,0 +1,89 @@
+//! Fluxes from cell to cell of a prescribed divergence.
+
+use super::cells::Cells;
+use crate::InteriorError;
+
+/// The most entries of the factor.
+const MOST_ENTRIES: usize = 1 << 26;
+
+/// Corrects fluxes from cell to cell by the differences of a potential so that what leaves each cell is what it should:
+/// a Cholesky factor, within the rows' first entries, of the linear elements' matrix at the places that the cells had at
+/// the start. Any other positive matrix would do too, as the correction is of the order of the error of the fluxes.
+#[derive(Debug, Clone)]
+pub(super) struct Projection {
+    weights: Vec<f64>,
+    /// Column of the first entry of each row and where the row starts; the last node has no row, its potential is 0.
+    rows: Vec<(usize, usize)>,
+    factor: Vec<f64>,
+    potential: Vec<f64>,
+}
+
+impl Projection {
+    pub(super) fn new(cells: &Cells) -> Result<Self, InteriorError> {
+        let count = cells.areas.len();
+        let mut firsts: Vec<usize> = (0..count).collect();
+        for &[i, j] in &cells.edges {
+            firsts[j] = firsts[j].min(i);
+        }
+        let entries: usize = firsts.iter().enumerate().map(|(row, first)| row + 1 - first).sum();
+        if entries > MOST_ENTRIES {
+            return Err(InteriorError::TooFine { nodes: count as f64, most: count / 2 });
+        }
+        let mut start = 0;
+        let rows: Vec<_> = firsts[..count - 1]
+            .iter()
+            .enumerate()
+            .map(|(row, &first)| {
+                start += row + 1 - first;
+                (first, start - (row + 1 - first))
+            })
+            .collect();
+        let mut factor = vec![0.0; start];
+        for (&[i, j], weight) in cells.edges.iter().zip(&cells.weights) {
+            for node in [i, j] {
+                if let Some((first, start)) = rows.get(node) {
+                    factor[start + node - first] += weight;
+                }
+            }
+            if let Some((first, start)) = rows.get(j) {
+                factor[start + i - first] -= weight;
+            }
+        }
+        for row in 0..rows.len() {
+            let (first, start) = rows[row];
+            for column in first..=row {
+                let (other, other_start) = rows[column];
+                let from = first.max(other);
+                let before = &factor[start + from - first..start + column - first];
+                let above = &factor[other_start + from - other..other_start + column - other];
+                let sum: f64 = before.iter().zip(above).map(|(a, b)| a * b).sum();
+                let entry = factor[start + column - first] - sum;
+                factor[start + column - first] =
+                    if column == row { entry.sqrt() } else { entry / factor[other_start + column - other] };
+            }
+        }
+        Ok(Self { weights: cells.weights.clone(), rows, factor, potential: vec![0.0; count] })
+    }
+
+    /// Adds to the fluxes what makes `missing`, the amounts by which too little leaves each cell, zero; their sum is
+    /// zero.
+    pub(super) fn correct(&mut self, edges: &[[usize; 2]], missing: &[f64], fluxes: &mut [f64]) {
+        let Self { weights, rows, factor, potential } = self;
+        potential.copy_from_slice(missing);
+        for (row, &(first, start)) in rows.iter().enumerate() {
+            let (entries, diagonal) = (&factor[start..start + row - first], factor[start + row - first]);
+            let sum: f64 = entries.iter().zip(&potential[first..row]).map(|(entry, x)| entry * x).sum();
+            potential[row] = (potential[row] - sum) / diagonal;
+        }
+        for (row, &(first, start)) in rows.iter().enumerate().rev() {
+            let value = potential[row] / factor[start + row - first];
+            potential[row] = value;
+            let entries = &factor[start..start + row - first];
+            potential[first..row].iter_mut().zip(entries).for_each(|(x, entry)| *x -= entry * value);
+        }
+        potential[rows.len()] = 0.0;
+        for ((&[i, j], weight), flux) in edges.iter().zip(&*weights).zip(fluxes) {
+            *flux += weight * (potential[i] - potential[j]);
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What is carried from cell to cell.
+
+use ib_core::Vec2;
+
+use super::{cells::Cells, projection::Projection};
+use crate::InteriorError;
+
+/// How much a node may approach the extreme of its neighbours, over what the fluxes that are limited would do for a
+/// linear field on a regular mesh: room for meshes that are not.
+const ROOM: f64 = 2.0;
+
+/// Carries particles along with the fluid relative to the mesh.
+///
+/// Fluxes between cells come from velocities at the nodes, corrected so that what leaves each cell is exactly what its
+/// own growth leaves no room for: a uniform density stays uniform however the mesh moves. A density at a face is the
+/// mean of its two nodes'; where diffusion does not make that positive (cell Peclet numbers above 2) what is missing to
+/// the upwind one is added in part, as the limiter of Zalesak, J. Comput. Phys. 31 (1979) 335, in the form of Kuzmin, J.
+/// Comput. Phys. 228 (2009) 2517, has it.
+#[derive(Debug, Clone)]
+pub(super) struct Transport {
+    projection: Projection,
+    fluxes: Vec<f64>,
+    growth: Vec<f64>,
+    densities: Vec<f64>,
+    /// Diffusion of each edge that is missing (length squared per time).
+    missing: Vec<f64>,
+    /// Of each node: the greatest rise and fall to a neighbour, what would raise and lower it, the sum of what is
+    /// missing.
+    bounds: Vec<[f64; 5]>,
+    /// What flows through the faces of a cell over its area, the most of all cells (1/time).
+    pub(super) fastest: f64,
+}
+
+impl Transport {
+    pub(super) fn new(cells: &Cells) -> Result<Self, InteriorError> {
+        let (count, edges) = (cells.areas.len(), cells.edges.len());
+        Ok(Self {
+            projection: Projection::new(cells)?,
+            fluxes: vec![0.0; edges],
+            growth: vec![0.0; count],
+            densities: vec![0.0; count],
+            missing: vec![0.0; edges],
+            bounds: vec![[0.0; 5]; count],
+            fastest: 0.0,
+        })
+    }
+
+    /// Takes over how the fluid moves at the nodes, and how they do (length per time).
+    pub(super) fn set_motion(&mut self, cells: &Cells, nodes: &[Vec2], motions: (&[Vec2], &[Vec2])) {
+        let Self { projection, fluxes, growth, .. } = self;
+        cells.write_fluxes(nodes, motions, fluxes, growth);
+        // Nothing crosses the interface: what is left of the growth is that of the whole mesh.
+        let expansion = growth.iter().sum::<f64>() / cells.areas.iter().sum::<f64>();
+        for (growth, area) in growth.iter_mut().zip(&cells.areas) {
+            *growth = expansion * area - *growth;
+        }
+        for (&[i, j], flux) in cells.edges.iter().zip(&*fluxes) {
+            growth[i] -= flux;
+            growth[j] += flux;
+        }
+        projection.correct(&cells.edges, growth, fluxes);
+        growth.fill(0.0);
+        for (&[i, j], flux) in cells.edges.iter().zip(&*fluxes) {
+            growth[i] += flux.abs();
+            growth[j] += flux.abs();
+        }
+        self.fastest = growth.iter().zip(&cells.areas).map(|(flux, area)| flux / area).fold(0.0, f64::max);
+    }
+
+    /// Adds the rates of the numbers of particles (1/time), which diffuse too.
+    pub(super) fn add(&mut self, cells: &Cells, numbers: &[f64], diffusion: f64, rate: &mut [f64]) {
+        let Self { fluxes, densities: c, missing, bounds, .. } = self;
+        c.iter_mut().zip(numbers).zip(&cells.areas).for_each(|((c, number), area)| *c = number / area);
+        bounds.fill([0.0; 5]);
+        for ((&[i, j], flux), (missing, weight)) in
+            cells.edges.iter().zip(&*fluxes).zip(missing.iter_mut().zip(&cells.weights))
+        {
+            *missing = (0.5 * flux.abs() - diffusion * weight.max(0.0)).max(0.0);
+            let rise = c[j] - c[i];
+            for (node, rise) in [(i, rise), (j, -rise)] {
+                let [up, down, raised, lowered, sum] = &mut bounds[node];
+                (*up, *down) = (up.max(rise), down.min(rise));
+                *sum += *missing;
+                if rise > 0.0 {
+                    *lowered += *missing * rise;
+                } else {
+                    *raised -= *missing * rise;
+                }
+            }
+        }
+        for ((&[i, j], flux), missing) in cells.edges.iter().zip(&*fluxes).zip(&*missing) {
+            let fall = c[i] - c[j];
+            let (higher, lower) = if fall > 0.0 { (i, j) } else { (j, i) };
+            let [up, _, raised, _, sum] = bounds[higher];
+            let [_, down, _, lowered, other] = bounds[lower];
+            let part = |room: f64, wanted: f64| if wanted > room { room / wanted } else { 1.0 };
+            let kept = part(ROOM * sum * up, raised).min(part(-ROOM * other * down, lowered));
+            let carried = 0.5 * flux * (c[i] + c[j]) + (1.0 - kept) * missing * fall;
+            rate[i] -= carried;
+            rate[j] += carried;
+        }
+    }
+}
