@@ -10,10 +10,14 @@ pub enum InteriorError {
     #[error(transparent)]
     Input(#[from] InputError),
     /// A droplet whose number of markers changes.
-    #[error("a droplet with a gel or particles inside needs a fixed number of markers: give it equally spaced ones (`Equidistributed`)")]
+    #[error(
+        "a droplet with a gel or particles inside needs a fixed number of markers: give it equally spaced ones (`Equidistributed`)"
+    )]
     ChangingMarkers,
     /// A droplet whose interface has no particles that could be exchanged.
-    #[error("a droplet that exchanges particles with its inside needs some on its interface: give it a list of numbers")]
+    #[error(
+        "a droplet that exchanges particles with its inside needs some on its interface: give it a list of numbers"
+    )]
     NoParticles,
     /// A mesh with so many nodes that it would not fit.
     #[error("the mesh inside would have some {nodes:.0} nodes, more than {most}: give a wider spacing")]

@@ -306,7 +306,11 @@ impl Body for ParticlesInDroplet {
         let rate = self.exchange.unbinding() + self.exchange.binding() * fastest;
         limits(StepLimit::decay(2.0 / rate, "the exchange of particles"));
         let dt = 1.0 / self.transport.fastest;
-        limits(StepLimit { dt, reason: "the transport of particles inside", cause: ib_core::body::StepCause::Transport });
+        limits(StepLimit {
+            dt,
+            reason: "the transport of particles inside",
+            cause: ib_core::body::StepCause::Transport,
+        });
     }
 
     fn warnings(&self, _medium: &Discretisation) -> Vec<Warning> {
@@ -345,11 +349,7 @@ impl Body for ParticlesInDroplet {
 impl Observe for ParticlesInDroplet {
     type Observables = InteriorObservables;
 
-    fn observables(
-        &self,
-        _medium: &Discretisation,
-        _flow: &BodyFlow<'_>,
-    ) -> Result<InteriorObservables, BodyError> {
+    fn observables(&self, _medium: &Discretisation, _flow: &BodyFlow<'_>) -> Result<InteriorObservables, BodyError> {
         let number = self.numbers.iter().sum();
         let least = self.densities().fold(f64::INFINITY, f64::min);
         let largest = self.densities().fold(0.0, f64::max);
