@@ -17,7 +17,8 @@ use stokes_layers::{Forcing, Geometry, Interface, InterfaceFlow, LayerError, Set
 ///
 /// Every interface comes as a group of markers, [`MarkerKind::Interface`] or [`MarkerKind::UnevenInterface`]: `nodes`
 /// or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers. Positions and forces are truncated to
-/// the modes that the nodes carry and the velocities come back with these modes alone.
+/// the modes that the nodes carry and the velocities come back with these modes alone. Points on which nothing pulls
+/// ([`MarkerKind::Points`]) are carried along.
 #[derive(Debug, Clone)]
 pub struct BoundaryIntegral {
     flow: InterfaceFlow,
@@ -25,6 +26,7 @@ pub struct BoundaryIntegral {
     stiffness: f64,
     work: FlowWork,
     walls: Boundary,
+    samples: Vec<FlowSample>,
 }
 
 impl BoundaryIntegral {
@@ -35,7 +37,7 @@ impl BoundaryIntegral {
     pub fn new(geometry: Geometry, viscosity: f64, settings: Settings) -> Result<Self, LayerError> {
         let flow = InterfaceFlow::new(geometry, viscosity, settings)?;
         let stiffness = stiffness(settings.nodes, std::f64::consts::TAU);
-        Ok(Self { flow, stiffness, work: FlowWork::default(), walls: Boundary::default() })
+        Ok(Self { flow, stiffness, work: FlowWork::default(), walls: Boundary::default(), samples: Vec::new() })
     }
 
     /// The same solver for interfaces of which the smallest has this perimeter (length): what
@@ -80,22 +82,44 @@ impl BoundaryIntegral {
         self.flow.settings()
     }
 
-    /// Takes over positions and forces.
+    /// Takes over positions and forces of the interfaces.
     fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
-        if markers.groups().iter().any(|group| group.kind == MarkerKind::Points) {
+        let forced =
+            |group: &MarkerGroup| markers.forces()[group.range.clone()].iter().any(|force| *force != Vec2::ZERO);
+        if markers.groups().iter().any(|group| group.kind == MarkerKind::Points && forced(group)) {
             return Err(FlowError::Unsupported {
-                what: "a body of points without a closed interface",
+                what: "forces on points that are not on a closed interface",
                 remedy: "use the immersed boundary method for scenes with solids or gels",
             });
         }
         let viscosity = self.flow.viscosity();
-        let interface = |group: &MarkerGroup| {
+        let interface = |(_, group): (usize, &MarkerGroup)| {
             let (positions, forces) =
                 (&markers.positions()[group.range.clone()], &markers.forces()[group.range.clone()]);
             Interface::closed(positions, forces, group.viscosities(viscosity))
         };
-        Ok(self.flow.load(markers.groups().iter().map(interface))?)
+        Ok(self.flow.load(interfaces(markers).map(interface))?)
     }
+
+    /// Writes the velocities of points that are not on an interface, of which the flow of the interfaces is known.
+    fn carry_points(&mut self, markers: &mut Markers) -> Result<(), FlowError> {
+        let Self { flow, samples, .. } = self;
+        for index in 0..markers.groups().len() {
+            let MarkerGroup { range, kind, .. } = &markers.groups()[index];
+            if *kind == MarkerKind::Points {
+                let range = range.clone();
+                samples.resize(range.len(), FlowSample::default());
+                flow.sample(&markers.positions()[range.clone()], samples)?;
+                markers.velocities_mut()[range].iter_mut().zip(&*samples).for_each(|(to, seen)| *to = seen.velocity);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The groups of markers that are interfaces, numbered as the layers have them.
+fn interfaces(markers: &Markers) -> impl Iterator<Item = (usize, &MarkerGroup)> + Clone {
+    markers.groups().iter().filter(|group| group.kind.is_interface()).enumerate()
 }
 
 impl Hydrodynamics for BoundaryIntegral {
@@ -131,7 +155,7 @@ impl Hydrodynamics for BoundaryIntegral {
             return Ok(SolveReport::default());
         }
         let (nodes, viscosity) = (self.settings().nodes, self.flow.viscosity());
-        let rates = markers.groups().iter().enumerate().filter_map(|(index, group)| {
+        let rates = interfaces(markers).filter_map(|(index, group)| {
             let rate = stiffness(nodes, self.flow.perimeter(index)?);
             let [inside, outside] = group.viscosities(viscosity);
             Some(rate * 2.0 * outside / (outside + inside))
@@ -140,16 +164,22 @@ impl Hydrodynamics for BoundaryIntegral {
         let Solution { iterations, residual, pressure_gradient } = self.flow.solve()?;
         self.work.iterations += iterations;
         self.work.most_iterations = self.work.most_iterations.max(iterations);
+        let mut interface = 0;
         for index in 0..markers.groups().len() {
-            let range = markers.groups()[index].range.clone();
-            self.flow.velocities(index, &mut markers.velocities_mut()[range])?;
+            let MarkerGroup { range, kind, .. } = &markers.groups()[index];
+            if kind.is_interface() {
+                let range = range.clone();
+                self.flow.velocities(interface, &mut markers.velocities_mut()[range])?;
+                interface += 1;
+            }
         }
+        self.carry_points(markers)?;
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: [pressure_gradient, 0.0] })
     }
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         self.load(markers)?;
-        for (index, group) in markers.groups().iter().enumerate() {
+        for (index, group) in interfaces(markers) {
             self.flow.set_velocities(index, &markers.velocities()[group.range.clone()])?;
         }
         Ok(self.flow.sample(points, out)?)
