@@ -2,8 +2,9 @@
 //!
 //! `cargo run --release --example active_gel` simulates it, prints what was measured, and writes to `out/active_gel/`
 //! what the example `swimming_droplet` writes, with the director and its defects in the pictures, and for ParaView as
-//! `vtk/gel.pvd`; `summary.json` also has `defects`, `director_energy` and `polarisation`. `--activity 0 --tension 200
-//! --bulk-activity -400` swims by the gel alone. `--help` lists the flags.
+//! `vtk/gels.pvd`; `summary.json` also has `defects`, `director_energy` and `polarisation`. `--activity 0
+//! --excluded-volume 0 --tension 200 --frank 2 --alignment 0.5 --bulk-activity -200` swims by the gel alone. `--help`
+//! lists the flags.
 
 use std::process::ExitCode;
 
