@@ -1,8 +1,9 @@
 //! An active droplet that exchanges its particles with its inside.
 //!
-//! `cargo run --release --example exchange` simulates it with a well-mixed inside, prints what was measured, and writes
-//! to `out/exchange/` what the example `swimming_droplet` writes; the trajectory also has the number of particles
-//! inside and the exchange flux. Particles bind to the interface at the rate `--k-on` times their concentration inside
+//! `cargo run --release --example exchange` simulates it with a well-mixed inside, or with `--bulk-diffusion` one where
+//! particles diffuse and are carried along, prints what was measured, and writes to `out/exchange/` what the example
+//! `swimming_droplet` writes; with a well-mixed inside the trajectory also has the number of particles inside and the
+//! exchange flux. Particles bind to the interface at the rate `--k-on` times their concentration inside
 //! and unbind at the rate `--k-off`. `--help` lists the flags.
 
 use std::f64::consts::{PI, TAU};
@@ -23,7 +24,7 @@ struct Flags {
     #[arg(long, default_value_t = 0.1, value_parser = not_negative, allow_hyphen_values = true)]
     k_off: f64,
     /// Diffusion constant inside (R0^2 per time); inf for a well-mixed inside
-    #[arg(long, default_value_t = f64::INFINITY, allow_hyphen_values = true)]
+    #[arg(long, default_value_t = f64::INFINITY, value_parser = diffusion, allow_hyphen_values = true)]
     bulk_diffusion: f64,
     /// Number of particles on the interface and inside, at rest with each other at the start; without it as many as
     /// leave the usual 100 per R0 on the interface
@@ -37,7 +38,6 @@ impl Flags {
     /// Puts the exchange into a scene.
     fn apply(&self, setup: &mut Setup) -> Result<()> {
         let Self { k_on, k_off, bulk_diffusion, total_number, .. } = *self;
-        ensure!(bulk_diffusion == f64::INFINITY, "--bulk-diffusion {bulk_diffusion}: give inf, a well-mixed inside");
         ensure!(
             k_on > 0.0 || k_off == 0.0,
             "--k-on 0 with --k-off {k_off}: nothing that unbinds comes back, give both or neither"
@@ -48,9 +48,15 @@ impl Flags {
             let inside = if k_on > 0.0 { PI * k_off / k_on } else { 0.0 };
             particles.concentration = total / (TAU + inside);
         }
-        particles.exchange = Some(ExchangeSetup { binding: k_on, unbinding: k_off, number_inside: None });
+        let diffusion_inside = Some(bulk_diffusion).filter(|diffusion| diffusion.is_finite());
+        particles.exchange = Some(ExchangeSetup { diffusion_inside, ..ExchangeSetup::new(k_on, k_off) });
         Ok(())
     }
+}
+
+/// A positive number, or inf.
+fn diffusion(text: &str) -> Result<f64, String> {
+    if text == "inf" { Ok(f64::INFINITY) } else { positive(text) }
 }
 
 fn main() -> ExitCode {
@@ -71,11 +77,12 @@ fn swim(all: &Flags) -> Result<()> {
     // The results, also of a run that broke off.
     let mut summary = run.summary()?;
     let last = run.last()?.observables.clone();
-    let (inside, flux) = last.inside.unwrap_or_default();
+    let seen = run.particles_inside()?;
+    let (inside, flux) = seen.map(|(seen, _)| (seen.number, seen.flux)).or(last.inside).unwrap_or_default();
     summary.put("number_on", last.particle_number, "on the interface");
     summary.put("number_inside", inside, "");
     summary.put("exchange_flux", flux, "binding less unbinding (1/time)");
-    let start = run.totals()?;
+    let start = seen.map_or_else(|| run.totals(), |(_, start)| Ok(start))?;
     summary.put("number_relative_change", (last.particle_number + inside) / start - 1.0, "of all since the start");
     run.finish(&summary)
 }

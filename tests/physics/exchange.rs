@@ -10,7 +10,7 @@ const BINDING: f64 = 0.4;
 const UNBINDING: f64 = 0.25;
 
 fn setup(start: Start, number_inside: Option<f64>, activity: f64) -> Setup {
-    let exchange = Some(ExchangeSetup { binding: BINDING, unbinding: UNBINDING, number_inside });
+    let exchange = Some(ExchangeSetup { number_inside, ..ExchangeSetup::new(BINDING, UNBINDING) });
     let particles = Particles { activity, excluded_volume: Exclusion::None, start, exchange, ..Particles::default() };
     let droplet = DropletSetup { particles: Some(particles), ..DropletSetup::default() };
     Setup { region: Region::Plane, droplets: vec![droplet], ..without_grid(48, 192) }
@@ -95,7 +95,8 @@ fn no_particle_is_lost_by_a_swimmer() {
         if let Some(particles) = &mut droplet.particles {
             particles.excluded_volume = Exclusion::Step(10.0);
             let (binding, unbinding) = (factor * BINDING, factor * UNBINDING);
-            particles.exchange = Some(ExchangeSetup { binding, unbinding, number_inside: Some(10.0) });
+            particles.exchange =
+                Some(ExchangeSetup { number_inside: Some(10.0), ..ExchangeSetup::new(binding, unbinding) });
         }
         let setup = Setup { region: Region::Box { lengths: [5.0; 2] }, droplets: vec![droplet], ..method };
         let Built { mut scene, droplets, .. } = setup.build().unwrap();

@@ -69,6 +69,7 @@ fn plans() {
 fn markers_that_are_not_an_interface() {
     let mut points = Markers::new();
     points.push_group(100, MarkerKind::Points);
+    points.forces_mut()[7] = Vec2::X;
     assert!(matches!(solver().velocities(&mut points), Err(FlowError::Unsupported { .. })));
 
     let mut few = markers(&[circle()], 32);

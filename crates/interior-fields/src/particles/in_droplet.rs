@@ -147,6 +147,12 @@ impl ParticlesInDroplet {
         self.numbers.iter().zip(&self.cells.areas).map(|(number, area)| number / area)
     }
 
+    /// The number of particles on the interface and inside at the start.
+    #[must_use]
+    pub fn initial_number(&self) -> f64 {
+        self.initial_number
+    }
+
     /// The droplet that they are in.
     #[must_use]
     pub fn droplet(&self) -> Handle<ActiveDroplet> {

@@ -2,15 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveDroplet, Curve, Exchange, InitialConcentration, Motion};
+use active_interface::{ActiveDroplet, Curve, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::Solid;
 use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
-    Contrast, DropletSetup, DropletShape, ExchangeSetup, GridMethod, IntegralMethod, MarkerMotion, Method, Region,
-    Setup, Squeezed, Start, Surface,
+    Contrast, DropletSetup, DropletShape, GridMethod, IntegralMethod, MarkerMotion, Method, Region, Setup, Squeezed,
+    Start, Surface,
 };
 use crate::SetupError;
 
@@ -70,11 +70,11 @@ impl Setup {
         let droplets: Vec<_> = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
         let solids = solids.into_iter().map(|solid| scene.add(solid)).collect();
         for (k, (setup, &host)) in self.droplets.iter().zip(&droplets).enumerate() {
-            if let Ok(droplet) = scene.body(host)
-                && let Some(gel) = self.gel(setup, droplet, host).map_err(keyed(k))?
-            {
-                scene.add(gel);
-            }
+            let Ok(droplet) = scene.body(host) else { continue };
+            let gel = self.gel(setup, droplet, host).map_err(keyed(k))?;
+            let inside = self.particles_inside(setup, droplet, host).map_err(keyed(k))?;
+            gel.map(|gel| scene.add(gel));
+            inside.map(|inside| scene.add(inside));
         }
         Ok(Built { scene, droplets, solids })
     }
@@ -128,12 +128,10 @@ impl Setup {
                 let made = ActiveDroplet::new(&markers, numbers, law, particles.diffusion)?.with_flux(particles.flux);
                 match particles.exchange {
                     None => made,
-                    Some(ExchangeSetup { binding, unbinding, number_inside }) => {
-                        let exchange = Exchange::new(binding, unbinding)?;
-                        let at_rest = || exchange.concentration_at_rest(c0).map(|inside| inside * made.initial_area());
-                        // That there is one or the other has been checked.
-                        let number = number_inside.or_else(at_rest).unwrap_or(0.0);
-                        made.with_pool(exchange, number)?
+                    Some(exchange) if exchange.diffusion_inside.is_some() => made.with_open_number(),
+                    Some(exchange) => {
+                        let number = exchange.number(c0, made.initial_area())?;
+                        made.with_pool(exchange.rates()?, number)?
                     }
                 }
             }

@@ -276,9 +276,19 @@ impl DropletSetup {
             Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
             Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
         }
-        if let Some(ExchangeSetup { binding, unbinding, number_inside }) = particles.exchange {
+        if let Some(ExchangeSetup { binding, unbinding, number_inside, diffusion_inside, spacing_inside }) =
+            particles.exchange
+        {
             checked.not_negative("particles.exchange.binding", binding)?;
             checked.not_negative("particles.exchange.unbinding", unbinding)?;
+            let inside = [("diffusion-inside", diffusion_inside), ("spacing-inside", spacing_inside)];
+            for (key, value) in inside.into_iter().filter_map(|(key, value)| Some((key, value?))) {
+                checked.positive(&format!("particles.exchange.{key}"), value)?;
+            }
+            if diffusion_inside.is_some() && self.motion == MarkerMotion::WithFluid {
+                let remedy = "a droplet with a mesh inside needs a fixed number of markers: give equidistributed ones";
+                checked.refuse("motion", &"with-fluid", remedy)?;
+            }
             let key = "particles.exchange.number-inside";
             match number_inside {
                 Some(number) => checked.not_negative(key, number)?,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use active_interface::{ContractileTension, Curve, ExcludedVolume, Flux, InterfaceError};
+use active_interface::{ContractileTension, Curve, Exchange, ExcludedVolume, Flux, InterfaceError};
 use ib_core::Vec2;
 use serde::{Deserialize, Serialize};
 
@@ -154,8 +154,8 @@ impl Particles {
     }
 }
 
-/// Exchange of particles with the inside of the droplet, where they are well mixed: `dc/dt = ... + k_on C - k_off c`, C
-/// the number inside over the area.
+/// Exchange of particles with the inside of the droplet: `dc/dt = ... + k_on C - k_off c`, C the density beside the
+/// interface.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ExchangeSetup {
@@ -166,6 +166,33 @@ pub struct ExchangeSetup {
     /// Number inside at the start; `None` for as many as are at rest with the concentration on the interface.
     #[serde(default)]
     pub number_inside: Option<f64>,
+    /// Their diffusion constant inside (length squared per time), where the flow carries them along too; `None` where
+    /// they are well mixed.
+    #[serde(default)]
+    pub diffusion_inside: Option<f64>,
+    /// Spacing of the mesh for them (length); `None` for that of the grid, or of five markers without a grid.
+    #[serde(default)]
+    pub spacing_inside: Option<f64>,
+}
+
+impl ExchangeSetup {
+    /// Exchange with a well-mixed inside that is at rest with the interface at the start, from the rates of binding
+    /// (length per time) and unbinding (1/time).
+    #[must_use]
+    pub fn new(binding: f64, unbinding: f64) -> Self {
+        Self { binding, unbinding, number_inside: None, diffusion_inside: None, spacing_inside: None }
+    }
+
+    /// The rates.
+    pub(super) fn rates(&self) -> Result<Exchange, InterfaceError> {
+        Exchange::new(self.binding, self.unbinding)
+    }
+
+    /// The number inside at the start of a droplet of that concentration and area, which has been checked to exist.
+    pub(super) fn number(&self, concentration: f64, area: f64) -> Result<f64, InterfaceError> {
+        let density = self.rates()?.concentration_at_rest(concentration);
+        Ok(self.number_inside.or_else(|| density.map(|density| density * area)).unwrap_or(0.0))
+    }
 }
 
 /// Excluded volume of the particles.

@@ -6,6 +6,7 @@ mod droplet;
 #[cfg(feature = "serde")]
 mod file;
 mod gel;
+mod inside;
 mod method;
 mod particles_entry;
 mod places;
