@@ -210,10 +210,10 @@ fn sharp_fields_stay_between_their_bounds() {
     assert!((number / before - 1.0).abs() < 1e-12);
 }
 
-/// Without exchange nothing happens to a uniform field.
+/// Without exchange nothing happens to a uniform field, but for the error of the steps.
 #[test]
 fn a_uniform_field_stays_uniform_however_the_droplet_moves() {
-    for (method, bound) in [(without_grid(48, 96), 2e-5), (on_grid(0.1), 2e-3)] {
+    for (method, ratio) in [(without_grid(48, 96), 0.3), (on_grid(0.1), 0.5)] {
         let spread = [0.04, 0.02].map(|dt| {
             let exchange =
                 ExchangeSetup { number_inside: Some(PI), diffusion_inside: Some(0.01), ..ExchangeSetup::new(0.0, 0.0) };
@@ -224,7 +224,7 @@ fn a_uniform_field_stays_uniform_however_the_droplet_moves() {
             let [least, largest] = seen(&mut built.scene).range;
             largest - least
         });
-        assert!(spread[0] < bound, "{spread:?}");
+        assert!(spread[1] < 1e-3 && spread[1] < ratio * spread[0], "{spread:?}");
     }
 }
 

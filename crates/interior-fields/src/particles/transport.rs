@@ -67,7 +67,7 @@ impl Transport {
         self.fastest = growth.iter().zip(&cells.areas).map(|(flux, area)| flux / area).fold(0.0, f64::max);
     }
 
-    /// Adds the rates of the numbers of particles (1/time), which diffuse too.
+    /// Adds the rates of the numbers of particles (1/time), which diffuse with that constant (length squared per time).
     pub(super) fn add(&mut self, cells: &Cells, numbers: &[f64], diffusion: f64, rate: &mut [f64]) {
         let Self { fluxes, densities: c, missing, bounds, .. } = self;
         c.iter_mut().zip(numbers).zip(&cells.areas).for_each(|((c, number), area)| *c = number / area);
@@ -88,14 +88,15 @@ impl Transport {
                 }
             }
         }
-        for ((&[i, j], flux), missing) in cells.edges.iter().zip(&*fluxes).zip(&*missing) {
+        let lists = fluxes.iter().zip(&*missing).zip(&cells.weights);
+        for (&[i, j], ((flux, missing), weight)) in cells.edges.iter().zip(lists) {
             let fall = c[i] - c[j];
             let (higher, lower) = if fall > 0.0 { (i, j) } else { (j, i) };
             let [up, _, raised, _, sum] = bounds[higher];
             let [_, down, _, lowered, other] = bounds[lower];
             let part = |room: f64, wanted: f64| if wanted > room { room / wanted } else { 1.0 };
             let kept = part(ROOM * sum * up, raised).min(part(-ROOM * other * down, lowered));
-            let carried = 0.5 * flux * (c[i] + c[j]) + (1.0 - kept) * missing * fall;
+            let carried = 0.5 * flux * (c[i] + c[j]) + ((1.0 - kept) * missing + diffusion * weight) * fall;
             rate[i] -= carried;
             rate[j] += carried;
         }
