@@ -57,8 +57,8 @@ pub use elastic_solids::channel::ChannelShape;
 pub use recommend::{Recommendation, SceneKind, recommend};
 pub use setup::{
     AnyFlow, Axis, Built, Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
-    MarkerMotion, Material, MeshKind, Method, MethodKind, Particles, Region, RepulsionSetup, RigidSetup, Setup,
-    SolidOutline, SolidSetup, Squeezed, Start, Surface,
+    MarkerMotion, Material, MeshKind, Method, MethodKind, Particles, Region, RepulsionSetup, RigidBodySetup,
+    RigidSetup, Setup, ShellSetup, SolidOutline, SolidSetup, Squeezed, Start, Surface,
 };
 pub use setup_error::SetupError;
 pub use {active_interface, boundary_integral, elastic_solids, ib_core, stokes_grid};
