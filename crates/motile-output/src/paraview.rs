@@ -8,10 +8,10 @@ use std::path::Path;
 use motile::active_interface::{ActiveDroplet, observables::InterfaceState};
 use motile::ib_core::{Hydrodynamics, Observer, System};
 
-use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers};
+use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers, solids::curves};
 
 /// Writes the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`) and, where there are some, all
-/// elastic solids (`solids.pvd`) whenever it is called.
+/// elastic solids (`solids.pvd`), rigid bodies and membranes (`curves.pvd`) whenever it is called.
 ///
 /// | file | where | what (dimension) |
 /// |---|---|---|
@@ -22,6 +22,8 @@ use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_mark
 /// | solids | at the points | displacement (length) |
 /// | solids | in the triangles | deformed over reference area J, Cauchy stress (force per length), its deviator |
 /// | solids | in the triangles | the number of the solid |
+/// | curves | at the markers | velocity (length per time), force on the fluid (force) |
+/// | curves | one line a body | its number, in the order of addition |
 ///
 /// The vorticity is `dv/dx - du/dy`, the deviator of the stress `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)`.
 ///
@@ -43,6 +45,7 @@ pub struct ParaView {
     fields: VtkSeries,
     interface: VtkSeries,
     solids: VtkSeries,
+    curves: VtkSeries,
 }
 
 impl ParaView {
@@ -52,7 +55,8 @@ impl ParaView {
     /// [`Error::Write`]: a directory that cannot be made.
     pub fn create(directory: impl AsRef<Path>, raster: Raster) -> Result<Self, Error> {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
-        Ok(Self { raster, fields: series("fields")?, interface: series("interface")?, solids: series("solids")? })
+        let [fields, interface, solids, curves] = ["fields", "interface", "solids", "curves"].map(series);
+        Ok(Self { raster, fields: fields?, interface: interface?, solids: solids?, curves: curves? })
     }
 
     fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), Error> {
@@ -64,6 +68,9 @@ impl ParaView {
         self.fields.push(seen.time, &file)?;
 
         self.interface.push(seen.time, &interfaces(system, &seen)?)?;
+        if let Some(file) = curve_lines(system)? {
+            self.curves.push(seen.time, &file)?;
+        }
         match solids::file(system) {
             Some(file) => self.solids.push(seen.time, &file),
             None => Ok(()),
@@ -87,6 +94,20 @@ fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<V
         .point_vectors("velocity", velocity)
         .point_vectors("force", force)
         .cell_scalars("droplet", (0..lines.len()).map(|number| number as f64)))
+}
+
+/// All rigid bodies and membranes; `None` if there are none.
+fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, Error> {
+    let (mut lines, mut velocity, mut force): (Vec<Vec<Vec2>>, Vec<Vec2>, Vec<Vec2>) = Default::default();
+    for (handle, _) in curves(system) {
+        let flow = system.flow_at(handle)?;
+        lines.push(flow.positions.to_vec());
+        velocity.extend(flow.velocities);
+        force.extend(flow.forces);
+    }
+    let numbers = (0..lines.len()).map(|number| number as f64);
+    let file = || VtkFile::closed_lines(&lines).point_vectors("velocity", velocity).point_vectors("force", force);
+    Ok((!lines.is_empty()).then(|| file().cell_scalars("body", numbers)))
 }
 
 impl<H: Hydrodynamics> Observer<H> for ParaView {

@@ -41,7 +41,8 @@ impl Setup {
             }
             bodies.push((boundary, MarkerKind::Points));
         }
-        let others = rigid_bodies.iter().map(|body| -> &dyn Body { body }).chain(shells.iter().map(|s| -> &dyn Body { s }));
+        let others =
+            rigid_bodies.iter().map(|body| -> &dyn Body { body }).chain(shells.iter().map(|s| -> &dyn Body { s }));
         for (number, body) in others.enumerate() {
             bodies.push(curve(droplets.len() + solids.len() + number, body)?);
         }
@@ -65,7 +66,8 @@ impl Setup {
         let rigid = self.rigid_bodies.iter().map(|body| (&body.name, RigidBodySetup::NAME)).enumerate();
         let shells = self.shells.iter().map(|shell| (&shell.name, ShellSetup::NAME)).enumerate();
         let all = droplets.map(|entry| ("droplets", entry)).chain(solids.map(|entry| ("solids", entry)));
-        let mut all = all.chain(rigid.map(|entry| ("rigid-bodies", entry))).chain(shells.map(|entry| ("shells", entry)));
+        let mut all =
+            all.chain(rigid.map(|entry| ("rigid-bodies", entry))).chain(shells.map(|entry| ("shells", entry)));
         match all.nth(body) {
             Some((list, (number, (name, usual)))) if name == usual => format!("{list}[{number}]"),
             Some((list, (number, (name, _)))) => format!("{list}[{number}] ({name})"),

@@ -111,8 +111,7 @@ fn two_fluids(shape: impl Fn(f64) -> Vec2, direction: f64, inside: f64, nodes: u
     let positions: Vec<Vec2> = (0..nodes).map(|k| shape(direction * angle(k))).collect();
     let forces = vec![Vec2::ZERO; nodes];
     let period = Vec2::new(direction * 3.0, 0.0);
-    flow.load([Interface { period, ..Interface::closed(&positions, &forces, [inside, 1.0]) }].into_iter())
-        .unwrap();
+    flow.load([Interface { period, ..Interface::closed(&positions, &forces, [inside, 1.0]) }].into_iter()).unwrap();
     flow.solve().unwrap();
     flow
 }
