@@ -66,7 +66,7 @@ impl RigidBody {
     }
 
     /// The same body on which something acts with a force (force) in its centroid and a torque (force times length).
-    /// In a box or the plane the forces of a scene must have no resultant.
+    /// In the plane the forces of a scene should have no resultant, which would move all of the fluid.
     ///
     /// # Errors
     /// Values that are not finite.

@@ -97,7 +97,7 @@ impl Setup {
             solid.check(&format!("solids[{number}]"), self)?;
         }
         for (number, body) in self.rigid_bodies.iter().enumerate() {
-            let (place, held) = (format!("rigid-bodies[{number}]"), matches!(self.region, Region::Channel { .. }));
+            let (place, held) = (format!("rigid-bodies[{number}]"), self.region != Region::Plane);
             body.check(&Checked { place: &place }, held)?;
         }
         for (number, shell) in self.shells.iter().enumerate() {
@@ -255,7 +255,7 @@ impl RigidBodySetup {
         checked.all_finite("force", &self.force)?;
         checked.finite("torque", self.torque)?;
         for &force in self.force.iter().filter(|_| !held) {
-            let remedy = "only walls hold a fluid that is pushed: give 0, or a channel";
+            let remedy = "in the plane nothing holds a fluid that is pushed: give 0, or a box or a channel";
             checked.require(force == 0.0, "force", force, remedy)?;
         }
         self.shape.check(checked)
