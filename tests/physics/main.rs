@@ -8,6 +8,7 @@ mod curved_walls;
 mod elastic_walls;
 mod errors;
 mod fixed_shapes;
+mod gel;
 mod headings;
 mod interfaces;
 mod linear_theory;

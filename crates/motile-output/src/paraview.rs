@@ -1,6 +1,7 @@
 //! Files for ParaView.
 
 pub(crate) mod file;
+mod gels;
 mod solids;
 
 use std::path::Path;
@@ -11,7 +12,7 @@ use motile::ib_core::{Hydrodynamics, Observer, System};
 use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers, solids::curves};
 
 /// Writes the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`) and, where there are some, all
-/// elastic solids (`solids.pvd`), rigid bodies and membranes (`curves.pvd`) whenever it is called.
+/// elastic solids (`solids.pvd`), gels (`gels.pvd`), rigid bodies and membranes (`curves.pvd`) whenever it is called.
 ///
 /// | file | where | what (dimension) |
 /// |---|---|---|
@@ -22,6 +23,8 @@ use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_mark
 /// | solids | at the points | displacement (length) |
 /// | solids | in the triangles | deformed over reference area J, Cauchy stress (force per length), its deviator |
 /// | solids | in the triangles | the number of the solid |
+/// | gels | at the nodes | director (no dimension) |
+/// | gels | in the triangles | the number of the gel |
 /// | curves | at the markers | velocity (length per time), force on the fluid (force) |
 /// | curves | one line a body | its number, in the order of addition |
 ///
@@ -45,6 +48,7 @@ pub struct ParaView {
     fields: VtkSeries,
     interface: VtkSeries,
     solids: VtkSeries,
+    gels: VtkSeries,
     curves: VtkSeries,
 }
 
@@ -55,8 +59,8 @@ impl ParaView {
     /// [`Error::Write`]: a directory that cannot be made.
     pub fn create(directory: impl AsRef<Path>, raster: Raster) -> Result<Self, Error> {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
-        let [fields, interface, solids, curves] = ["fields", "interface", "solids", "curves"].map(series);
-        Ok(Self { raster, fields: fields?, interface: interface?, solids: solids?, curves: curves? })
+        let [fields, interface, solids] = [series("fields")?, series("interface")?, series("solids")?];
+        Ok(Self { raster, fields, interface, solids, gels: series("gels")?, curves: series("curves")? })
     }
 
     fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), Error> {
@@ -71,10 +75,10 @@ impl ParaView {
         if let Some(file) = curve_lines(system)? {
             self.curves.push(seen.time, &file)?;
         }
-        match solids::file(system) {
-            Some(file) => self.solids.push(seen.time, &file),
-            None => Ok(()),
+        if let Some(file) = solids::file(system) {
+            self.solids.push(seen.time, &file)?;
         }
+        gels::file(system).map_or(Ok(()), |file| self.gels.push(seen.time, &file))
     }
 }
 

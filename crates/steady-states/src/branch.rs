@@ -23,6 +23,8 @@ const NEUTRAL: f64 = 1e-5;
 const SAME: f64 = 1e-4;
 /// Iterations after which the next step is longer.
 const QUICK: usize = 6;
+/// Halvings of a step in which a mode crosses zero growth, before secants.
+const HALVINGS: usize = 6;
 /// Secants for a fold.
 const MOST_SECANTS: usize = 12;
 
@@ -478,16 +480,39 @@ impl Follower {
     }
 }
 
+/// The point between two others where mode k of a symmetry, in the order of their growth rates, crosses zero growth,
+/// by halving and then by secants.
+fn halved(
+    parameter: Parameter,
+    [before, after]: [&BranchPoint; 2],
+    symmetry: Symmetry,
+    (k, grows_before): (usize, bool),
+) -> Option<Critical> {
+    let [mut low, mut high] = [before.value, after.value];
+    let mut state = before.state.clone();
+    let mut nearest = None;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        state = state.at(parameter, middle).ok()?;
+        let spectrum = state.spectrum().ok()?;
+        let mode = modes_of(&spectrum, symmetry).into_iter().nth(k)?;
+        *(if (mode.value.re > before.spectrum.zero) == grows_before { &mut low } else { &mut high }) = middle;
+        nearest = Some(mode);
+    }
+    state.critical(&nearest?, parameter).ok()
+}
+
+/// The modes of a symmetry; conjugate pairs count twice, so that one that parts into two real modes is no crossing.
+fn modes_of(spectrum: &Spectrum, symmetry: Symmetry) -> Vec<Eigenmode> {
+    let modes = spectrum.modes.iter().filter(|mode| mode.symmetry == symmetry);
+    modes.flat_map(|mode| std::iter::repeat_n(mode.clone(), mode.multiplicity())).collect()
+}
+
 /// Modes that cross zero growth between two points.
 fn crossings(parameter: Parameter, before: &BranchPoint, after: &BranchPoint) -> Vec<SpecialPoint> {
     let mut found = Vec::new();
     for symmetry in [Symmetry::Symmetric, Symmetry::Antisymmetric, Symmetry::None] {
-        // Conjugate pairs count twice, so that one that parts into two real modes is no crossing.
-        let of = |point: &BranchPoint| -> Vec<Eigenmode> {
-            let modes = point.spectrum.modes.iter().filter(|mode| mode.symmetry == symmetry);
-            modes.flat_map(|mode| std::iter::repeat_n(mode.clone(), mode.multiplicity())).collect()
-        };
-        let (a, b) = (of(before), of(after));
+        let [a, b] = [before, after].map(|point| modes_of(&point.spectrum, symmetry));
         let zero = before.spectrum.zero;
         let growing = |modes: &[Eigenmode]| modes.iter().filter(|mode| mode.value.re > zero).count();
         let [first, last] = [growing(&a), growing(&b)];
@@ -505,12 +530,15 @@ fn crossings(parameter: Parameter, before: &BranchPoint, after: &BranchPoint) ->
                 continue;
             }
             tried.push(mode);
-            let Ok(critical) = state.critical(mode, parameter) else { continue };
-            let at = parameter.get(critical.state.setup()).unwrap_or(f64::NAN);
-            let width = (after.value - before.value).abs();
-            if (at - before.value).abs() > 1.5 * width || (at - after.value).abs() > 1.5 * width {
-                continue;
-            }
+            let near = |critical: &Critical| {
+                let at = parameter.get(critical.state.setup()).unwrap_or(f64::NAN);
+                let width = (after.value - before.value).abs();
+                (at - before.value).abs() <= 1.5 * width && (at - after.value).abs() <= 1.5 * width
+            };
+            let direct = state.critical(mode, parameter).ok().filter(near);
+            // Where another mode is nearer to zero at the ends than the one that crosses.
+            let halved = || halved(parameter, [before, after], symmetry, (k, first > last)).filter(near);
+            let Some(critical) = direct.or_else(halved) else { continue };
             let kind = if critical.mode.value.im < LEAST_FREQUENCY * critical.state.diffusion_rate() {
                 SpecialKind::BranchPoint
             } else {

@@ -17,6 +17,9 @@ const LEAST_PART: f64 = 0.01;
 /// and particles of this part of them, are none.
 const NO_RATE: f64 = 1e-14;
 const NO_LACK: f64 = 1e-11;
+/// Rates beyond this part of D/R^2 are left where what is not solved for, the other symmetry, is not steady; the flow of
+/// a mirror-symmetric droplet is so up to the error of its nodes.
+const MOST_RATE: f64 = 0.1;
 /// Corrections that shrink by this factor do with the matrix that there is.
 const CONTRACTION: f64 = 0.1;
 /// Largest correction of a coefficient that is taken whole.
@@ -100,7 +103,10 @@ impl System {
                 }
             }
             if size < SMALLEST {
-                let residual = self.residual(point)?.amax();
+                residual = self.residual(point)?.amax();
+                if residual > MOST_RATE * self.model.diffusion_rate() {
+                    return Err(SteadyError::NoConvergence { residual, iterations: iteration, remedy: REMEDY });
+                }
                 return Ok(Outcome { iterations: iteration, residual, condition });
             }
             if size < 1e-2 {

@@ -115,6 +115,39 @@ impl Profile {
         }
     }
 
+    /// The mirror-symmetric droplet next to this one: its mean with its mirror image at the x axis, its first node being
+    /// where it crosses the axis in front.
+    ///
+    /// # Errors
+    /// A curve that is not finite.
+    pub(crate) fn symmetrised(&self) -> Result<Self, SteadyError> {
+        let centroid = self.moments()?.centroid;
+        let count = self.nodes();
+        let sampler = Sampler::new(self)?;
+        let front = |k: &usize| {
+            let arm = self.positions[*k] - centroid;
+            arm.x / arm.length()
+        };
+        let mut first =
+            TAU * (0..count).max_by(|a, b| front(a).total_cmp(&front(b))).unwrap_or(0) as f64 / count as f64;
+        for _ in 0..MOST_ITERATIONS {
+            let place = sampler.at(first);
+            first -= ((place.position.y - centroid.y) / place.tangent.y).clamp(-0.5, 0.5);
+        }
+        let places = (0..count).map(|k| sampler.at(first + TAU * k as f64 / count as f64));
+        let across = Vec2::new(0.0, centroid.y);
+        let (positions, density) = places.map(|place| (place.position - across, place.density)).unzip();
+        Ok(Self { positions, density }.mean_with_image())
+    }
+
+    /// The mean of this droplet, whose first node is on the x axis, and its mirror image.
+    pub(crate) fn mean_with_image(mut self) -> Self {
+        let image = self.mirrored();
+        self.positions.iter_mut().zip(&image.positions).for_each(|(here, there)| *here = 0.5 * (*here + *there));
+        self.density.iter_mut().zip(&image.density).for_each(|(here, there)| *here = 0.5 * (*here + there));
+        self
+    }
+
     /// Arc length from the first node (length) and concentration (particles per length) at the nodes.
     ///
     /// # Errors

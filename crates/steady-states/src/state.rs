@@ -148,12 +148,15 @@ impl SteadyState {
 
     /// Newton's method from a droplet that is near a steady state, such as one from a run
     /// ([`Profile::from_markers`]) or a neighbour ([`SteadyState::profile`]) with its velocity; `mirror` says that only
-    /// states which are their own mirror image at the x axis are looked for.
+    /// states which are their own mirror image at the x axis are looked for, from the mean of the droplet and its image.
     ///
     /// # Errors
     /// As [`SteadyState::find`].
     pub fn near(setup: &Setup, profile: &Profile, velocity: Vec2, mirror: bool) -> Result<Self, SteadyError> {
-        Self::from_profile(setup, profile, [velocity.x, velocity.y, 0.0], mirror)
+        if mirror {
+            return Self::from_profile(setup, &profile.symmetrised()?, [velocity.x, 0.0, 0.0], true);
+        }
+        Self::from_profile(setup, profile, [velocity.x, velocity.y, 0.0], false)
     }
 
     fn from_profile(setup: &Setup, profile: &Profile, frame: FrameMotion, mirror: bool) -> Result<Self, SteadyError> {
@@ -169,7 +172,10 @@ impl SteadyState {
         crowding: f64,
     ) -> Result<Self, SteadyError> {
         let mut system = System::new(setup)?;
-        let profile = centred(profile.resampled(system.model.nodes(), crowding)?)?;
+        let mut profile = centred(profile.resampled(system.model.nodes(), crowding)?)?;
+        if mirror {
+            profile = profile.mean_with_image();
+        }
         has_room(setup, &profile)?;
         let mut point = system.point(&profile, frame)?;
         let part = if mirror { Part::Even } else { Part::Full };

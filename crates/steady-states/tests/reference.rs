@@ -91,3 +91,29 @@ fn what_is_no_steady_state_of_one_droplet_is_refused() {
         assert!(matches!(SteadyState::find(&setup), Err(steady_states::SteadyError::Unsupported { .. })));
     }
 }
+
+#[test]
+fn a_start_from_a_run_that_is_not_quite_straight_leads_to_the_straight_swimmer() {
+    let row = rows("channel_steady_swimmer.csv").into_iter().find(|row| row["w"] == "3").unwrap();
+    let setup = channel_swimmer(&row, 10.0, 64);
+    let exact = SteadyState::find(&setup).unwrap();
+    // Shifted across, turned a little, with another first marker, and more particles on one side.
+    let profile = exact.profile();
+    let count = profile.positions.len();
+    let turned = |k: usize| profile.positions[(k + 3) % count].rotate(Vec2::from_angle(0.02)) + Vec2::new(0.3, 0.01);
+    let lopsided = |k: usize| {
+        let k = (k + 3) % count;
+        profile.density[k] * (1.0 + 0.02 * (std::f64::consts::TAU * k as f64 / count as f64).sin())
+    };
+    let start = steady_states::Profile {
+        positions: (0..count).map(turned).collect(),
+        density: (0..count).map(lopsided).collect(),
+    };
+    let velocity = Vec2::new(1.01, 0.01) * exact.velocity().x;
+    for mirror in [true, false] {
+        let found = SteadyState::near(&setup, &start, velocity, mirror).unwrap();
+        assert!(found.residual() < 1e-5, "{mirror}: {:.1e}", found.residual());
+        assert!((found.velocity().x / exact.velocity().x - 1.0).abs() < 1e-5, "{mirror}: {}", found.velocity());
+        assert!(found.velocity().y.abs() < 1e-8, "{mirror}: {}", found.velocity());
+    }
+}

@@ -2,15 +2,18 @@
 
 use anyhow::Result;
 use motile::stokes_grid::Drive;
-use motile::{DropletSetup, Region, Setup};
+use motile::{Built, DropletSetup, Method, Region, Setup};
 use motile_tests::validation::Table;
-use steady_states::{Continuation, Eigenmode, Parameter, SteadyState};
+use steady_states::{Continuation, Eigenmode, Parameter, Profile, SteadyState};
 
 use super::{channel, nodes};
 
 /// Lengths of the table, and the largest factor from one to the next on the way.
 const LENGTHS: [f64; 13] = [8.0, 10.0, 12.0, 16.0, 24.0, 36.0, 48.0, 72.0, 96.0, 120.0, 144.0, 180.0, 240.0];
 const FACTOR: f64 = 1.15;
+const LONGEST: f64 = 400.0;
+/// Time of a run without a net flux at which its swings have nearly gone.
+const TILTED_AT: f64 = 1000.0;
 /// Last modes of a state that is worth a place among the data of a law.
 const SOUND: f64 = 1e-3;
 
@@ -44,48 +47,64 @@ pub(super) fn length(count: usize) -> Result<Vec<Table>> {
         let Ok(next) = next else { break };
         open.push((length, next));
     }
-    // Without a net flux: near the longest without a gradient, where the fluid hardly moves, and from there on.
-    let mut closed: Vec<(f64, SteadyState)> = Vec::new();
-    for (length, state) in open.iter().rev() {
-        let next = if let Some((_, last)) = closed.last() {
-            stretched(last, *length)
-        } else {
-            let region = Region::Channel { length: *length, width, drive: Drive::ZeroFlux };
-            let setup = Setup { region, ..state.setup().clone() };
-            SteadyState::near(&setup, state.profile(), state.velocity(), true).map_err(Into::into)
-        };
-        if let Ok(next) = next {
-            closed.push((*length, next));
-        } else if !closed.is_empty() {
-            break;
-        }
+    let header = ["length", "speed", "film", "last modes", "growth rate"];
+    let mut speeds = Table::new("Straight swimmers, width 2, activity -2, A = 10", &header);
+    let points = tabulated(&mut speeds, &open, width)?;
+    let without_flux = tilted(count)?;
+    let region = Region::Channel { length: LONGEST, width, drive: Drive::ZeroGradient };
+    let setup = Setup { region, ..without_flux.setup().clone() };
+    let first = SteadyState::near(&setup, without_flux.profile(), without_flux.velocity(), false)?;
+    let mut tilts = vec![(LONGEST, first)];
+    for length in LENGTHS.into_iter().rev() {
+        let Ok(next) = stretched(&tilts[tilts.len() - 1].1, length) else { break };
+        tilts.push((length, next));
     }
-    let header = ["length", "speed, no pressure gradient", "film", "last modes", "speed, zero flux"];
-    let mut speeds = Table::new("Width 2, activity -2, A = 10", &header);
-    let mut points = Vec::new();
-    for (length, state) in &open {
-        let speed = state.velocity().x;
-        if state.tail() < SOUND {
-            points.push((*length, speed));
-        }
-        let other = closed.iter().find(|(other, _)| other == length);
-        let other = other.map_or("not found".into(), |(_, state)| format!("{:.8}", state.velocity().x));
-        let film = format!("{:.4}", film(state, width));
-        speeds.push([length.to_string(), format!("{speed:.8}"), film, format!("{:.0e}", state.tail()), other]);
-    }
+    let mut tilted = Table::new("Swimmers that are not their own mirror images, and without a net flux", &header);
+    let tilted_points = tabulated(&mut tilted, &tilts, width)?;
+    tabulated(&mut tilted, &[(f64::INFINITY, without_flux)], width)?;
     let header = ["law", "a", "b", "c", "largest residual"];
     let mut laws = Table::new("Least squares of the speeds without a pressure gradient", &header);
-    let mut fitted = |name: &str, range: std::ops::Range<i32>, law: fn(f64, f64) -> f64| {
+    let mut fitted = |name: &str, points: &[(f64, f64)], range: std::ops::Range<i32>, law: fn(f64, f64) -> f64| {
         // Linear in a and b for each c.
-        let all = range.map(|k| 0.05 * f64::from(k)).map(|c| (fit(&points, |l| law(l, c)), c));
+        let all = range.map(|k| 0.05 * f64::from(k)).map(|c| (fit(points, |l| law(l, c)), c));
         if let Some(((a, b, worst), c)) = all.min_by(|x, y| x.0.2.total_cmp(&y.0.2)) {
             let numbers = [format!("{a:.6}"), format!("{b:.5}"), format!("{c:.2}"), format!("{worst:.1e}")];
             laws.push(std::iter::once(name.to_owned()).chain(numbers));
         }
     };
-    fitted("a + b exp(-l/c)", 1..4000, |l, c| (-l / c).exp());
-    fitted("a + b/(l + c)", -140..8000, |l, c| 1.0 / (l + c));
-    Ok(vec![speeds, laws, stresslets(count)?])
+    for (swimmers, points) in [("straight", &points), ("tilted", &tilted_points)] {
+        fitted(&format!("{swimmers}: a + b exp(-l/c)"), points, 1..8000, |l, c| (-l / c).exp());
+        fitted(&format!("{swimmers}: a + b/(l + c)"), points, -140..8000, |l, c| 1.0 / (l + c));
+    }
+    Ok(vec![speeds, laws, stresslets(count)?, tilted])
+}
+
+/// The rows of states at their lengths; lengths and speeds of those that are sound.
+fn tabulated(table: &mut Table, states: &[(f64, SteadyState)], width: f64) -> Result<Vec<(f64, f64)>> {
+    let mut points = Vec::new();
+    for (length, state) in states {
+        let speed = state.velocity().x;
+        if state.tail() < SOUND {
+            points.push((*length, speed));
+        }
+        let name = if length.is_finite() { length.to_string() } else { "any, no net flux".into() };
+        let growth = state.spectrum()?.leading().map_or(f64::NAN, |mode| mode.value.re);
+        let numbers = [format!("{speed:.8}"), format!("{:.4}", film(state, width)), format!("{:.0e}", state.tail())];
+        table.push(std::iter::once(name).chain(numbers).chain([format!("{growth:.5}")]));
+    }
+    Ok(points)
+}
+
+/// The swimmer without a net flux, which is not its own mirror image, from a run: round-off grows until it is tilted.
+fn tilted(count: usize) -> Result<SteadyState> {
+    let region = Region::Channel { length: 12.0, width: 2.0, drive: Drive::ZeroFlux };
+    let setup = Setup { region, ..channel(12.0, 2.0, -2.0, 10.0, count) };
+    let Built { mut scene, droplets, .. } = Setup { method: Method::default(), ..setup.clone() }.build()?;
+    scene.run(TILTED_AT).go()?;
+    let velocity = scene.observe(droplets[0])?.velocity;
+    let droplet = scene.body(droplets[0])?;
+    let profile = Profile::from_markers(droplet.markers(), droplet.particle_numbers())?;
+    Ok(SteadyState::near(&setup, &profile, velocity, false)?)
 }
 
 /// Straight swimmers in a channel of width 3 at an activity of -4 over its length.

@@ -122,8 +122,8 @@ impl Job {
     /// Thickness of each wall (R0).
     const THICKNESS: f64 = 1.5;
 
-    /// The scene between elastic walls.
-    fn setup(&self) -> Result<Setup> {
+    /// The scene without its walls.
+    fn setup(&self) -> Setup {
         let centre = match self.purpose {
             Purpose::Passage => [-0.5 * LENGTH, 0.0],
             Purpose::Lateral => [0.0, 0.3],
@@ -145,16 +145,16 @@ impl Job {
             }),
             ..base.droplets[0].clone()
         };
-        Ok(Setup {
+        Setup {
             region: self.channel(self.width + 2.0 * Self::THICKNESS),
             method: Method::Grid(grid),
             viscosity: self.viscosity,
             droplets: vec![droplet],
-            solids: self.walls()?,
+            solids: Vec::new(),
             // Cowley's step of 1e-3 would only cost time.
             step: StepSize::OfLimit(if self.purpose == Purpose::Narrow { OF_LIMIT_NARROW } else { OF_LIMIT }),
             ..base
-        })
+        }
     }
 
     fn channel(&self, width: f64) -> Region {
@@ -223,7 +223,7 @@ impl Job {
 
     pub(crate) fn run(&self) -> Result<Summary> {
         let without = |region| -> Result<Summary> {
-            let setup = Setup { region, method: Method::default(), solids: Vec::new(), ..self.setup()? };
+            let setup = Setup { region, method: Method::default(), ..self.setup() };
             let Built { scene, droplets, .. } = setup.build()?;
             self.without_solids(scene, droplets[0])
         };
@@ -258,8 +258,8 @@ impl Job {
     }
 
     fn with_solids(&self) -> Result<Summary> {
-        let setup = self.setup()?;
-        let Built { mut scene, droplets, solids: walls } = self.build(&setup)?;
+        let setup = Setup { solids: self.walls()?, ..self.setup() };
+        let Built { mut scene, droplets, solids: walls, .. } = self.build(&setup)?;
         let droplet = droplets[0];
         let mut recorder = TrajectoryRecorder::new(droplet);
         let mut gap = SolidGap::new(OVERLAP * self.spacing);
