@@ -5,22 +5,17 @@
 //! channel or in unbounded fluid. Prints what was measured and writes to `out/nucleus/` what the example
 //! `swimming_droplet` writes. `--help` lists the flags.
 
-use std::f64::consts::{PI, TAU};
 use std::process::ExitCode;
 
 use anyhow::{Result, ensure};
 use clap::{Args, Parser, ValueEnum};
-use motile::active_interface::trajectory::TrajectoryRecord;
 use motile::ib_core::{Body, Handle, Vec2};
 use motile::stokes_grid::Drive;
 use motile::{
     Built, GridMethod, Hold, IntegralMethod, Material, Method, MethodKind, Region, RigidBodySetup, Setup, ShellSetup,
     SolidOutline, SolidSetup,
 };
-use motile_examples::{MethodFlags, RegionFlags, SceneFlags, WatchedRun, not_negative, pair, positive};
-
-/// Part of the run from which on turns are measured.
-const LATE: f64 = 0.5;
+use motile_examples::{MethodFlags, RegionFlags, SceneFlags, WatchedRun, not_negative, pair, positive, turning_rate};
 
 /// Which region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -194,27 +189,4 @@ fn core_of(built: &Built) -> Option<Handle<dyn Body>> {
     let rigid = built.rigid_bodies.first().map(|body| (*body).into());
     let shell = built.shells.first().map(|shell| (*shell).into());
     rigid.or(shell).or(built.solids.first().map(|solid| (*solid).into()))
-}
-
-/// The mean rate at which the direction of motion turns in the later part of a run (radians per time): the slope of the
-/// line nearest to it. Nothing of a droplet that is at rest.
-fn turning_rate(records: &[TrajectoryRecord]) -> Option<f64> {
-    let end = records.last()?.time;
-    let late: Vec<&TrajectoryRecord> = records.iter().filter(|record| record.time >= LATE * end).collect();
-    let mut heading = 0.0;
-    let headings: Vec<[f64; 2]> = late
-        .iter()
-        .map(|record| {
-            let angle = record.observables.velocity.to_angle();
-            let change = angle - heading;
-            heading += change - TAU * ((change + PI) / TAU).floor();
-            [record.time, heading]
-        })
-        .collect();
-    let count = headings.len() as f64;
-    let [time, angle] = [0, 1].map(|k| headings.iter().map(|pair| pair[k]).sum::<f64>() / count);
-    let [both, square] = headings
-        .iter()
-        .fold([0.0; 2], |[both, square], [t, a]| [both + (t - time) * (a - angle), square + (t - time).powi(2)]);
-    (late.len() > 2 && square > 0.0).then(|| both / square)
 }

@@ -21,6 +21,7 @@ mod parse;
 mod passage;
 mod steady;
 mod summary;
+mod turning;
 mod wall_flags;
 mod watched_run;
 
@@ -34,5 +35,6 @@ pub use parse::{activity, not_negative, pair, positive};
 pub use passage::{Decided, Passage, Verdict};
 pub use steady::Steadiness;
 pub use summary::{Summary, make_directory};
+pub use turning::turning_rate;
 pub use wall_flags::{ElasticFlags, Material};
 pub use watched_run::WatchedRun;

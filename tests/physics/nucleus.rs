@@ -58,7 +58,7 @@ fn cell(m: usize, radius: f64, inside: f64, [normal, tangential]: [f64; 2]) -> M
     let mut markers = Markers::new();
     markers.push_group(NODES, MarkerKind::Interface { viscosity_inside: Some(inside) });
     markers.push_group(NODES, MarkerKind::Rigid);
-    markers.set_viscosity_outside(1, Some(inside)).unwrap();
+    markers.set_viscosity_outside(1, Some(inside)).expect("a viscosity");
     for k in 0..NODES {
         let (outward, phase) = (Vec2::from_angle(angle(k)), m as f64 * angle(k));
         let force = normal * phase.cos() * outward + tangential * phase.sin() * outward.perp();
@@ -111,12 +111,12 @@ fn a_core_makes_mode_two_oscillate() {
     let shape = DropletShape::Modes { radius: 1.0, cosines: vec![0.0, amplitude], sines: Vec::new() };
     let droplet =
         DropletSetup { tension, viscosity: Some(inside), shape, particles: Some(particles), ..DropletSetup::default() };
-    let setup = Setup {
+    let setup = |cells: usize| Setup {
         region: Region::Plane,
-        method: Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
+        method: Method::Integral(IntegralMethod { nodes: 32, cells }),
         viscosity: outside,
         step: StepSize::OfLimit(0.25),
-        droplets: vec![droplet],
+        droplets: vec![droplet.clone()],
         rigid_bodies: vec![RigidBodySetup::disc(radius)],
         ..Setup::default()
     };
@@ -134,25 +134,27 @@ fn a_core_makes_mode_two_oscillate() {
     println!("growth {mean:.5}, frequency {frequency:.5}");
     assert!(mean > 0.04 && frequency > 0.08);
 
-    let Built { mut scene, droplets, .. } = setup.build().unwrap();
-    let mut error = 0.0_f64;
-    let mut sign_changes = 0;
-    let mut last = amplitude;
-    for step in 1..=30 {
-        let time = 3.0 * f64::from(step);
-        scene.run(time).go().unwrap();
-        let markers = scene.body(droplets[0]).unwrap().markers();
-        let shape = 2.0 / markers.len() as f64
-            * markers.iter().map(|x| (x.length() - 1.0) * (2.0 * x.to_angle()).cos()).sum::<f64>();
-        let (sine, cosine) = (frequency * time).sin_cos();
-        let grown = amplitude * (mean * time).exp();
-        let exact = grown * (cosine + (s - mean) / frequency * sine);
-        error = error.max((shape - exact).abs() / grown);
-        sign_changes += usize::from(shape * last < 0.0);
-        last = shape;
-    }
-    println!("error {error:e}, sign changes {sign_changes}");
-    assert!(error < 5e-3 && sign_changes >= 2, "{error:e} {sign_changes}");
+    let errors = [96, 192].map(|cells| {
+        let Built { mut scene, droplets, .. } = setup(cells).build().unwrap();
+        let (mut error, mut sign_changes, mut last) = (0.0_f64, 0, amplitude);
+        for step in 1..=30 {
+            let time = 3.0 * f64::from(step);
+            scene.run(time).go().unwrap();
+            let markers = scene.body(droplets[0]).unwrap().markers();
+            let waves = markers.iter().map(|x| (x.length() - 1.0) * (2.0 * x.to_angle()).cos());
+            let shape = 2.0 / markers.len() as f64 * waves.sum::<f64>();
+            let (sine, cosine) = (frequency * time).sin_cos();
+            let grown = amplitude * (mean * time).exp();
+            let exact = grown * (cosine + (s - mean) / frequency * sine);
+            error = error.max((shape - exact).abs() / grown);
+            sign_changes += usize::from(shape * last < 0.0);
+            last = shape;
+        }
+        assert!(sign_changes >= 2, "{sign_changes}");
+        error
+    });
+    println!("errors {errors:?}");
+    assert!(errors[1] < 1e-2 && errors[0] > 3.0 * errors[1], "{errors:?}");
 }
 
 /// Rates of change of normal and tangential displacements cos(k theta) and sin(k theta) of a ring, their trace and
@@ -166,13 +168,13 @@ fn ring(k: usize, measure: BendingMeasure, [stretching, bending]: [f64; 2], visc
                 let (out, phase) = (Vec2::from_angle(angle(i)), k as f64 * angle(i));
                 out + sign * step * if column == 0 { phase.cos() * out } else { phase.sin() * out.perp() }
             });
-            let shell = Shell::new(&rest, stretching, bending).unwrap().with_measure(measure);
-            let shell = shell.deformed(&moved.collect::<Vec<_>>()).unwrap();
-            let shell = shell.with_viscosity_inside(viscosities[0]).unwrap();
-            let mut scene = Scene::new(flow(Region::Plane, integrals(), viscosities[1], 1e-12).unwrap());
+            let shell = Shell::new(&rest, stretching, bending).expect("a valid shell").with_measure(measure);
+            let shell = shell.deformed(&moved.collect::<Vec<_>>()).expect("a valid shell");
+            let shell = shell.with_viscosity_inside(viscosities[0]).expect("a valid shell");
+            let mut scene = Scene::new(flow(Region::Plane, integrals(), viscosities[1], 1e-12).expect("a valid shell"));
             let shell = scene.add(shell);
-            scene.system_mut().evaluate().unwrap();
-            amplitudes(scene.system().flow_at(shell).unwrap().velocities, k)
+            scene.system_mut().evaluate().expect("a valid shell");
+            amplitudes(scene.system().flow_at(shell).expect("a valid shell").velocities, k)
         });
         [0, 1].map(|row| (found[0][row] - found[1][row]) / (2.0 * step))
     };
@@ -210,7 +212,7 @@ fn nested_circles_relax_at_their_rates() {
             let found = [1.0, -1.0].map(|sign| {
                 let droplet = |index: usize| {
                     let mut cosines = vec![0.0; k];
-                    cosines[k - 1] = if index == wavy { sign * step } else { 0.0 };
+                    cosines[k - 1] = if index == wavy { sign * step / radii[index] } else { 0.0 };
                     let shape = DropletShape::Modes { radius: radii[index], cosines, sines: Vec::new() };
                     DropletSetup { shape, ..DropletSetup::passive(tensions[index]) }
                 };

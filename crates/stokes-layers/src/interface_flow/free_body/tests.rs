@@ -118,13 +118,13 @@ fn forces_on_bodies_are_reciprocal_and_take_energy() {
                 [a.velocity.x, a.velocity.y, a.spin, b.velocity.x, b.velocity.y, b.spin]
             })
             .collect();
-        for i in 0..6 {
-            for j in 0..6 {
-                let difference = (mobility[i][j] - mobility[j][i]).abs();
+        for (i, row) in mobility.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                let difference = (value - mobility[j][i]).abs();
                 assert!(difference < 1e-10, "{geometry:?} {i} {j}: {difference:e}");
             }
             if geometry != Geometry::Plane {
-                assert!(mobility[i][i] > 1e-3, "{geometry:?}");
+                assert!(row[i] > 1e-3, "{geometry:?}");
             }
         }
     }
