@@ -13,6 +13,7 @@
 mod checkpoint_flags;
 mod command_line;
 mod flags;
+mod gel_flags;
 mod job;
 mod kept_warnings;
 mod method_flags;
@@ -27,6 +28,7 @@ mod watched_run;
 pub use checkpoint_flags::CheckpointFlags;
 pub use command_line::{explained, run, say};
 pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, OutputFlags, RegionFlags, SceneFlags};
+pub use gel_flags::GelFlags;
 pub use job::{Job, Taken, Watch};
 pub use method_flags::{MethodFlags, Preset, settle_contrast};
 pub use parse::{activity, not_negative, pair, positive};

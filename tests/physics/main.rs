@@ -9,6 +9,7 @@ mod elastic_walls;
 mod errors;
 mod exchange;
 mod fixed_shapes;
+mod gel;
 mod headings;
 mod interfaces;
 mod linear_theory;

@@ -292,6 +292,12 @@ impl ActiveDroplet {
         &self.shape.markers
     }
 
+    /// How the markers move (length per time), as of the last [`ib_core::Body::rate`]: along the normal with the fluid.
+    #[must_use]
+    pub fn marker_motion(&self) -> &[Vec2] {
+        &self.motions
+    }
+
     /// Particle numbers of the segments; segment k runs from marker k to the next. Empty for a passive droplet.
     #[must_use]
     pub fn particle_numbers(&self) -> &[f64] {

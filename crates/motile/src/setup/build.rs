@@ -57,6 +57,9 @@ impl Setup {
             self.check_walls(&self.key(k), droplet.markers(), &flow)?;
         }
         let solids = solids().map(|(solid, k)| solid.build(self).map_err(keyed(k))).collect::<Result<Vec<_>, _>>()?;
+        let points = droplets.iter().map(ActiveDroplet::markers);
+        let points: Vec<&[Vec2]> = points.chain(solids.iter().map(Solid::positions)).collect();
+        self.check_filled(&points)?;
         let mut scene = Scene::new(flow).with_step_size(self.step);
         if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
             scene = scene.with_repulsion(ib_core::Repulsion::new(strength, range).map_err(ib_core::FlowError::from)?);
@@ -64,8 +67,15 @@ impl Setup {
         if let Some(bound) = self.least_gap {
             scene = scene.with_least_gap(bound).map_err(ib_core::FlowError::from)?;
         }
-        let droplets = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
+        let droplets: Vec<_> = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
         let solids = solids.into_iter().map(|solid| scene.add(solid)).collect();
+        for (k, (setup, &host)) in self.droplets.iter().zip(&droplets).enumerate() {
+            if let Ok(droplet) = scene.body(host)
+                && let Some(gel) = self.gel(setup, droplet, host).map_err(keyed(k))?
+            {
+                scene.add(gel);
+            }
+        }
         Ok(Built { scene, droplets, solids })
     }
 

@@ -17,12 +17,17 @@ const MARKERS: [f64; 2] = [8.0, super::build::MOST_MARKERS];
 const MOST_ACROSS: f64 = 1e5;
 
 /// Values with their place in the description.
-struct Checked<'a> {
+pub(super) struct Checked<'a> {
     place: &'a str,
 }
 
 impl Checked<'_> {
-    fn refuse<T>(&self, key: &str, value: &dyn std::fmt::Display, remedy: impl Into<String>) -> Result<T, SetupError> {
+    pub(super) fn refuse<T>(
+        &self,
+        key: &str,
+        value: &dyn std::fmt::Display,
+        remedy: impl Into<String>,
+    ) -> Result<T, SetupError> {
         let key = if self.place.is_empty() { key.to_owned() } else { format!("{}.{key}", self.place) };
         Err(SetupError::Value { key, value: value.to_string(), remedy: remedy.into() })
     }
@@ -31,15 +36,15 @@ impl Checked<'_> {
         if holds { Ok(()) } else { self.refuse(key, &value, remedy) }
     }
 
-    fn positive(&self, key: &str, value: f64) -> Result<(), SetupError> {
+    pub(super) fn positive(&self, key: &str, value: f64) -> Result<(), SetupError> {
         self.require(value.is_finite() && value > 0.0, key, value, "give a positive finite number")
     }
 
-    fn not_negative(&self, key: &str, value: f64) -> Result<(), SetupError> {
+    pub(super) fn not_negative(&self, key: &str, value: f64) -> Result<(), SetupError> {
         self.require(value.is_finite() && value >= 0.0, key, value, "give a finite number that is not negative")
     }
 
-    fn finite(&self, key: &str, value: f64) -> Result<(), SetupError> {
+    pub(super) fn finite(&self, key: &str, value: f64) -> Result<(), SetupError> {
         self.require(value.is_finite(), key, value, "give a finite number")
     }
 
@@ -106,6 +111,9 @@ impl Setup {
         integral.check("method.integral")?;
         if !self.solids.is_empty() {
             return Err(SetupError::needs_a_grid("solids"));
+        }
+        if self.droplets.iter().any(|droplet| droplet.gel.is_some()) {
+            return Err(SetupError::needs_a_grid("gels"));
         }
         Ok(())
     }
@@ -255,6 +263,7 @@ impl DropletSetup {
             checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
         }
         self.shape.check(&checked)?;
+        self.gel.map_or(Ok(()), |gel| gel.check(&checked, self))?;
         let Some(particles) = &self.particles else { return Ok(()) };
         checked.finite("particles.activity", particles.activity)?;
         checked.not_negative("particles.diffusion", particles.diffusion)?;

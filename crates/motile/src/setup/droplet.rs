@@ -6,6 +6,8 @@ use active_interface::{ContractileTension, Curve, ExcludedVolume, Flux, Interfac
 use ib_core::Vec2;
 use serde::{Deserialize, Serialize};
 
+use super::GelSetup;
+
 /// A droplet: a closed fluid interface with a tension of its own and, unless it is passive, active particles.
 ///
 /// ```
@@ -37,6 +39,8 @@ pub struct DropletSetup {
     /// The active particles on the interface; `None` for a passive droplet, in a file `particles = "none"`.
     #[serde(with = "super::particles_entry")]
     pub particles: Option<Particles>,
+    /// The gel that fills it, if there is one.
+    pub gel: Option<GelSetup>,
 }
 
 impl Default for DropletSetup {
@@ -52,6 +56,7 @@ impl Default for DropletSetup {
             area_constraint: false,
             shape: DropletShape::default(),
             particles: Some(Particles::default()),
+            gel: None,
         }
     }
 }
