@@ -2,7 +2,7 @@
 //!
 //! | for | there are |
 //! |---|---|
-//! | flags | [`run`] around [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`] or [`ElasticFlags`] |
+//! | flags | [`run`] around [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`], [`AnyRegionFlags`] or [`ElasticFlags`] |
 //! | results | [`Summary`] (`summary.json` and a table) |
 //! | runs | [`Job`] of any scene, [`WatchedRun`] of one with a droplet |
 //! | constrictions | [`Passage`] |
@@ -13,11 +13,13 @@
 mod checkpoint_flags;
 mod command_line;
 mod flags;
+mod gel_flags;
 mod job;
 mod kept_warnings;
 mod method_flags;
 mod parse;
 mod passage;
+mod region_flags;
 mod steady;
 mod summary;
 mod wall_flags;
@@ -26,10 +28,12 @@ mod watched_run;
 pub use checkpoint_flags::CheckpointFlags;
 pub use command_line::{explained, run, say};
 pub use flags::{AlongFlags, BoxFlags, ChannelFlags, DropletFlags, OutputFlags, RegionFlags, SceneFlags};
+pub use gel_flags::GelFlags;
 pub use job::{Job, Taken, Watch};
 pub use method_flags::{MethodFlags, Preset, settle_contrast};
 pub use parse::{activity, not_negative, pair, positive};
 pub use passage::{Decided, Passage, Verdict};
+pub use region_flags::{AnyRegionFlags, RegionKind};
 pub use steady::Steadiness;
 pub use summary::{Summary, make_directory};
 pub use wall_flags::{ElasticFlags, Material};

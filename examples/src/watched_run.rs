@@ -128,6 +128,17 @@ impl WatchedRun {
         self.recorder.track()
     }
 
+    /// The number of particles at the start, on the interface and inside.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn totals(&self) -> Result<f64> {
+        let table = self.recorder.table();
+        let first =
+            |column| -> Result<f64> { Ok(table.curve("time", column)?.first().context("nothing was measured")?.1) };
+        Ok(first("particle_number")? + first("number_inside").unwrap_or(0.0))
+    }
+
     /// The last of what was measured of the droplet.
     ///
     /// # Errors

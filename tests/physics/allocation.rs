@@ -3,7 +3,7 @@
 use allocation_counter::measure;
 use motile::elastic_solids::Moduli;
 use motile::ib_core::{Integrator, RungeKuttaChebyshev, Scene};
-use motile::{AnyFlow, ChannelShape, Contrast, GridMethod, Material, Method, Setup, SolidSetup, Surface};
+use motile::{AnyFlow, ChannelShape, Contrast, GelSetup, GridMethod, Material, Method, Setup, SolidSetup, Surface};
 use motile_tests::validation::scene::{on_grid, open_channel, without_grid};
 
 const DT: f64 = 0.002;
@@ -26,6 +26,12 @@ fn elastic() -> Setup {
     Setup { region: open_channel(6.0, 5.4), solids, ..on_grid(0.1) }
 }
 
+/// The same scene with gels inside the droplets.
+fn filled(mut setup: Setup) -> Setup {
+    setup.droplets.iter_mut().for_each(|droplet| droplet.gel = Some(GelSetup::default()));
+    setup
+}
+
 /// The same scene with droplets of another viscosity.
 fn viscous(mut setup: Setup) -> Setup {
     setup.droplets.iter_mut().for_each(|droplet| droplet.viscosity = Some(1000.0));
@@ -44,6 +50,8 @@ fn steps_allocate_nothing() {
         ("grid", on_grid(0.2)),
         ("grid, contrast", viscous(on_grid(0.2))),
         ("grid, arithmetic contrast", viscous(smooth)),
+        ("grid, gel", filled(on_grid(0.2))),
+        ("grid, gel, contrast", viscous(filled(on_grid(0.2)))),
         ("integrals", without_grid(32, 128)),
         ("integrals, contrast", viscous(without_grid(32, 128))),
         ("thesis", thesis.clone()),

@@ -8,10 +8,11 @@ use motile::ib_core::{
     AnyKernel, Body, Checkpoint, Hydrodynamics, Integrator, RungeKuttaChebyshev, Scene, SceneError, StepSize,
     checkpoint::CheckpointError,
 };
+use motile::interior_fields::{Anchoring, DirectorStart};
 use motile::stokes_grid::Drive;
 use motile::{
-    AnyFlow, Built, ChannelShape, DropletSetup, Exclusion, GridMethod, IntegralMethod, Material, Method, Particles,
-    Region, Setup, SolidSetup,
+    AnyFlow, Built, ChannelShape, DropletSetup, Exclusion, GelSetup, GridMethod, IntegralMethod, Material, Method,
+    Particles, Region, Setup, SolidSetup,
 };
 use proptest::prelude::*;
 
@@ -151,6 +152,18 @@ fn without_a_grid() {
     compare(|| scene(&setup), 6.0, AUTO, &stops(11, 5));
     let contrast = filled(1000.0, &setup);
     compare(|| scene(&contrast), 3.0, AUTO, &stops(12, 4));
+}
+
+#[test]
+fn a_gel() {
+    let mut setup = coarse();
+    let start = DirectorStart::Random { seed: 2 };
+    setup.droplets[0].gel = Some(GelSetup { anchoring: Anchoring::Planar, start, ..GelSetup::default() });
+    for viscosity in [None, Some(20.0)] {
+        setup.droplets[0].viscosity = viscosity;
+        compare(|| scene(&setup), 0.2, StepSize::OfLimit(0.5), &[1, 7, 13]);
+        compare(|| scene(&setup), 0.2, StepSize::Adaptive { tolerance: 1e-3 }, &[2, 5]);
+    }
 }
 
 #[test]

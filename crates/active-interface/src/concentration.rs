@@ -6,7 +6,7 @@ mod positivity;
 mod transport;
 
 pub use flux::Flux;
-pub use initial::InitialConcentration;
+pub use initial::{InitialConcentration, SplitMix64};
 pub use positivity::Repair;
 pub(crate) use positivity::repair_positivity;
 pub(crate) use transport::{Transport, cell_peclet};

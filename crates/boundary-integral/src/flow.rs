@@ -85,7 +85,7 @@ impl BoundaryIntegral {
         if markers.groups().iter().any(|group| group.kind == MarkerKind::Points) {
             return Err(FlowError::Unsupported {
                 what: "a body of points without a closed interface",
-                remedy: "use the immersed boundary method for scenes with solids",
+                remedy: "use the immersed boundary method for scenes with solids or gels",
             });
         }
         let viscosity = self.flow.viscosity();

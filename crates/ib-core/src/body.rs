@@ -1,8 +1,10 @@
 //! What a body is: markers that put forces on the fluid and move with it.
 
+mod guest;
 mod marker_body;
 mod step_limit;
 
+pub use guest::Guest;
 pub use marker_body::MarkerBody;
 pub use step_limit::{StepCause, StepLimit};
 
@@ -127,6 +129,11 @@ pub trait Body: Any + std::fmt::Debug + Send {
     /// the body joins a scene.
     fn surfaces(&self) -> Vec<SurfaceCurve> {
         Vec::new()
+    }
+
+    /// The body as one that fills another body of the scene; by default it does not.
+    fn as_guest(&mut self) -> Option<&mut dyn Guest> {
+        None
     }
 
     /// Writes the size of each entry of the state to which its errors are compared (the entry's own unit; positive):

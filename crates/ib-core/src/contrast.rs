@@ -175,12 +175,6 @@ impl Contrast {
         self.droplets.clear();
         self.nodes = 0;
         for (number, group) in markers.groups().iter().enumerate() {
-            if group.kind == MarkerKind::Points && group.viscosities(self.viscosity)[1] != self.viscosity {
-                return Err(FlowError::Unsupported {
-                    what: "a body of points inside a droplet of another viscosity",
-                    remedy: "give the droplet the viscosity of the exterior fluid",
-                });
-            }
             let Some(viscosities) = other_viscosities(group, self.viscosity)? else {
                 self.targets.extend(group.range.clone());
                 continue;

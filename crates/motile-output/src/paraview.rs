@@ -1,6 +1,7 @@
 //! Files for ParaView.
 
 pub(crate) mod file;
+mod gels;
 mod solids;
 
 use std::path::Path;
@@ -11,7 +12,7 @@ use motile::ib_core::{Hydrodynamics, Observer, System};
 use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers};
 
 /// Writes the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`) and, where there are some, all
-/// elastic solids (`solids.pvd`) whenever it is called.
+/// elastic solids (`solids.pvd`) and gels (`gels.pvd`) whenever it is called.
 ///
 /// | file | where | what (dimension) |
 /// |---|---|---|
@@ -22,6 +23,8 @@ use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_mark
 /// | solids | at the points | displacement (length) |
 /// | solids | in the triangles | deformed over reference area J, Cauchy stress (force per length), its deviator |
 /// | solids | in the triangles | the number of the solid |
+/// | gels | at the nodes | director (no dimension) |
+/// | gels | in the triangles | the number of the gel |
 ///
 /// The vorticity is `dv/dx - du/dy`, the deviator of the stress `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)`.
 ///
@@ -43,6 +46,7 @@ pub struct ParaView {
     fields: VtkSeries,
     interface: VtkSeries,
     solids: VtkSeries,
+    gels: VtkSeries,
 }
 
 impl ParaView {
@@ -52,7 +56,8 @@ impl ParaView {
     /// [`Error::Write`]: a directory that cannot be made.
     pub fn create(directory: impl AsRef<Path>, raster: Raster) -> Result<Self, Error> {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
-        Ok(Self { raster, fields: series("fields")?, interface: series("interface")?, solids: series("solids")? })
+        let [fields, interface] = [series("fields")?, series("interface")?];
+        Ok(Self { raster, fields, interface, solids: series("solids")?, gels: series("gels")? })
     }
 
     fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), Error> {
@@ -64,10 +69,10 @@ impl ParaView {
         self.fields.push(seen.time, &file)?;
 
         self.interface.push(seen.time, &interfaces(system, &seen)?)?;
-        match solids::file(system) {
-            Some(file) => self.solids.push(seen.time, &file),
-            None => Ok(()),
+        if let Some(file) = solids::file(system) {
+            self.solids.push(seen.time, &file)?;
         }
+        gels::file(system).map_or(Ok(()), |file| self.gels.push(seen.time, &file))
     }
 }
 

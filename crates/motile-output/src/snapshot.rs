@@ -2,6 +2,7 @@
 
 use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
 use motile::ib_core::{FlowSample, Hydrodynamics, System};
+use motile::interior_fields::{Defect, GelInDroplet};
 
 use crate::{
     Error, Raster, SolidShape, Vec2,
@@ -19,6 +20,17 @@ pub struct DropletOutline {
     pub centroid: Vec2,
 }
 
+/// A gel at one time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct GelField {
+    /// Its nodes (length).
+    pub nodes: Vec<Vec2>,
+    /// The director at them (no dimension).
+    pub directors: Vec<Vec2>,
+    /// The points about which it turns.
+    pub defects: Vec<Defect>,
+}
+
 /// All droplets and solids of a scene and the flow on a raster, at one time.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
@@ -30,6 +42,8 @@ pub struct Snapshot {
     pub flow: Vec<FlowSample>,
     /// The droplets, in the order of addition.
     pub droplets: Vec<DropletOutline>,
+    /// The gels inside droplets, in the order of addition.
+    pub gels: Vec<GelField>,
     /// The elastic solids, in the order of addition, and rigid walls and obstacles as one more.
     pub solids: Vec<SolidShape>,
     /// Heights of straight rigid walls (length).
@@ -52,7 +66,12 @@ impl Snapshot {
         };
         let walls = system.hydrodynamics().discretisation().domain.walls;
         let rigid = system.hydrodynamics().walls().map(|boundary| rigid_shape(boundary, walls));
+        let gel = |(_, gel): (_, &GelInDroplet)| {
+            let (nodes, directors) = (gel.nodes().to_vec(), gel.directors().to_vec());
+            GelField { nodes, directors, defects: gel.defects() }
+        };
         Ok(Self {
+            gels: system.bodies().map(gel).collect(),
             time: system.time(),
             raster,
             flow,

@@ -35,6 +35,7 @@
 //! | [`boundary_integral`] | flow of interfaces alone, without a grid, any viscosity ratio |
 //! | [`active_interface`] | the droplet: curve, particles, tension, observables, linear theory, SI units |
 //! | [`elastic_solids`] | elastic materials and meshes |
+//! | [`interior_fields`] | what fills droplets: an active polar gel |
 //!
 //! Each can be used by itself; this crate re-exports them and adds the description of scenes.
 //!
@@ -56,9 +57,9 @@ mod setup_error;
 pub use elastic_solids::channel::ChannelShape;
 pub use recommend::{Recommendation, SceneKind, recommend};
 pub use setup::{
-    AnyFlow, Axis, Built, Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
-    MarkerMotion, Material, MeshKind, Method, MethodKind, Particles, Region, RepulsionSetup, RigidSetup, Setup,
-    SolidOutline, SolidSetup, Squeezed, Start, Surface,
+    AnyFlow, Axis, Built, Contrast, DropletSetup, DropletShape, ExchangeSetup, Exclusion, GelSetup, Grading,
+    GridMethod, Hold, IntegralMethod, MarkerMotion, Material, MeshKind, Method, MethodKind, Particles, Region,
+    RepulsionSetup, RigidSetup, Setup, SolidOutline, SolidSetup, Squeezed, Start, Surface,
 };
 pub use setup_error::SetupError;
-pub use {active_interface, boundary_integral, elastic_solids, ib_core, stokes_grid};
+pub use {active_interface, boundary_integral, elastic_solids, ib_core, interior_fields, stokes_grid};

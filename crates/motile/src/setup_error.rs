@@ -4,6 +4,7 @@ use active_interface::InterfaceError;
 use boundary_integral::LayerError;
 use elastic_solids::SolidError;
 use ib_core::FlowError;
+use interior_fields::InteriorError;
 use stokes_grid::StokesError;
 
 /// A scene that could not be set up.
@@ -25,6 +26,9 @@ pub enum SetupError {
     /// The elastic walls.
     #[error(transparent)]
     Solid(#[from] SolidError),
+    /// What fills droplets.
+    #[error(transparent)]
+    Interior(#[from] InteriorError),
     /// A value that makes no scene.
     #[error("{key} = {value}: {remedy}")]
     Value {

@@ -147,9 +147,9 @@ fn polarised(markers: &[Vec2], centre: Vec2, heading: f64) -> Vec<f64> {
 
 /// Means of 1 + amplitude p over the segments.
 fn perturbed(lengths: &[f64], perimeter: f64, amplitude: f64, seed: u64) -> Vec<f64> {
-    let mut random = SplitMix64(seed);
-    let weights: [f64; MODES] = std::array::from_fn(|_| random.next());
-    let phases: [f64; MODES] = std::array::from_fn(|_| TAU * random.next());
+    let mut random = SplitMix64::new(seed);
+    let weights: [f64; MODES] = std::array::from_fn(|_| random.uniform());
+    let phases: [f64; MODES] = std::array::from_fn(|_| TAU * random.uniform());
     let total: f64 = weights.iter().sum();
     let mut end = 0.0;
     lengths
@@ -171,11 +171,18 @@ fn perturbed(lengths: &[f64], perimeter: f64, amplitude: f64, seed: u64) -> Vec<
 }
 
 /// The generator splitmix64 (Steele, Lea and Flood 2014): every seed is good, and the numbers are the same everywhere.
-struct SplitMix64(u64);
+#[derive(Debug, Clone)]
+pub struct SplitMix64(u64);
 
 impl SplitMix64 {
-    /// A number in (0, 1], a multiple of 2^-53.
-    fn next(&mut self) -> f64 {
+    /// The generator of that seed.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next number in (0, 1], a multiple of 2^-53.
+    pub fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);

@@ -8,7 +8,9 @@ use crate::contrast::{Contrast, EquivalentForces, Nearby, Outcome};
 use crate::gap::wall_gap;
 use crate::mobility::Setting;
 use crate::{
-    FlowError, FlowSample, Kernel, Markers, Transfer, Vec2, checkpoint::SavedState, hydrodynamics::SolveReport,
+    FlowError, FlowSample, Kernel, Markers, Transfer, Vec2,
+    checkpoint::SavedState,
+    hydrodynamics::{MarkerGroup, SolveReport},
 };
 
 /// What interfaces to other viscosities need beside the grid.
@@ -148,7 +150,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         flow.load(markers)?;
         self.check_films(flow, markers)?;
         self.work.evaluations += 1;
-        let mut gradient = self.solve_others(flow, markers)?;
+        let mut gradient = self.solve_others(flow, markers, false)?;
         let prepared = flow.contrast.prepare()?;
         self.solve_rigid_part(flow)?;
         let own = self.solve_own(flow)?;
@@ -158,6 +160,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         gradient[0] += effort.pressure_gradient;
         let (mut iterations, mut residual) = (prepared + effort.iterations, effort.residual);
         if !flow.contrast.others().is_empty() {
+            if self.has_points_inside(markers) {
+                self.solve_others(flow, markers, true)?;
+            }
             let found = self.find_equivalent(flow)?;
             (iterations, residual) = (iterations + found.iterations, residual.max(found.residual));
             self.solve_droplets(&flow.transfer, &flow.imposed, flow.equivalent.forces())?;
@@ -174,6 +179,11 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
         Ok(SolveReport { iterations, residual, mean_pressure_gradient: gradient })
     }
 
+    /// Whether there are points inside a droplet of another viscosity.
+    fn has_points_inside(&self, markers: &Markers) -> bool {
+        markers.groups().iter().any(|group| is_inside(group, self.solver.viscosity()))
+    }
+
     /// Refuses films at walls that are thinner than half the distance of a droplet's markers.
     fn check_films(&self, flow: &ContrastFlow<K>, markers: &Markers) -> Result<(), FlowError> {
         let Some(walls) = self.walls() else { return Ok(()) };
@@ -188,10 +198,22 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     }
 
     /// The flow of all forces but the droplets' and of what is imposed: at the droplets' nodes, at the other markers
-    /// (with the mobility correction) and on the grid; its mean pressure gradient.
-    fn solve_others(&mut self, flow: &mut ContrastFlow<K>, markers: &mut Markers) -> Result<[f64; 2], FlowError> {
+    /// (with the mobility correction) and on the grid; its mean pressure gradient. Forces on points inside a droplet of
+    /// another viscosity are, once scaled, those that move its fluid in one of the exterior viscosity as they do; as
+    /// they are they move interfaces.
+    fn solve_others(
+        &mut self,
+        flow: &mut ContrastFlow<K>,
+        markers: &mut Markers,
+        scaled: bool,
+    ) -> Result<[f64; 2], FlowError> {
         flow.all.clear();
         flow.all.extend_from_slice(&markers.forces);
+        let viscosity = self.solver.viscosity();
+        for group in markers.groups().iter().filter(|group| scaled && is_inside(group, viscosity)) {
+            let factor = viscosity / group.viscosities(viscosity)[1];
+            flow.all[group.range.clone()].iter_mut().for_each(|force| *force *= factor);
+        }
         for droplet in flow.contrast.droplets() {
             flow.all[droplet.markers.clone()].fill(Vec2::ZERO);
         }
@@ -355,7 +377,7 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
     ) -> Result<(), FlowError> {
         flow.load(markers)?;
         let mut scratch = markers.clone();
-        self.solve_others(flow, &mut scratch)?;
+        self.solve_others(flow, &mut scratch, true)?;
         flow.contrast.prepare()?;
         self.solve_own(flow)?;
         self.find_equivalent(flow)?;
@@ -445,4 +467,9 @@ impl<S: StokesSolver, K: Kernel> ImmersedBoundary<S, K> {
             variance: self.variance,
         }
     }
+}
+
+/// Whether a group are points in fluid of another viscosity than the exterior one.
+fn is_inside(group: &MarkerGroup, viscosity: f64) -> bool {
+    !group.kind.is_interface() && group.viscosities(viscosity)[1] != viscosity
 }

@@ -3,6 +3,7 @@
 mod bodies;
 mod forces;
 mod gaps;
+mod guests;
 mod state;
 
 pub use bodies::BodyFlow;
@@ -32,6 +33,10 @@ pub struct System<H> {
     id: SceneId,
     hydrodynamics: H,
     bodies: Vec<Box<dyn Body>>,
+    /// Bodies that fill others, each after the number of the body that it fills.
+    guests: Vec<[usize; 2]>,
+    /// Whether there is one that fills a body that is not here.
+    stray_guest: bool,
     markers: Markers,
     time: f64,
     steps: usize,
@@ -68,6 +73,8 @@ impl<H: Hydrodynamics> System<H> {
             id: SceneId::unique(),
             hydrodynamics,
             bodies: Vec::new(),
+            guests: Vec::new(),
+            stray_guest: false,
             markers: Markers::new(),
             time: 0.0,
             steps: 0,
@@ -90,7 +97,8 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
-    pub(crate) fn push<B: Body>(&mut self, body: B) -> Handle<B> {
+    pub(crate) fn push<B: Body>(&mut self, mut body: B) -> Handle<B> {
+        self.push_guest(&mut body);
         self.markers.push_solid(body.marker_count(), body.kind(), body.surfaces());
         self.bodies.push(Box::new(body));
         self.around.push(None);
@@ -309,6 +317,7 @@ impl<H: Hydrodynamics> System<H> {
             return;
         }
         self.fit_markers();
+        self.show_hosts();
         let mut start = 0;
         for body in &self.bodies {
             let end = start + body.marker_count();
@@ -326,6 +335,7 @@ impl<H: Hydrodynamics> System<H> {
         {
             return Err(body_error(time, self.bodies[index].as_ref(), source));
         }
+        self.add_guest_forces();
         if let Some(repulsion) = &self.repulsion {
             let (domain, walls) = (discretisation.domain, self.hydrodynamics.walls());
             let surroundings = Surroundings { domain, walls, around: &self.around };

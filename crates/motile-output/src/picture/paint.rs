@@ -1,5 +1,7 @@
 //! Pictures of scenes: how they are drawn.
 
+use std::collections::HashSet;
+
 use super::{Legends, Picture};
 use crate::drawing::axes::{Axis, AxisScale, Frame};
 use crate::drawing::ticks::{nice_step_below, number};
@@ -9,6 +11,9 @@ use crate::{Error, Rgb, Samples, Vec2, streamlines};
 /// Colours of solids and walls.
 const SOLID: Rgb = Rgb([196, 190, 180]);
 const SOLID_EDGE: Rgb = Rgb([92, 84, 74]);
+/// Colours of directors and of defects of either sign.
+const DIRECTOR: Rgb = Rgb([30, 30, 30]);
+const DEFECTS: [Rgb; 2] = [Rgb([190, 20, 60]), Rgb([20, 60, 190])];
 /// Colour of tracks.
 const TRACK: Rgb = Rgb([20, 60, 150]);
 /// Thickness of the band that shows a rigid wall, relative to the distance of the walls.
@@ -25,6 +30,7 @@ pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, Error> {
     painter.drawing.clip(Some(painter.layout.frame.area));
     painter.pressure()?;
     painter.streamlines()?;
+    painter.gels();
     painter.solids();
     painter.walls();
     painter.tracks();
@@ -160,6 +166,33 @@ impl Painter<'_> {
         let corner = |along: f64, across: f64| [at[0] + along * c - across * s, at[1] + along * s + across * c];
         let ring = vec![corner(0.6, 0.0), corner(-0.4, 0.36), corner(-0.22, 0.0), corner(-0.4, -0.36)];
         self.drawing.fill(&[ring], Rgb::INK, 0.85);
+    }
+
+    /// Directors as short arrows, no closer than they are long; defects as dots.
+    fn gels(&mut self) {
+        let (seen, unit) = (self.picture.seen, self.layout.unit);
+        let length = 0.9 * unit / self.layout.scale();
+        for gel in &seen.gels {
+            let mut taken = HashSet::new();
+            let corner = gel.nodes.first().copied().unwrap_or_default();
+            let place = |node: Vec2| ((node - corner) / (1.3 * length)).to_array().map(|cell| cell.floor() as i64);
+            let shown = gel.nodes.iter().zip(&gel.directors).filter(|(node, _)| taken.insert(place(**node)));
+            let shown: Vec<[Vec2; 2]> = shown.map(|(at, p)| [at - 0.5 * length * p, at + 0.5 * length * p]).collect();
+            for shift in self.images(&gel.nodes.iter()) {
+                for line in &shown {
+                    let path = self.layout.path(line, shift);
+                    self.drawing.stroke(&path, &Pen::new(Rgb::WHITE, 0.26 * unit).opacity(0.6));
+                    self.drawing.stroke(&path, &Pen::new(DIRECTOR, 0.12 * unit));
+                    let [from, to] = [path[0], path[1]];
+                    self.head(to, [2.0 * to[0] - from[0], 2.0 * to[1] - from[1]], 0.35 * unit);
+                }
+                for defect in &gel.defects {
+                    let dot = self.layout.path(&[defect.position.into(); 2], shift);
+                    self.drawing.stroke(&dot, &Pen::new(Rgb::WHITE, 0.8 * unit));
+                    self.drawing.stroke(&dot, &Pen::new(DEFECTS[usize::from(defect.charge < 0)], 0.6 * unit));
+                }
+            }
+        }
     }
 
     fn solids(&mut self) {

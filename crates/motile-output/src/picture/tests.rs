@@ -8,7 +8,7 @@ fn halves() -> Snapshot {
     let raster = Raster::new([-3.0, -3.0], [6.0, 6.0], [60, 60], [true, true]).unwrap();
     let sample = |p: &Vec2| FlowSample { pressure: if p.x < 0.0 { 0.0 } else { 1.0 }, ..FlowSample::default() };
     let flow = raster.points().iter().map(sample).collect();
-    Snapshot { time: 0.0, raster, flow, droplets: Vec::new(), solids: Vec::new(), walls: None }
+    Snapshot { time: 0.0, raster, flow, droplets: Vec::new(), gels: Vec::new(), solids: Vec::new(), walls: None }
 }
 
 fn circle(x: f64) -> DropletOutline {
@@ -75,7 +75,7 @@ fn values_that_are_not_numbers_do_no_harm() {
         displacement: vec![f64::NAN],
         stress: vec![f64::NAN],
     }];
-    let seen = Snapshot { time: 1.0, raster, flow, droplets, solids, walls: Some([0.0, 2.0]) };
+    let seen = Snapshot { time: 1.0, raster, flow, droplets, gels: Vec::new(), solids, walls: Some([0.0, 2.0]) };
     draw(&seen, &[vec![(0.0, bad), (0.5, Vec2::new(1.0, 1.0))], Vec::new()], &Format::STILL);
     let look = Look::default();
     let short = Snapshot { flow: Vec::new(), ..seen };

@@ -2,15 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveDroplet, Curve, InitialConcentration, Motion};
+use active_interface::{ActiveDroplet, Curve, Exchange, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::Solid;
 use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
-    Contrast, DropletSetup, DropletShape, GridMethod, IntegralMethod, MarkerMotion, Method, Region, Setup, Squeezed,
-    Start, Surface,
+    Contrast, DropletSetup, DropletShape, ExchangeSetup, GridMethod, IntegralMethod, MarkerMotion, Method, Region,
+    Setup, Squeezed, Start, Surface,
 };
 use crate::SetupError;
 
@@ -57,6 +57,9 @@ impl Setup {
             self.check_walls(&self.key(k), droplet.markers(), &flow)?;
         }
         let solids = solids().map(|(solid, k)| solid.build(self).map_err(keyed(k))).collect::<Result<Vec<_>, _>>()?;
+        let points = droplets.iter().map(ActiveDroplet::markers);
+        let points: Vec<&[Vec2]> = points.chain(solids.iter().map(Solid::positions)).collect();
+        self.check_filled(&points)?;
         let mut scene = Scene::new(flow).with_step_size(self.step);
         if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
             scene = scene.with_repulsion(ib_core::Repulsion::new(strength, range).map_err(ib_core::FlowError::from)?);
@@ -64,8 +67,15 @@ impl Setup {
         if let Some(bound) = self.least_gap {
             scene = scene.with_least_gap(bound).map_err(ib_core::FlowError::from)?;
         }
-        let droplets = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
+        let droplets: Vec<_> = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
         let solids = solids.into_iter().map(|solid| scene.add(solid)).collect();
+        for (k, (setup, &host)) in self.droplets.iter().zip(&droplets).enumerate() {
+            if let Ok(droplet) = scene.body(host)
+                && let Some(gel) = self.gel(setup, droplet, host).map_err(keyed(k))?
+            {
+                scene.add(gel);
+            }
+        }
         Ok(Built { scene, droplets, solids })
     }
 
@@ -115,7 +125,17 @@ impl Setup {
                     None => initial.particle_numbers(&markers)?,
                 };
                 let law = particles.law(droplet.tension)?;
-                ActiveDroplet::new(&markers, numbers, law, particles.diffusion)?.with_flux(particles.flux)
+                let made = ActiveDroplet::new(&markers, numbers, law, particles.diffusion)?.with_flux(particles.flux);
+                match particles.exchange {
+                    None => made,
+                    Some(ExchangeSetup { binding, unbinding, number_inside }) => {
+                        let exchange = Exchange::new(binding, unbinding)?;
+                        let at_rest = || exchange.concentration_at_rest(c0).map(|inside| inside * made.initial_area());
+                        // That there is one or the other has been checked.
+                        let number = number_inside.or_else(at_rest).unwrap_or(0.0);
+                        made.with_pool(exchange, number)?
+                    }
+                }
             }
         };
         let motion = match droplet.motion {

@@ -4,8 +4,8 @@ use ib_core::{AnyKernel, StepSize};
 use stokes_grid::Drive;
 
 use super::{
-    Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion, Method,
-    Region, RigidSetup, Setup, SolidOutline, SolidSetup, Start, Surface,
+    Contrast, DropletSetup, DropletShape, ExchangeSetup, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
+    MarkerMotion, Method, Region, RigidSetup, Setup, SolidOutline, SolidSetup, Start, Surface,
 };
 use crate::SetupError;
 
@@ -17,12 +17,17 @@ const MARKERS: [f64; 2] = [8.0, super::build::MOST_MARKERS];
 const MOST_ACROSS: f64 = 1e5;
 
 /// Values with their place in the description.
-struct Checked<'a> {
+pub(super) struct Checked<'a> {
     place: &'a str,
 }
 
 impl Checked<'_> {
-    fn refuse<T>(&self, key: &str, value: &dyn std::fmt::Display, remedy: impl Into<String>) -> Result<T, SetupError> {
+    pub(super) fn refuse<T>(
+        &self,
+        key: &str,
+        value: &dyn std::fmt::Display,
+        remedy: impl Into<String>,
+    ) -> Result<T, SetupError> {
         let key = if self.place.is_empty() { key.to_owned() } else { format!("{}.{key}", self.place) };
         Err(SetupError::Value { key, value: value.to_string(), remedy: remedy.into() })
     }
@@ -31,15 +36,15 @@ impl Checked<'_> {
         if holds { Ok(()) } else { self.refuse(key, &value, remedy) }
     }
 
-    fn positive(&self, key: &str, value: f64) -> Result<(), SetupError> {
+    pub(super) fn positive(&self, key: &str, value: f64) -> Result<(), SetupError> {
         self.require(value.is_finite() && value > 0.0, key, value, "give a positive finite number")
     }
 
-    fn not_negative(&self, key: &str, value: f64) -> Result<(), SetupError> {
+    pub(super) fn not_negative(&self, key: &str, value: f64) -> Result<(), SetupError> {
         self.require(value.is_finite() && value >= 0.0, key, value, "give a finite number that is not negative")
     }
 
-    fn finite(&self, key: &str, value: f64) -> Result<(), SetupError> {
+    pub(super) fn finite(&self, key: &str, value: f64) -> Result<(), SetupError> {
         self.require(value.is_finite(), key, value, "give a finite number")
     }
 
@@ -106,6 +111,9 @@ impl Setup {
         integral.check("method.integral")?;
         if !self.solids.is_empty() {
             return Err(SetupError::needs_a_grid("solids"));
+        }
+        if self.droplets.iter().any(|droplet| droplet.gel.is_some()) {
+            return Err(SetupError::needs_a_grid("gels"));
         }
         Ok(())
     }
@@ -255,6 +263,7 @@ impl DropletSetup {
             checked.not_negative("motion.equidistributed.relaxation", relaxation)?;
         }
         self.shape.check(&checked)?;
+        self.gel.map_or(Ok(()), |gel| gel.check(&checked, self))?;
         let Some(particles) = &self.particles else { return Ok(()) };
         checked.finite("particles.activity", particles.activity)?;
         checked.not_negative("particles.diffusion", particles.diffusion)?;
@@ -266,6 +275,23 @@ impl DropletSetup {
             Exclusion::None => {}
             Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
             Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
+        }
+        if let Some(ExchangeSetup { binding, unbinding, number_inside }) = particles.exchange {
+            checked.not_negative("particles.exchange.binding", binding)?;
+            checked.not_negative("particles.exchange.unbinding", unbinding)?;
+            let key = "particles.exchange.number-inside";
+            match number_inside {
+                Some(number) => checked.not_negative(key, number)?,
+                None => {
+                    let remedy = "nothing that unbinds comes back, so that no number inside is at rest: give one";
+                    checked.require(
+                        binding > 0.0 || unbinding == 0.0,
+                        "particles.exchange.binding",
+                        binding,
+                        remedy,
+                    )?;
+                }
+            }
         }
         let Start::Perturbed { amplitude, .. } = particles.start else { return Ok(()) };
         let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));

@@ -5,6 +5,7 @@ mod check;
 mod droplet;
 #[cfg(feature = "serde")]
 mod file;
+mod gel;
 mod method;
 mod particles_entry;
 mod places;
@@ -13,7 +14,8 @@ mod rigid;
 mod solid;
 
 pub use build::{AnyFlow, Built};
-pub use droplet::{DropletSetup, DropletShape, Exclusion, MarkerMotion, Particles, Squeezed, Start};
+pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, MarkerMotion, Particles, Squeezed, Start};
+pub use gel::GelSetup;
 pub use method::{Contrast, GridMethod, IntegralMethod, Method, MethodKind};
 pub use region::Region;
 pub use rigid::RigidSetup;

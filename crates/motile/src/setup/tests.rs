@@ -2,6 +2,8 @@ use active_interface::curve::polygon_moments;
 use ib_core::{Body, StepSize, Vec2};
 use stokes_grid::Drive;
 
+use interior_fields::{Anchoring, DirectorStart, GelMaterial};
+
 use super::*;
 use crate::ChannelShape;
 
@@ -100,6 +102,43 @@ fn what_makes_no_scene_is_refused_with_its_key() {
     let thesis = DropletSetup { centre: [-1.5, 0.0], ..DropletSetup::thesis() };
     let default = DropletSetup { centre: [1.5, 0.0], ..DropletSetup::default() };
     assert!(Setup { droplets: vec![thesis, default], ..grid(coarse) }.check().is_ok());
+}
+
+#[test]
+fn gels_that_make_no_scene_are_refused() {
+    let with = |gel: GelSetup| Setup {
+        method: Method::Grid(GridMethod::of_spacing(0.1)),
+        droplets: vec![DropletSetup { gel: Some(gel), ..DropletSetup::default() }],
+        ..Setup::default()
+    };
+    let of = |material: GelMaterial| with(GelSetup { material, ..GelSetup::default() });
+    let usual = GelMaterial::default();
+    let cases = [
+        ("droplets[0].gel.material.frank =", of(GelMaterial { frank: -1.0, ..usual })),
+        ("droplets[0].gel.material.rotational-viscosity =", of(GelMaterial { rotational_viscosity: 0.0, ..usual })),
+        ("droplets[0].gel.material.alignment =", of(GelMaterial { alignment: f64::NAN, ..usual })),
+        ("droplets[0].gel.material.activity =", of(GelMaterial { activity: f64::INFINITY, ..usual })),
+        ("droplets[0].gel.spacing =", with(GelSetup { spacing: Some(0.0), ..GelSetup::default() })),
+        ("droplets[0].gel.start.uniform.noise =", {
+            let start = DirectorStart::Uniform { angle: 0.0, noise: -1.0, seed: 0 };
+            with(GelSetup { start, ..GelSetup::default() })
+        }),
+        ("method = integral: gels need a grid", { Setup { method: Method::default(), ..with(GelSetup::default()) } }),
+        ("droplets[0].motion =", {
+            let mut setup = with(GelSetup::default());
+            setup.droplets[0].motion = MarkerMotion::WithFluid;
+            let spacing = GridMethod::of_spacing(0.1);
+            setup.method = Method::Grid(GridMethod { corrected: false, filter: false, ..spacing });
+            setup
+        }),
+        ("droplets[0].gel = a gel: solids[0] lies inside", {
+            Setup { solids: vec![disc(0.1, 0.0, 0.3)], ..with(GelSetup::default()) }
+        }),
+    ];
+    for (start, setup) in cases {
+        assert!(refused(&setup).starts_with(start), "{start}: {}", refused(&setup));
+    }
+    assert!(of(usual).build().is_ok());
 }
 
 #[test]
@@ -403,6 +442,10 @@ mod file {
             ..Particles::default()
         });
         let graded = Grading::Along { axis: Axis::X, factors: vec![[0.0, 1.0], [3.0, 2.0]] };
+        let start = DirectorStart::Uniform { angle: 0.3, noise: 0.2, seed: 9 };
+        setup.droplets[2].gel = Some(GelSetup { anchoring: Anchoring::Planar, start, ..GelSetup::default() });
+        setup.droplets[3].gel = Some(GelSetup { start: DirectorStart::Aster, ..GelSetup::default() });
+        setup.droplets[2..4].iter_mut().for_each(|droplet| droplet.motion = MarkerMotion::default());
         setup.solids.push(SolidSetup {
             hold: Hold::Tethered { stiffness: 20.0 },
             grading: graded,

@@ -8,9 +8,9 @@ use std::f64::consts::PI;
 #[test]
 fn the_generator_is_splitmix64() {
     // First output for the seed 1234567, published with the reference implementation.
-    let mut random = SplitMix64(1_234_567);
+    let mut random = SplitMix64::new(1_234_567);
     let expected = 6_457_827_717_110_365_317u64;
-    assert_eq!(random.next(), ((expected >> 11) + 1) as f64 / (1u64 << 53) as f64);
+    assert_eq!(random.uniform(), ((expected >> 11) + 1) as f64 / (1u64 << 53) as f64);
 }
 
 #[test]

@@ -134,6 +134,7 @@ impl<H: Hydrodynamics> System<H> {
         if self.apart {
             return Ok(());
         }
+        self.check_guests()?;
         let (time, allowed) = (self.time, self.find_gaps());
         let overlap = |body: usize, other: usize, place: Vec2, depth: f64| {
             let ([body, other], [x, y]) = ([body, other].map(|index| self.name_of(index)), place.into());
@@ -204,6 +205,9 @@ impl<H: Hydrodynamics> System<H> {
         self.place_markers();
         self.gaps.update(&self.bodies, &self.markers);
         self.gaps.surroundings(self.hydrodynamics.discretisation().domain.periods, &mut self.around);
+        for &[host, guest] in &self.guests {
+            self.around[guest] = Some(host);
+        }
         for index in 0..self.bodies.len() {
             let enclosing = std::iter::successors(self.around[index], |&outer| self.around[outer]);
             self.outside[index] =

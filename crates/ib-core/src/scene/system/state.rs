@@ -65,9 +65,11 @@ impl<H: Hydrodynamics> System<H> {
 
     fn rate_here(&mut self, rate: &mut [f64]) {
         let mut rest = rate;
-        for (body, group) in self.bodies.iter_mut().zip(self.markers.groups()) {
+        for index in 0..self.bodies.len() {
+            self.show_motion(index);
+            let (body, range) = (&mut self.bodies[index], self.markers.groups()[index].range.clone());
             let rate = part(&mut rest, body.as_ref());
-            body.rate(&self.markers.velocities[group.range.clone()], rate);
+            body.rate(&self.markers.velocities[range], rate);
         }
     }
 

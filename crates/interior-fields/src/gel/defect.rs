@@ -1,0 +1,40 @@
+//! Defects of the director.
+
+use std::f64::consts::{PI, TAU};
+
+use ib_core::Vec2;
+
+use super::elements::Elements;
+
+/// A point about which the director turns.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Defect {
+    /// Where it is (length): where the director, linear in between nodes, vanishes.
+    pub position: [f64; 2],
+    /// Turns of the director on a way once around it, counter-clockwise: 1 for asters and vortices.
+    pub charge: i32,
+}
+
+/// The defects: triangles around which the director turns.
+pub(super) fn defects(elements: &Elements, nodes: &[Vec2], angles: &[f64], directors: &[Vec2]) -> Vec<Defect> {
+    let mut found = Vec::new();
+    for (number, triangle) in elements.triangles.iter().enumerate() {
+        let at = triangle.map(|node| angles[node]);
+        let turn: f64 = [at[1] - at[0], at[2] - at[1], at[0] - at[2]].into_iter().map(wrapped).sum();
+        let charge = (turn / TAU).round() as i32;
+        if charge != 0 {
+            let [a, b, c] = triangle.map(|node| directors[node]);
+            let parts = [b.perp_dot(c), c.perp_dot(a), a.perp_dot(b)];
+            let whole: f64 = parts.iter().sum();
+            let place = elements.place(number, nodes, parts.map(|part| part / whole));
+            found.push(Defect { position: place.into(), charge });
+        }
+    }
+    found
+}
+
+/// An angle within half a turn.
+fn wrapped(angle: f64) -> f64 {
+    let turn = angle.rem_euclid(TAU);
+    if turn > PI { turn - TAU } else { turn }
+}

@@ -1,0 +1,221 @@
+//! The director on a triangulation: energy, forces, rate of change.
+
+use ib_core::{BodyError, Vec2};
+
+use super::{Defect, GelMaterial, defect, elements::Elements};
+use crate::InteriorError;
+
+/// The director at the nodes of a triangulation, by its angles, so that |p| = 1 there; in between it is linear.
+///
+/// With the discrete energy `E = SUM_T K/2 A_T |grad p|^2_T` of angles a and places x, and the rate of turning W_i with
+/// the fluid at node i, linear in the nodes' velocities v, the forces on the fluid and the director's motion are
+///
+/// ```text
+/// F_i     = -dE/dx_i - SUM_j dE/da_j dW_j/dv_i + active part,   h_i = -(dE/da_i)/M_i
+/// da_i/dt = W_i + h_i/gamma1
+/// ```
+///
+/// M_i being the node's share of the area: so `SUM F v + dE/dt = -SUM M h^2/gamma1` without activity and where nodes
+/// move with the fluid, as in the continuum (Cowley (1.4)), and forces have neither resultant nor torque.
+#[derive(Debug, Clone)]
+pub(super) struct Director {
+    pub(super) material: GelMaterial,
+    pub(super) elements: Elements,
+    /// Angle from tangent to director on the boundary, whose nodes come first, and how many these are.
+    anchoring: Option<(f64, usize)>,
+    pub(super) angles: Vec<f64>,
+    pub(super) directors: Vec<Vec2>,
+    /// Couples -dE/da at the nodes (force times length).
+    pub(super) couples: Vec<f64>,
+    /// Stress that each node adds to its triangles, contracted with grad v, (d/dx, d/dy).
+    stresses: Vec<[Vec2; 2]>,
+    /// Gradients of the velocity and of the director at the nodes, times their masses.
+    slopes: Vec<[Vec2; 4]>,
+}
+
+impl Director {
+    /// Of those angles, which may be changed by the anchoring once the nodes have places.
+    pub(super) fn new(
+        material: GelMaterial,
+        elements: Elements,
+        angles: Vec<f64>,
+        anchoring: Option<(f64, usize)>,
+    ) -> Self {
+        let count = angles.len();
+        let mut director = Self {
+            material,
+            elements,
+            anchoring,
+            directors: vec![Vec2::ZERO; count],
+            couples: vec![0.0; count],
+            stresses: vec![[Vec2::ZERO; 2]; count],
+            slopes: vec![[Vec2::ZERO; 4]; count],
+            angles,
+        };
+        director.turn();
+        director
+    }
+
+    fn turn(&mut self) {
+        for (director, &angle) in self.directors.iter_mut().zip(&self.angles) {
+            *director = Vec2::from_angle(angle);
+        }
+    }
+
+    /// How many nodes are anchored, which come first.
+    fn anchored(&self) -> usize {
+        self.anchoring.map_or(0, |(_, count)| count)
+    }
+
+    /// Angles at the nodes that are not anchored.
+    pub(super) fn free_angles(&self) -> &[f64] {
+        &self.angles[self.anchored()..]
+    }
+
+    /// Takes over angles of the nodes that are not anchored.
+    pub(super) fn read(&mut self, angles: &[f64]) -> Result<(), BodyError> {
+        if let Some(index) = angles.iter().position(|value| !value.is_finite()) {
+            return Err(BodyError::NonFinite { what: "the angle of the director", index, value: angles[index] });
+        }
+        let anchored = self.anchored();
+        self.angles[anchored..].copy_from_slice(angles);
+        self.turn();
+        Ok(())
+    }
+
+    /// Takes over places of the nodes (length), and turns the director on the boundary to its anchoring.
+    pub(super) fn move_to(&mut self, nodes: &[Vec2]) {
+        self.elements.move_to(nodes);
+        if let Some((from_tangent, count)) = self.anchoring {
+            for node in 0..count {
+                let [before, after] = neighbours(node, count);
+                self.angles[node] = (nodes[after] - nodes[before]).to_angle() + from_tangent;
+                self.directors[node] = Vec2::from_angle(self.angles[node]);
+            }
+        }
+    }
+
+    /// The Frank energy (force times length).
+    pub(super) fn energy(&self) -> f64 {
+        let of = |(triangle, area): (usize, &f64)| {
+            let [x, y] = self.elements.gradient(triangle, &self.directors);
+            area * (x.length_squared() + y.length_squared())
+        };
+        0.5 * self.material.frank * self.elements.areas.iter().enumerate().map(of).sum::<f64>()
+    }
+
+    /// The mean director, weighted by area (no dimension).
+    pub(super) fn polarisation(&self) -> Vec2 {
+        let masses = &self.elements.masses;
+        let sum: Vec2 = self.directors.iter().zip(masses).map(|(director, mass)| *mass * *director).sum();
+        sum / masses.iter().sum::<f64>()
+    }
+
+    /// The defects.
+    pub(super) fn defects(&self, nodes: &[Vec2]) -> Vec<Defect> {
+        defect::defects(&self.elements, nodes, &self.angles, &self.directors)
+    }
+
+    /// Writes the forces on the fluid at the nodes (force), whose places (length) were taken over last, the boundary's
+    /// nodes first.
+    ///
+    /// # Errors
+    /// A triangle without area or turned over.
+    pub(super) fn write_forces(&mut self, nodes: &[Vec2], forces: &mut [Vec2]) -> Result<(), InteriorError> {
+        let anchored = self.anchored();
+        let Self { material, elements, directors, couples, stresses, .. } = self;
+        let area = elements.areas[elements.least];
+        if area.is_nan() || area <= 0.0 {
+            let Vec2 { x, y } = elements.place(elements.least, nodes, [1.0 / 3.0; 3]);
+            return Err(InteriorError::Folded { x, y });
+        }
+        forces.fill(Vec2::ZERO);
+        couples.fill(0.0);
+        for (number, (triangle, slopes)) in elements.triangles.iter().zip(&elements.gradients).enumerate() {
+            let [x, y] = elements.gradient(number, directors);
+            let weight = material.frank * elements.areas[number];
+            let half = 0.5 * (x.length_squared() + y.length_squared());
+            let mixed = x.dot(y);
+            let (stress_x, stress_y) =
+                (Vec2::new(x.length_squared() - half, mixed), Vec2::new(mixed, y.length_squared() - half));
+            for (&node, slope) in triangle.iter().zip(slopes) {
+                forces[node] += weight * (slope.x * stress_x + slope.y * stress_y);
+                couples[node] -= weight * directors[node].perp_dot(slope.x * x + slope.y * y);
+            }
+        }
+        // The couples on an anchored boundary turn its normals, all others the fluid.
+        for (node, couple) in couples[..anchored].iter().enumerate() {
+            let [before, after] = neighbours(node, anchored);
+            let chord = nodes[after] - nodes[before];
+            let push = couple / chord.length_squared() * chord.perp();
+            forces[after] += push;
+            forces[before] -= push;
+        }
+        for (node, (stress, p)) in stresses.iter_mut().zip(&*directors).enumerate() {
+            let field = if node < anchored { 0.0 } else { couples[node] / elements.masses[node] };
+            let active = material.activity * Vec2::new(p.x * p.x - 0.5, p.x * p.y);
+            // 1/2 (p q + q p) with q normal to p.
+            let aligned = -material.alignment * field * Vec2::new(-p.x * p.y, 0.5 * (p.x * p.x - p.y * p.y));
+            let sum = active + aligned;
+            *stress = [Vec2::new(sum.x, sum.y + 0.5 * field), Vec2::new(sum.y - 0.5 * field, -sum.x)];
+        }
+        for ((triangle, slopes), area) in elements.triangles.iter().zip(&elements.gradients).zip(&elements.areas) {
+            let [x, y] =
+                triangle.iter().fold([Vec2::ZERO; 2], |[x, y], &node| [x + stresses[node][0], y + stresses[node][1]]);
+            for (&node, slope) in triangle.iter().zip(slopes) {
+                forces[node] += area / 3.0 * (slope.x * x + slope.y * y);
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the rate of change of the angles that are not anchored (1/time) after [`Director::write_forces`], from the
+    /// velocities of the fluid at all nodes and those of the nodes (length per time).
+    pub(super) fn write_rate(&mut self, fluid: &[Vec2], mesh: &[Vec2], rate: &mut [f64]) {
+        let anchored = self.anchored();
+        let Self { material, elements, directors, couples, slopes, .. } = self;
+        slopes.fill([Vec2::ZERO; 4]);
+        for (number, (triangle, area)) in elements.triangles.iter().zip(&elements.areas).enumerate() {
+            let ([vx, vy], [px, py]) = (elements.gradient(number, fluid), elements.gradient(number, directors));
+            for &node in triangle {
+                for (sum, slope) in slopes[node].iter_mut().zip([vx, vy, px, py]) {
+                    *sum += area / 3.0 * slope;
+                }
+            }
+        }
+        for (rate, node) in rate.iter_mut().zip(anchored..) {
+            let (p, [vx, vy, px, py]) = (directors[node], slopes[node]);
+            let spin = 0.5 * (vx.y - vy.x);
+            let (stretch, shear) = (0.5 * (vx.x - vy.y), 0.5 * (vx.y + vy.x));
+            let strain = shear * (p.x * p.x - p.y * p.y) - 2.0 * stretch * p.x * p.y;
+            let slip = fluid[node] - mesh[node];
+            let carried = p.perp_dot(slip.x * px + slip.y * py);
+            let turned = spin - material.alignment * strain - carried + couples[node] / material.rotational_viscosity;
+            *rate = turned / elements.masses[node];
+        }
+    }
+
+    /// The largest rate at which the director relaxes (1/time), from above, in fluid of that viscosity (stress times
+    /// time): by the molecular field, the flow that it drives, and the activity.
+    pub(super) fn fastest_rate(&self, viscosity: f64) -> f64 {
+        let Self { material, elements, .. } = self;
+        // No eigenvalue of the whole is larger than the largest of one triangle alone, 3 times that of SUM g g over the
+        // gradients g of its functions.
+        let sharpest = elements.gradients.iter().map(|slopes| {
+            let [xx, xy, yy] = slopes.iter().fold([0.0; 3], |[xx, xy, yy], slope| {
+                [xx + slope.x * slope.x, xy + slope.x * slope.y, yy + slope.y * slope.y]
+            });
+            1.5 * (xx + yy + (xx - yy).hypot(2.0 * xy))
+        });
+        let active = 0.5 * material.activity.abs() * (1.0 + material.alignment.abs()) / viscosity;
+        material.largest_diffusivity(viscosity) * sharpest.fold(0.0, f64::max) + active
+    }
+}
+
+/// The nodes before and after one of a closed curve.
+fn neighbours(node: usize, count: usize) -> [usize; 2] {
+    [(node + count - 1) % count, (node + 1) % count]
+}
+
+#[cfg(test)]
+mod tests;

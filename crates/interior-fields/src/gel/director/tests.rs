@@ -1,0 +1,138 @@
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use active_interface::concentration::SplitMix64;
+use ib_core::Vec2;
+
+use super::Director;
+use crate::gel::{Anchoring, GelMaterial, elements::Elements};
+use crate::{DiscMesh, InteriorError};
+
+const PASSIVE: GelMaterial = GelMaterial { frank: 2.0, rotational_viscosity: 3.0, alignment: -0.7, activity: 0.0 };
+
+/// A bent disc with a director that turns a lot.
+fn bent(material: GelMaterial, anchoring: Anchoring) -> (Director, Vec<Vec2>) {
+    let mesh = DiscMesh::new(24, 0.3).unwrap();
+    let curve = |k: usize| {
+        let angle = TAU * k as f64 / 24.0;
+        Vec2::new(1.3 * angle.cos() + 0.1 * (2.0 * angle).cos(), angle.sin())
+    };
+    let mut nodes: Vec<Vec2> = (0..mesh.node_count()).map(curve).collect();
+    mesh.place(&mut nodes);
+    let angles = nodes.iter().map(|node| 2.0 * node.x + (3.0 * node.y).sin()).collect();
+    let elements = Elements::new(mesh.triangles().to_vec(), nodes.len(), [None; 2]);
+    let anchored = anchoring.angle_from_tangent().map(|angle| (angle, 24));
+    let mut director = Director::new(material, elements, angles, anchored);
+    director.move_to(&nodes);
+    (director, nodes)
+}
+
+fn random(count: usize) -> Vec<Vec2> {
+    let mut random = SplitMix64::new(7);
+    (0..count).map(|_| Vec2::new(random.uniform() - 0.5, random.uniform() - 0.5)).collect()
+}
+
+/// The rate of change of the energy with nodes that move with the fluid, by differences.
+fn energy_rate(director: &Director, nodes: &[Vec2], fluid: &[Vec2], rate: &[f64]) -> f64 {
+    let energy = |time: f64| {
+        let mut director = director.clone();
+        let moved: Vec<Vec2> = nodes.iter().zip(fluid).map(|(node, velocity)| *node + time * *velocity).collect();
+        let angles: Vec<f64> = director.free_angles().iter().zip(rate).map(|(a, rate)| a + time * rate).collect();
+        director.read(&angles).unwrap();
+        director.move_to(&moved);
+        director.energy()
+    };
+    (energy(1e-5) - energy(-1e-5)) / 2e-5
+}
+
+#[test]
+fn without_activity_the_flow_takes_what_the_energy_gives_but_for_dissipation() {
+    for anchoring in [Anchoring::Free, Anchoring::Homeotropic, Anchoring::Planar] {
+        let (mut director, nodes) = bent(PASSIVE, anchoring);
+        let mut forces = vec![Vec2::ZERO; nodes.len()];
+        director.write_forces(&nodes, &mut forces).unwrap();
+        let fluid = random(nodes.len());
+        let mut rate = vec![0.0; director.free_angles().len()];
+        director.write_rate(&fluid, &fluid, &mut rate);
+        let power: f64 = forces.iter().zip(&fluid).map(|(force, velocity)| force.dot(*velocity)).sum();
+        let anchored = director.anchored();
+        let masses = &director.elements.masses[anchored..];
+        let couples = director.couples[anchored..].iter().zip(masses);
+        let dissipation: f64 = couples.map(|(couple, mass)| couple * couple / mass).sum::<f64>() / 3.0;
+        let sum = power + energy_rate(&director, &nodes, &fluid, &rate);
+        assert!(dissipation > 1.0);
+        assert!((sum + dissipation).abs() < 1e-7 * dissipation, "{anchoring:?}: {sum} {dissipation}");
+    }
+}
+
+#[test]
+fn forces_have_neither_resultant_nor_torque() {
+    for anchoring in [Anchoring::Free, Anchoring::Homeotropic, Anchoring::Planar] {
+        let (mut director, nodes) = bent(GelMaterial { activity: -5.0, ..PASSIVE }, anchoring);
+        let mut forces = vec![Vec2::ZERO; nodes.len()];
+        director.write_forces(&nodes, &mut forces).unwrap();
+        let size: f64 = forces.iter().map(|force| force.length()).sum();
+        let torque: f64 = nodes.iter().zip(&forces).map(|(node, force)| node.perp_dot(*force)).sum();
+        assert!(forces.iter().sum::<Vec2>().length() < 1e-14 * size, "{anchoring:?}");
+        assert!(torque.abs() < 1e-14 * size, "{anchoring:?}: {torque} of {size}");
+    }
+}
+
+#[test]
+fn a_gel_turns_and_moves_with_a_rigid_flow() {
+    let (mut director, nodes) = bent(GelMaterial { frank: 0.0, ..PASSIVE }, Anchoring::Free);
+    let mut forces = vec![Vec2::ZERO; nodes.len()];
+    director.write_forces(&nodes, &mut forces).unwrap();
+    let fluid: Vec<Vec2> = nodes.iter().map(|node| Vec2::new(3.0, 1.0) + 0.5 * node.perp()).collect();
+    let mut rate = vec![0.0; nodes.len()];
+    director.write_rate(&fluid, &fluid, &mut rate);
+    assert!(rate.iter().all(|rate| (rate - 0.5).abs() < 1e-12));
+}
+
+#[test]
+fn rods_lie_down_in_a_shear_flow() {
+    // nu1 cos 2a = -1 is where a director in the flow (y, 0) rests
+    let resting = 0.5 * (1.0_f64 / 1.3).acos();
+    let elements = Elements::new(vec![[0, 1, 2]], 3, [None; 2]);
+    let material = GelMaterial { frank: 0.0, alignment: -1.3, ..PASSIVE };
+    let mut director = Director::new(material, elements, vec![resting, resting + 0.1, resting - 0.1], None);
+    let nodes = [Vec2::ZERO, Vec2::X, Vec2::Y];
+    director.move_to(&nodes);
+    director.write_forces(&nodes, &mut [Vec2::ZERO; 3]).unwrap();
+    let fluid = nodes.map(|node| Vec2::new(node.y, 0.0));
+    let mut rate = [0.0; 3];
+    director.write_rate(&fluid, &fluid, &mut rate);
+    assert!(rate[0].abs() < 1e-14 && rate[1] < -0.05 && rate[2] > 0.05, "{rate:?}");
+}
+
+#[test]
+fn defects_are_found_where_they_are() {
+    let mesh = DiscMesh::new(64, 0.1).unwrap();
+    let mut nodes: Vec<Vec2> = (0..mesh.node_count()).map(|k| Vec2::from_angle(TAU * k as f64 / 64.0)).collect();
+    mesh.place(&mut nodes);
+    let places = [Vec2::new(0.413, 0.121), Vec2::new(-0.307, -0.222)];
+    let of = |charges: [f64; 2]| {
+        let turn = |node: &Vec2| (0..2).map(|k| charges[k] * (*node - places[k]).to_angle()).sum::<f64>() + FRAC_PI_2;
+        let elements = Elements::new(mesh.triangles().to_vec(), nodes.len(), [None; 2]);
+        let mut director = Director::new(PASSIVE, elements, nodes.iter().map(turn).collect(), None);
+        director.move_to(&nodes);
+        director.defects(&nodes)
+    };
+    for charges in [[1.0, -1.0], [1.0, 1.0], [-1.0, 0.0]] {
+        let found = of(charges);
+        assert_eq!(found.len(), charges.iter().filter(|charge| **charge != 0.0).count());
+        for (place, charge) in places.into_iter().zip(charges).filter(|(_, charge)| *charge != 0.0) {
+            let near = |defect: &&crate::Defect| place.distance(defect.position.into()) < 0.06;
+            assert_eq!(found.iter().find(near).map(|defect| f64::from(defect.charge)), Some(charge));
+        }
+    }
+}
+
+#[test]
+fn a_folded_mesh_is_an_error() {
+    let elements = Elements::new(vec![[0, 1, 2]], 3, [None; 2]);
+    let mut director = Director::new(PASSIVE, elements, vec![0.0; 3], None);
+    let nodes = [Vec2::ZERO, Vec2::Y, Vec2::X];
+    director.move_to(&nodes);
+    let error = director.write_forces(&nodes, &mut [Vec2::ZERO; 3]).unwrap_err();
+    assert!(matches!(error, InteriorError::Folded { .. }));
+}

@@ -1,0 +1,220 @@
+//! A gel that fills a droplet.
+
+use std::any::Any;
+
+use active_interface::ActiveDroplet;
+use ib_core::body::{Guest, StepLimit};
+use ib_core::scene::BodyFlow;
+use ib_core::{Body, BodyError, Discretisation, Handle, MarkerKind, Observe, Vec2};
+
+use super::{Anchoring, Defect, DirectorStart, GelMaterial, director::Director, elements::Elements};
+use crate::{DiscMesh, InteriorError};
+
+/// What is seen of a gel at one time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GelObservables {
+    /// Points about which the director turns.
+    pub defects: Vec<Defect>,
+    /// Frank energy (force times length).
+    pub director_energy: f64,
+    /// The mean director (no dimension): of length 1 where it is the same everywhere, 0 for asters and vortices.
+    pub polarisation: [f64; 2],
+}
+
+impl GelObservables {
+    pub(super) fn of(director: &Director, nodes: &[Vec2]) -> Self {
+        Self {
+            defects: director.defects(nodes),
+            director_energy: director.energy(),
+            polarisation: director.polarisation().into(),
+        }
+    }
+}
+
+/// A polar gel that fills a droplet, a body of a scene ([`ib_core::body::Guest`]): it puts forces on the fluid at the
+/// nodes of a [`DiscMesh`] whose boundary are the droplet's markers, and its state are the angles of the director.
+///
+/// It has no torque and no resultant: what turns the director at an anchored interface turns the interface back.
+#[derive(Debug, Clone)]
+pub struct GelInDroplet {
+    name: String,
+    host: Handle<ActiveDroplet>,
+    mesh: DiscMesh,
+    director: Director,
+    anchoring: Anchoring,
+    /// Of all nodes, the droplet's markers first: places, forces, velocities of the fluid and of the nodes.
+    nodes: Vec<Vec2>,
+    forces: Vec<Vec2>,
+    fluid: Vec<Vec2>,
+    motion: Vec<Vec2>,
+    /// Whether the host is a droplet that still has as many markers as the mesh was made for.
+    fits: bool,
+}
+
+impl GelInDroplet {
+    /// A gel in `droplet`, which is or will be the body `host` of the scene, on a mesh of that spacing (length) inside.
+    ///
+    /// # Errors
+    /// Constants that no gel has, a spacing or start that cannot be used, a droplet whose number of markers changes, or
+    /// one so bent that the mesh folds.
+    pub fn new(
+        droplet: &ActiveDroplet,
+        host: Handle<ActiveDroplet>,
+        material: GelMaterial,
+        anchoring: Anchoring,
+        start: &DirectorStart,
+        spacing: f64,
+    ) -> Result<Self, InteriorError> {
+        if !matches!(droplet.kind(), MarkerKind::Interface { .. }) {
+            return Err(InteriorError::ChangingMarkers);
+        }
+        let markers = droplet.markers();
+        let radius = droplet.segment_lengths().iter().sum::<f64>() / std::f64::consts::TAU;
+        let mesh = DiscMesh::new(markers.len(), spacing / radius)?;
+        let mut nodes = vec![Vec2::ZERO; mesh.node_count()];
+        nodes[..markers.len()].copy_from_slice(markers);
+        mesh.place(&mut nodes);
+        let angles = start.angles(&nodes, markers.iter().sum::<Vec2>() / markers.len() as f64)?;
+        let elements = Elements::new(mesh.triangles().to_vec(), nodes.len(), [None; 2]);
+        let anchored = anchoring.angle_from_tangent().map(|angle| (angle, markers.len()));
+        let mut director = Director::new(material.checked()?, elements, angles, anchored);
+        director.move_to(&nodes);
+        let mut forces = vec![Vec2::ZERO; nodes.len()];
+        director.write_forces(&nodes, &mut forces)?;
+        let [fluid, motion] = [(); 2].map(|()| vec![Vec2::ZERO; nodes.len()]);
+        let name = format!("gel of {}", droplet.name());
+        Ok(Self { name, host, mesh, director, anchoring, nodes, forces, fluid, motion, fits: true })
+    }
+
+    /// Where the nodes are (length), the droplet's markers first.
+    #[must_use]
+    pub fn nodes(&self) -> &[Vec2] {
+        &self.nodes
+    }
+
+    /// Triangles by the numbers of their nodes, counter-clockwise.
+    #[must_use]
+    pub fn triangles(&self) -> &[[usize; 3]] {
+        self.mesh.triangles()
+    }
+
+    /// The director at the nodes (no dimension).
+    #[must_use]
+    pub fn directors(&self) -> &[Vec2] {
+        &self.director.directors
+    }
+
+    /// The points about which the director turns.
+    #[must_use]
+    pub fn defects(&self) -> Vec<Defect> {
+        self.director.defects(&self.nodes)
+    }
+
+    /// The droplet that it fills.
+    #[must_use]
+    pub fn droplet(&self) -> Handle<ActiveDroplet> {
+        self.host
+    }
+
+    fn inner(&self) -> std::ops::RangeFrom<usize> {
+        self.mesh.marker_count()..
+    }
+}
+
+impl Guest for GelInDroplet {
+    fn host(&self) -> Handle<dyn Body> {
+        self.host.into()
+    }
+
+    fn see(&mut self, host: &dyn Body) {
+        let droplet: &dyn Any = host;
+        self.fits = droplet.is::<ActiveDroplet>() && host.marker_count() == self.mesh.marker_count();
+        if self.fits {
+            host.write_markers(&mut self.nodes[..self.mesh.marker_count()]);
+            self.mesh.place(&mut self.nodes);
+            self.director.move_to(&self.nodes);
+        }
+    }
+
+    fn add_host_forces(&self, forces: &mut [Vec2]) {
+        forces.iter_mut().zip(&self.forces).for_each(|(sum, force)| *sum += force);
+    }
+
+    fn see_motion(&mut self, host: &dyn Body, velocities: &[Vec2]) {
+        let host: &dyn Any = host;
+        if let Some(droplet) = host.downcast_ref::<ActiveDroplet>().filter(|_| self.fits) {
+            let count = self.mesh.marker_count();
+            self.fluid[..count].copy_from_slice(velocities);
+            self.motion[..count].copy_from_slice(droplet.marker_motion());
+            self.mesh.place(&mut self.motion);
+        }
+    }
+}
+
+impl Body for GelInDroplet {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn kind(&self) -> MarkerKind {
+        MarkerKind::Points
+    }
+
+    fn marker_count(&self) -> usize {
+        self.mesh.node_count() - self.mesh.marker_count()
+    }
+
+    fn write_markers(&self, positions: &mut [Vec2]) {
+        positions.copy_from_slice(&self.nodes[self.inner()]);
+    }
+
+    fn write_forces(&mut self, _medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        if !self.fits {
+            return Err(InteriorError::ChangingMarkers.into());
+        }
+        self.director.write_forces(&self.nodes, &mut self.forces)?;
+        forces.copy_from_slice(&self.forces[self.inner()]);
+        Ok(())
+    }
+
+    fn state_len(&self) -> usize {
+        self.director.free_angles().len()
+    }
+
+    fn write_state(&self, state: &mut [f64]) {
+        state.copy_from_slice(self.director.free_angles());
+    }
+
+    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
+        self.director.read(state)
+    }
+
+    fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
+        let inner = self.inner();
+        self.fluid[inner].copy_from_slice(velocities);
+        self.director.write_rate(&self.fluid, &self.motion, rate);
+    }
+
+    fn step_limits(&self, medium: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
+        limits(StepLimit::decay(2.0 / self.director.fastest_rate(medium.viscosity), "the gel's director"));
+    }
+
+    fn properties(&self) -> Vec<(String, f64)> {
+        let mut properties = self.director.material.properties();
+        properties.push(("the number of nodes".to_owned(), self.nodes.len() as f64));
+        properties.push(("the anchoring".to_owned(), f64::from(self.anchoring as u8)));
+        properties
+    }
+
+    fn as_guest(&mut self) -> Option<&mut dyn Guest> {
+        Some(self)
+    }
+}
+
+impl Observe for GelInDroplet {
+    type Observables = GelObservables;
+
+    fn observables(&self, _medium: &Discretisation, _flow: &BodyFlow<'_>) -> Result<GelObservables, BodyError> {
+        Ok(GelObservables::of(&self.director, &self.nodes))
+    }
+}

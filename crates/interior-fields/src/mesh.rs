@@ -1,0 +1,182 @@
+//! A triangular mesh of the inside of a droplet that follows the interface.
+
+use std::f64::consts::{PI, TAU};
+
+use ib_core::Vec2;
+use ib_core::input::{at_least, positive};
+
+use crate::InteriorError;
+
+/// By how much spacings grow from one ring to the next inner one, until they are what was asked for.
+const GROWTH: f64 = 1.25;
+/// Distance of rings over the spacing of their nodes: that of equilateral triangles.
+const HEIGHT: f64 = 0.866_025_403_784_438_6;
+/// The most nodes of a mesh, and the most products of inner nodes and markers, whose weights are kept.
+const MOST_NODES: usize = 1 << 17;
+const MOST_WEIGHTS: f64 = 1e8;
+
+/// A triangulation of the inside of a closed curve of M markers: the first M nodes are the markers, the others lie on
+/// rings within.
+///
+/// Inner nodes are where the harmonic function of the disc that has the markers' positions on its boundary takes them:
+/// node i at radius r and angle a of the disc lies at `SUM_j w_ij x_j`, `w_ij = (1/M) SUM_{|k| <= M/2} r^|k|
+/// cos k(a - 2 pi j/M)`, Poisson's kernel of the marker's modes. So the mesh has no state of its own, moves as smoothly
+/// as the interface does, takes part in any translation and stretching exactly, and cannot fold inside a convex curve
+/// (Rado, Kneser, Choquet) nor for modes that are not too large inside another one.
+///
+/// ```
+/// use ib_core::Vec2;
+/// use interior_fields::DiscMesh;
+///
+/// let mesh = DiscMesh::new(64, 0.1)?;
+/// let circle = |k: usize| Vec2::from_angle(std::f64::consts::TAU * k as f64 / 64.0);
+/// let mut nodes: Vec<Vec2> = (0..mesh.node_count()).map(circle).collect();
+/// mesh.place(&mut nodes);
+/// println!("{} nodes, {} triangles", mesh.node_count(), mesh.triangles().len()); // 392 and 718
+/// assert!(nodes[64..].iter().all(|node| node.length() < 0.95));
+/// # Ok::<(), interior_fields::InteriorError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct DiscMesh {
+    markers: usize,
+    nodes: usize,
+    triangles: Vec<[usize; 3]>,
+    /// Weights of the markers, inner node after inner node.
+    weights: Vec<f64>,
+}
+
+impl DiscMesh {
+    /// A mesh for a curve of that number of markers whose spacing grows inwards from theirs to `spacing`, in units of
+    /// the radius of a circle of the curve's length.
+    ///
+    /// # Errors
+    /// Fewer than 8 markers, a spacing that is not positive, more than 131072 nodes or 1e8 weights.
+    pub fn new(markers: usize, spacing: f64) -> Result<Self, InteriorError> {
+        at_least("markers", markers, 8)?;
+        positive("the spacing of the mesh inside", spacing)?;
+        let first = TAU / markers as f64;
+        let coarsest = spacing.max(first).min(0.5);
+        let estimate = markers as f64 + PI / (HEIGHT * coarsest * coarsest) + 4.0 * markers as f64;
+        if estimate > MOST_NODES as f64 || estimate * markers as f64 > MOST_WEIGHTS {
+            return Err(InteriorError::TooFine { nodes: estimate, most: MOST_NODES });
+        }
+        let rings = rings(first, coarsest);
+        let (mut triangles, mut weights) = (Vec::new(), Vec::new());
+        let mut outer = Ring { start: 0, count: markers, turn: 0.0 };
+        for (number, &(radius, spacing)) in rings.iter().enumerate() {
+            let count = ((TAU * radius / spacing).round() as usize).clamp(3, outer.count);
+            // Half a spacing from ring to ring, so that triangles are closer to equilateral.
+            let turn = outer.turn + PI / count as f64;
+            let inner = Ring { start: outer.start + outer.count, count, turn };
+            stitch(&outer, &inner, &mut triangles);
+            for node in 0..count {
+                add_weights(radius, inner.angle(node), markers, &mut weights);
+            }
+            if number + 1 == rings.len() {
+                let first = inner.start;
+                triangles.extend((2..count).map(|k| [first, first + k - 1, first + k]));
+            }
+            outer = inner;
+        }
+        Ok(Self { markers, nodes: outer.start + outer.count, triangles, weights })
+    }
+
+    /// Number of markers, which are the first nodes.
+    #[must_use]
+    pub fn marker_count(&self) -> usize {
+        self.markers
+    }
+
+    /// Number of nodes, markers among them.
+    #[must_use]
+    pub fn node_count(&self) -> usize {
+        self.nodes
+    }
+
+    /// Triangles by the numbers of their nodes, counter-clockwise.
+    #[must_use]
+    pub fn triangles(&self) -> &[[usize; 3]] {
+        &self.triangles
+    }
+
+    /// Fills the entries of inner nodes from those of the markers, which come first: positions (length) or velocities
+    /// (length per time). Lists of other lengths are left as they are.
+    pub fn place(&self, nodes: &mut [Vec2]) {
+        if nodes.len() != self.nodes {
+            return;
+        }
+        let (markers, inner) = nodes.split_at_mut(self.markers);
+        for (node, weights) in inner.iter_mut().zip(self.weights.chunks_exact(self.markers)) {
+            *node = weights.iter().zip(&*markers).map(|(weight, marker)| *weight * *marker).sum();
+        }
+    }
+}
+
+/// Nodes on a circle: the number of the first one, how many, the angle of the first one.
+struct Ring {
+    start: usize,
+    count: usize,
+    turn: f64,
+}
+
+impl Ring {
+    fn angle(&self, node: usize) -> f64 {
+        self.turn + TAU * node as f64 / self.count as f64
+    }
+
+    fn node(&self, number: usize) -> usize {
+        self.start + number % self.count
+    }
+}
+
+/// Radii and spacings of the rings within the unit circle, whose spacing is `first`; the last one is a triangle.
+fn rings(first: f64, coarsest: f64) -> Vec<(f64, f64)> {
+    let (mut spacing, mut depth) = (first, 0.0);
+    let mut rings = Vec::new();
+    while 1.0 - depth > spacing {
+        spacing = (GROWTH * spacing).min(coarsest);
+        depth += HEIGHT * spacing;
+        rings.push((depth, spacing));
+    }
+    // A triangle of side s has the radius s/sqrt(3).
+    let fit = (1.0 - spacing / 3.0_f64.sqrt()) / depth;
+    rings.into_iter().map(|(depth, spacing)| (1.0 - fit * depth, spacing)).collect()
+}
+
+/// Triangles between two rings: from node to node of either one, whichever comes first.
+fn stitch(outer: &Ring, inner: &Ring, triangles: &mut Vec<[usize; 3]>) {
+    let (mut i, mut k) = (0, 0);
+    // The inner ring's node nearest to the outer one's first.
+    let lead = ((outer.turn - inner.turn) * inner.count as f64 / TAU).round();
+    let shift = lead.rem_euclid(inner.count as f64) as usize;
+    let begin = inner.turn + TAU * lead / inner.count as f64;
+    while i < outer.count || k < inner.count {
+        let ends = [outer.angle(i + 1), begin + TAU * (k + 1) as f64 / inner.count as f64];
+        if k == inner.count || (i < outer.count && ends[0] <= ends[1]) {
+            triangles.push([outer.node(i), outer.node(i + 1), inner.node(shift + k)]);
+            i += 1;
+        } else {
+            triangles.push([outer.node(i), inner.node(shift + k + 1), inner.node(shift + k)]);
+            k += 1;
+        }
+    }
+}
+
+/// Adds the weights of the markers at a place in the disc.
+fn add_weights(radius: f64, angle: f64, markers: usize, weights: &mut Vec<f64>) {
+    let count = markers as f64;
+    weights.extend((0..markers).map(|j| {
+        let apart = angle - TAU * j as f64 / count;
+        let (sin, cos) = apart.sin_cos();
+        // SUM_k r^k cos(k a) by powers of r e^(ia).
+        let (mut wave, mut sum) = ([radius * cos, radius * sin], 0.0);
+        for k in 1..=markers / 2 {
+            sum += if 2 * k == markers { 0.5 * wave[0] } else { wave[0] };
+            wave = [radius * (wave[0] * cos - wave[1] * sin), radius * (wave[0] * sin + wave[1] * cos)];
+        }
+        (1.0 + 2.0 * sum) / count
+    }));
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,123 @@
+//! Descriptions of gels inside droplets.
+
+use ib_core::{Handle, Vec2};
+use interior_fields::{Anchoring, DirectorStart, GelInDroplet, GelMaterial};
+use serde::{Deserialize, Serialize};
+
+use super::check::Checked;
+use super::{DropletSetup, MarkerMotion, Method, Setup};
+use crate::SetupError;
+
+/// An active polar gel that fills a droplet ([`GelInDroplet`]); its viscosity is the droplet's. Needs a grid.
+///
+/// ```
+/// use motile::interior_fields::GelMaterial;
+/// use motile::prelude::*;
+///
+/// let material = GelMaterial { activity: -200.0, ..GelMaterial::default() };
+/// let gel = GelSetup { material, ..GelSetup::default() };
+/// let setup = Setup {
+///     method: Method::Grid(GridMethod::of_spacing(0.2)),
+///     droplets: vec![DropletSetup { gel: Some(gel), ..DropletSetup::passive(200.0) }],
+///     ..Setup::default()
+/// };
+/// let mut scene = setup.build()?.scene;
+/// let (gel, _) = scene.system().bodies::<motile::interior_fields::GelInDroplet>().next().ok_or("no gel")?;
+/// println!("{:.3}", scene.observe(gel)?.polarisation[0]); // 1.000
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct GelSetup {
+    /// What it is made of.
+    pub material: GelMaterial,
+    /// How its director meets the interface.
+    pub anchoring: Anchoring,
+    /// Its director at the start; a uniform one has its angle to the direction of the droplet.
+    pub start: DirectorStart,
+    /// Spacing of its mesh inside (length); `None` for that of the grid.
+    pub spacing: Option<f64>,
+}
+
+impl Default for GelSetup {
+    /// A contractile gel, free at the interface, its director along the droplet's direction but for a random angle of
+    /// up to 0.1 at each node.
+    fn default() -> Self {
+        Self {
+            material: GelMaterial::default(),
+            anchoring: Anchoring::Free,
+            start: DirectorStart::Uniform { angle: 0.0, noise: 0.1, seed: 1 },
+            spacing: None,
+        }
+    }
+}
+
+impl GelSetup {
+    pub(super) fn check(&self, checked: &Checked<'_>, droplet: &DropletSetup) -> Result<(), SetupError> {
+        let GelMaterial { frank, rotational_viscosity, alignment, activity } = self.material;
+        checked.not_negative("gel.material.frank", frank)?;
+        checked.positive("gel.material.rotational-viscosity", rotational_viscosity)?;
+        checked.finite("gel.material.alignment", alignment)?;
+        checked.finite("gel.material.activity", activity)?;
+        if let Some(spacing) = self.spacing {
+            checked.positive("gel.spacing", spacing)?;
+        }
+        if let DirectorStart::Uniform { angle, noise, .. } = self.start {
+            checked.finite("gel.start.uniform.angle", angle)?;
+            checked.not_negative("gel.start.uniform.noise", noise)?;
+        }
+        if droplet.motion == MarkerMotion::WithFluid {
+            let remedy = "a droplet with a gel needs a fixed number of markers: give equidistributed ones";
+            checked.refuse("motion", &"with-fluid", remedy)?;
+        }
+        Ok(())
+    }
+}
+
+impl Setup {
+    /// The gel of a droplet, made to be the body `host`.
+    pub(super) fn gel(
+        &self,
+        setup: &DropletSetup,
+        droplet: &active_interface::ActiveDroplet,
+        host: Handle<active_interface::ActiveDroplet>,
+    ) -> Result<Option<GelInDroplet>, SetupError> {
+        let (Some(gel), Method::Grid(grid)) = (&setup.gel, &self.method) else { return Ok(None) };
+        let start = match gel.start {
+            DirectorStart::Uniform { angle, noise, seed } => {
+                DirectorStart::Uniform { angle: angle + setup.angle, noise, seed }
+            }
+            start => start,
+        };
+        let spacing = gel.spacing.unwrap_or(grid.spacing);
+        Ok(Some(GelInDroplet::new(droplet, host, gel.material, gel.anchoring, &start, spacing)?))
+    }
+
+    /// Refuses bodies inside droplets that gels fill, given points of all bodies in their order.
+    pub(super) fn check_filled(&self, bodies: &[&[Vec2]]) -> Result<(), SetupError> {
+        for (number, droplet) in self.droplets.iter().enumerate().filter(|(_, droplet)| droplet.gel.is_some()) {
+            let other = (0..bodies.len()).find(|&other| {
+                other != number && bodies[other].first().is_some_and(|point| is_inside(*point, bodies[number]))
+            });
+            if let Some(other) = other {
+                let remedy = format!(
+                    "{} lies inside {}, which a gel fills: take one of both away",
+                    self.key(other),
+                    droplet.name
+                );
+                let (key, value) = (format!("{}.gel", self.key(number)), "a gel".to_owned());
+                return Err(SetupError::Value { key, value, remedy });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a point lies within a closed polygon.
+fn is_inside(point: Vec2, polygon: &[Vec2]) -> bool {
+    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
+    let crossed = sides.filter(|(a, b)| {
+        (a.y > point.y) != (b.y > point.y) && point.x < a.x + (point.y - a.y) / (b.y - a.y) * (b.x - a.x)
+    });
+    crossed.count() % 2 == 1
+}
