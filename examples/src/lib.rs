@@ -2,7 +2,7 @@
 //!
 //! | for | there are |
 //! |---|---|
-//! | flags | [`run`] around [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`] or [`ElasticFlags`] |
+//! | flags | [`run`] around [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`], [`AnyRegionFlags`] or [`ElasticFlags`] |
 //! | results | [`Summary`] (`summary.json` and a table) |
 //! | runs | [`Job`] of any scene, [`WatchedRun`] of one with a droplet |
 //! | constrictions | [`Passage`] |
@@ -19,6 +19,7 @@ mod kept_warnings;
 mod method_flags;
 mod parse;
 mod passage;
+mod region_flags;
 mod steady;
 mod summary;
 mod turning;
@@ -33,6 +34,7 @@ pub use job::{Job, Taken, Watch};
 pub use method_flags::{MethodFlags, Preset, settle_contrast};
 pub use parse::{activity, not_negative, pair, positive};
 pub use passage::{Decided, Passage, Verdict};
+pub use region_flags::{AnyRegionFlags, RegionKind};
 pub use steady::Steadiness;
 pub use summary::{Summary, make_directory};
 pub use turning::turning_rate;

@@ -134,6 +134,17 @@ impl WatchedRun {
         self.recorder.records().records()
     }
 
+    /// The number of particles at the start, on the interface and inside.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn totals(&self) -> Result<f64> {
+        let table = self.recorder.table();
+        let first =
+            |column| -> Result<f64> { Ok(table.curve("time", column)?.first().context("nothing was measured")?.1) };
+        Ok(first("particle_number")? + first("number_inside").unwrap_or(0.0))
+    }
+
     /// The last of what was measured of the droplet.
     ///
     /// # Errors

@@ -7,6 +7,7 @@ mod contrast;
 mod curved_walls;
 mod elastic_walls;
 mod errors;
+mod exchange;
 mod fixed_shapes;
 mod gel;
 mod headings;

@@ -2,15 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use active_interface::{ActiveDroplet, Curve, InitialConcentration, Motion};
+use active_interface::{ActiveDroplet, Curve, Exchange, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings};
 use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
 use super::{
-    Contrast, DropletSetup, DropletShape, GridMethod, IntegralMethod, MarkerMotion, Method, Region, Setup, Squeezed,
-    Start, Surface,
+    Contrast, DropletSetup, DropletShape, ExchangeSetup, GridMethod, IntegralMethod, MarkerMotion, Method, Region,
+    Setup, Squeezed, Start, Surface,
 };
 use crate::SetupError;
 
@@ -121,7 +121,17 @@ impl Setup {
                     None => initial.particle_numbers(&markers)?,
                 };
                 let law = particles.law(droplet.tension)?;
-                ActiveDroplet::new(&markers, numbers, law, particles.diffusion)?.with_flux(particles.flux)
+                let made = ActiveDroplet::new(&markers, numbers, law, particles.diffusion)?.with_flux(particles.flux);
+                match particles.exchange {
+                    None => made,
+                    Some(ExchangeSetup { binding, unbinding, number_inside }) => {
+                        let exchange = Exchange::new(binding, unbinding)?;
+                        let at_rest = || exchange.concentration_at_rest(c0).map(|inside| inside * made.initial_area());
+                        // That there is one or the other has been checked.
+                        let number = number_inside.or_else(at_rest).unwrap_or(0.0);
+                        made.with_pool(exchange, number)?
+                    }
+                }
             }
         };
         let motion = match droplet.motion {

@@ -4,8 +4,9 @@ use ib_core::{AnyKernel, StepSize};
 use stokes_grid::Drive;
 
 use super::{
-    Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion, Method,
-    Region, RigidBodySetup, RigidSetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start, Surface,
+    Contrast, DropletSetup, DropletShape, ExchangeSetup, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
+    MarkerMotion, Method, Region, RigidBodySetup, RigidSetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,
+    Surface,
 };
 use crate::SetupError;
 
@@ -311,6 +312,23 @@ impl DropletSetup {
             Exclusion::None => {}
             Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
             Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
+        }
+        if let Some(ExchangeSetup { binding, unbinding, number_inside }) = particles.exchange {
+            checked.not_negative("particles.exchange.binding", binding)?;
+            checked.not_negative("particles.exchange.unbinding", unbinding)?;
+            let key = "particles.exchange.number-inside";
+            match number_inside {
+                Some(number) => checked.not_negative(key, number)?,
+                None => {
+                    let remedy = "nothing that unbinds comes back, so that no number inside is at rest: give one";
+                    checked.require(
+                        binding > 0.0 || unbinding == 0.0,
+                        "particles.exchange.binding",
+                        binding,
+                        remedy,
+                    )?;
+                }
+            }
         }
         let Start::Perturbed { amplitude, .. } = particles.start else { return Ok(()) };
         let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));

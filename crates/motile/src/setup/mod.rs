@@ -16,7 +16,7 @@ mod shell;
 mod solid;
 
 pub use build::{AnyFlow, Built};
-pub use droplet::{DropletSetup, DropletShape, Exclusion, MarkerMotion, Particles, Squeezed, Start};
+pub use droplet::{DropletSetup, DropletShape, ExchangeSetup, Exclusion, MarkerMotion, Particles, Squeezed, Start};
 pub use gel::GelSetup;
 pub use method::{Contrast, GridMethod, IntegralMethod, Method, MethodKind};
 pub use region::Region;
