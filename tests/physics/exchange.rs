@@ -18,17 +18,17 @@ fn setup(start: Start, number_inside: Option<f64>, activity: f64) -> Setup {
 
 /// Amplitudes of the modes 1 to 4 of the concentration over the mean, and the number inside, at the start and then.
 fn amplitudes(setup: &Setup, dt: f64, time: f64) -> [([f64; 4], f64); 2] {
-    let Built { mut scene, droplets, .. } = setup.build().unwrap();
+    let Built { mut scene, droplets, .. } = setup.build().expect("a scene");
     let mut seen = Vec::new();
     for until in [0.0, time] {
         while scene.time() < until - 0.5 * dt {
-            scene.step(dt).unwrap();
+            scene.step(dt).expect("a step");
         }
-        let observed = scene.observe(droplets[0]).unwrap();
+        let observed = scene.observe(droplets[0]).expect("observables");
         let modes = &observed.concentration_modes;
         // Of the concentration itself, the mean of which may change.
         let of = |k: usize| modes.amplitude(k);
-        seen.push(([of(1), of(2), of(3), of(4)], observed.inside.unwrap().0));
+        seen.push(([of(1), of(2), of(3), of(4)], observed.inside.expect("an exchange").0));
     }
     [seen[0], seen[1]]
 }

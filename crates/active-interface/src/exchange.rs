@@ -74,22 +74,17 @@ impl Pool {
         self.rate(lengths.iter().sum()) * self.number - self.exchange.unbinding * on
     }
 
-    /// Adds `factor` times the rates to the numbers of the segments and to that inside, `factor` a time.
-    pub(crate) fn add(
-        &self,
-        factor: f64,
-        lengths: &[f64],
-        (numbers, inside): (&[f64], f64),
-        out: (&mut [f64], &mut f64),
-    ) {
+    /// Adds `factor` times the rates, `factor` a time, to the numbers of the segments; returns what is to be added to that
+    /// inside.
+    pub(crate) fn add(&self, factor: f64, lengths: &[f64], numbers: &[f64], inside: f64, out: &mut [f64]) -> f64 {
         let unit = factor * self.exchange.binding * inside / self.area;
-        let mut gain = 0.0;
-        for ((out, length), number) in out.0.iter_mut().zip(lengths).zip(numbers) {
+        let mut loss = 0.0;
+        for ((out, length), number) in out.iter_mut().zip(lengths).zip(numbers) {
             let change = unit * length - factor * self.exchange.unbinding * number;
             *out += change;
-            gain += change;
+            loss -= change;
         }
-        *out.1 -= gain;
+        loss
     }
 
     /// The factor of the diffusion that is to be solved for, between [`Pool::before`] and [`Pool::after`].

@@ -182,7 +182,7 @@ impl Body for ActiveDroplet {
             let (out, out_inside) = out.split_at_mut(numbers.len());
             transport.add_diffusion(&geometry.lengths, &self.diffusivities, numbers, factor, out);
             if let (Some(pool), [inside], [out_inside]) = (&self.pool, inside, out_inside) {
-                pool.add(factor, &geometry.lengths, (numbers, *inside), (out, out_inside));
+                *out_inside += pool.add(factor, &geometry.lengths, numbers, *inside, out);
             }
         }
     }

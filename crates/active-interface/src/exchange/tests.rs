@@ -16,7 +16,7 @@ fn what_is_at_rest_stays_and_the_sum_is_kept() {
     pool.after(factor, &lengths, &mut numbers, &mut number);
     assert!((numbers.iter().sum::<f64>() + number - 15.0).abs() < 1e-14);
     let (mut residual, mut residual_inside) = (numbers, number);
-    pool.add(-factor, &lengths, (&numbers, number), (&mut residual, &mut residual_inside));
+    residual_inside += pool.add(-factor, &lengths, &numbers, number, &mut residual);
     for (left, right) in residual.iter().zip(right) {
         assert!((left - right).abs() < 1e-14, "{residual:?}");
     }
