@@ -7,6 +7,7 @@
 
 mod channels;
 mod elastic_step;
+mod exchange;
 mod hard_cases;
 mod instructions;
 mod nucleus;
@@ -56,6 +57,7 @@ enum Study {
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
     Nucleus(nucleus::Flags),
+    Exchange(exchange::Flags),
     Stale(tables::StaleFlags),
     Pages(tables::PagesFlags),
 }
@@ -78,6 +80,7 @@ fn main() -> ExitCode {
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),
+        Study::Exchange(flags) => exchange::run(flags),
         Study::Stale(flags) => tables::stale(flags),
         Study::Pages(flags) => tables::pages(flags),
     })

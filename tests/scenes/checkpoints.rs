@@ -11,8 +11,8 @@ use motile::ib_core::{
 use motile::interior_fields::{Anchoring, DirectorStart};
 use motile::stokes_grid::Drive;
 use motile::{
-    AnyFlow, Built, ChannelShape, DropletSetup, Exclusion, GelSetup, GridMethod, IntegralMethod, Material, Method,
-    Particles, Region, Setup, SolidSetup,
+    AnyFlow, Built, ChannelShape, DropletSetup, ExchangeSetup, Exclusion, GelSetup, GridMethod, IntegralMethod,
+    Material, Method, Particles, Region, Setup, SolidSetup,
 };
 use proptest::prelude::*;
 
@@ -164,6 +164,17 @@ fn a_gel() {
         compare(|| scene(&setup), 0.2, StepSize::OfLimit(0.5), &[1, 7, 13]);
         compare(|| scene(&setup), 0.2, StepSize::Adaptive { tolerance: 1e-3 }, &[2, 5]);
     }
+}
+
+#[test]
+fn particles_inside() {
+    let mut setup = coarse();
+    let exchange = ExchangeSetup { diffusion_inside: Some(0.2), ..ExchangeSetup::new(0.3, 0.4) };
+    if let Some(particles) = &mut setup.droplets[0].particles {
+        particles.exchange = Some(exchange);
+    }
+    compare(|| scene(&setup), 0.2, StepSize::OfLimit(0.5), &[1, 7, 13]);
+    compare(|| scene(&setup), 0.2, StepSize::Adaptive { tolerance: 1e-3 }, &[2, 5]);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 pub(crate) mod file;
 mod gels;
+mod inside;
 mod solids;
 
 use std::path::Path;
@@ -12,7 +13,8 @@ use motile::ib_core::{Hydrodynamics, Observer, System};
 use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers, solids::curves};
 
 /// Writes the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`) and, where there are some, all
-/// elastic solids (`solids.pvd`), gels (`gels.pvd`), rigid bodies and membranes (`curves.pvd`) whenever it is called.
+/// elastic solids (`solids.pvd`), gels (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid bodies
+/// and membranes (`curves.pvd`) whenever it is called.
 ///
 /// | file | where | what (dimension) |
 /// |---|---|---|
@@ -25,6 +27,7 @@ use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_mark
 /// | solids | in the triangles | the number of the solid |
 /// | gels | at the nodes | director (no dimension) |
 /// | gels | in the triangles | the number of the gel |
+/// | inside | at the nodes | density (particles per area) |
 /// | curves | at the markers | velocity (length per time), force on the fluid (force) |
 /// | curves | one line a body | its number, in the order of addition |
 ///
@@ -50,6 +53,7 @@ pub struct ParaView {
     solids: VtkSeries,
     gels: VtkSeries,
     curves: VtkSeries,
+    inside: VtkSeries,
 }
 
 impl ParaView {
@@ -60,7 +64,8 @@ impl ParaView {
     pub fn create(directory: impl AsRef<Path>, raster: Raster) -> Result<Self, Error> {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
         let [fields, interface, solids] = [series("fields")?, series("interface")?, series("solids")?];
-        Ok(Self { raster, fields, interface, solids, gels: series("gels")?, curves: series("curves")? })
+        let [gels, curves, inside] = [series("gels")?, series("curves")?, series("inside")?];
+        Ok(Self { raster, fields, interface, solids, gels, curves, inside })
     }
 
     fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), Error> {
@@ -77,6 +82,9 @@ impl ParaView {
         }
         if let Some(file) = solids::file(system) {
             self.solids.push(seen.time, &file)?;
+        }
+        if let Some(file) = inside::file(system) {
+            self.inside.push(seen.time, &file)?;
         }
         gels::file(system).map_or(Ok(()), |file| self.gels.push(seen.time, &file))
     }

@@ -5,7 +5,7 @@ use interior_fields::{Anchoring, DirectorStart, GelInDroplet, GelMaterial};
 use serde::{Deserialize, Serialize};
 
 use super::check::Checked;
-use super::{DropletSetup, MarkerMotion, Method, Setup};
+use super::{DropletSetup, ExchangeSetup, MarkerMotion, Method, Particles, Setup};
 use crate::SetupError;
 
 /// An active polar gel that fills a droplet ([`GelInDroplet`]); its viscosity is the droplet's. Needs a grid.
@@ -93,19 +93,27 @@ impl Setup {
         Ok(Some(GelInDroplet::new(droplet, host, gel.material, gel.anchoring, &start, spacing)?))
     }
 
-    /// Refuses bodies inside droplets that gels fill, given points of all bodies in their order.
+    /// Refuses bodies inside droplets that gels or diffusing particles fill, given points of all bodies in their order.
     pub(super) fn check_filled(&self, bodies: &[&[Vec2]]) -> Result<(), SetupError> {
-        for (number, droplet) in self.droplets.iter().enumerate().filter(|(_, droplet)| droplet.gel.is_some()) {
+        let filled = |droplet: &DropletSetup| match (&droplet.gel, &droplet.particles) {
+            (Some(_), _) => Some(("gel", "a gel")),
+            (None, Some(Particles { exchange: Some(ExchangeSetup { diffusion_inside: Some(_), .. }), .. })) => {
+                Some(("particles.exchange.diffusion-inside", "a field"))
+            }
+            _ => None,
+        };
+        for (number, droplet) in self.droplets.iter().enumerate() {
+            let Some((entry, value)) = filled(droplet) else { continue };
             let other = (0..bodies.len()).find(|&other| {
                 other != number && bodies[other].first().is_some_and(|point| is_inside(*point, bodies[number]))
             });
             if let Some(other) = other {
                 let remedy = format!(
-                    "{} lies inside {}, which a gel fills: take one of both away",
+                    "{} lies inside {}, which {value} fills: take one of both away",
                     self.key(other),
                     droplet.name
                 );
-                let (key, value) = (format!("{}.gel", self.key(number)), "a gel".to_owned());
+                let (key, value) = (format!("{}.{entry}", self.key(number)), value.to_owned());
                 return Err(SetupError::Value { key, value, remedy });
             }
         }

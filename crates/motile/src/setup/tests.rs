@@ -105,6 +105,28 @@ fn what_makes_no_scene_is_refused_with_its_key() {
 }
 
 #[test]
+fn exchanges_that_make_no_scene_are_refused() {
+    let with = |exchange: ExchangeSetup| DropletSetup {
+        particles: Some(Particles { exchange: Some(exchange), ..Particles::default() }),
+        ..DropletSetup::default()
+    };
+    let of = |droplet: DropletSetup| Setup { droplets: vec![droplet], ..Setup::default() };
+    let diffusing = ExchangeSetup { diffusion_inside: Some(0.5), ..ExchangeSetup::new(0.1, 0.1) };
+    let cases = [
+        ("particles.exchange.binding =", with(ExchangeSetup::new(-1.0, 0.1))),
+        ("particles.exchange.binding =", with(ExchangeSetup::new(0.0, 0.1))),
+        ("particles.exchange.diffusion-inside =", with(ExchangeSetup { diffusion_inside: Some(0.0), ..diffusing })),
+        ("particles.exchange.spacing-inside =", with(ExchangeSetup { spacing_inside: Some(f64::NAN), ..diffusing })),
+        ("motion =", DropletSetup { motion: MarkerMotion::WithFluid, ..with(diffusing) }),
+    ];
+    for (key, droplet) in cases {
+        let error = of(droplet).check().unwrap_err().to_string();
+        assert!(error.contains(key), "{error}");
+    }
+    of(with(diffusing)).build().unwrap();
+}
+
+#[test]
 fn gels_that_make_no_scene_are_refused() {
     let with = |gel: GelSetup| Setup {
         method: Method::Grid(GridMethod::of_spacing(0.1)),
