@@ -10,7 +10,8 @@ pub trait Guest {
     /// The body that it fills, which was added to the scene before it.
     fn host(&self) -> Handle<dyn Body>;
 
-    /// Shows it the host in a new state, before anything that depends on it is asked: its markers, its forces.
+    /// Shows it the host in a new state, before anything that depends on it is asked: its markers, its forces; and at
+    /// the end of a step, before and after the host's own [`Body::end_step`], then its own.
     fn see(&mut self, host: &dyn Body);
 
     /// Adds its forces on the fluid at the host's markers (force) to those of the host, after its own

@@ -360,7 +360,10 @@ impl<H: Hydrodynamics> System<H> {
         let (discretisation, time) = (self.hydrodynamics.discretisation(), self.time);
         self.forget_flow();
         self.apart = false;
-        for (body, &outside) in self.bodies.iter_mut().zip(&self.outside) {
+        self.show_hosts();
+        for index in 0..self.bodies.len() {
+            self.show_host(index);
+            let (body, outside) = (&mut self.bodies[index], self.outside[index]);
             body.end_step(&discretisation.in_fluid(outside), dt)
                 .map_err(|source| body_error(time, body.as_ref(), source))?;
         }

@@ -4,6 +4,7 @@ use std::any::Any;
 
 use active_interface::{ActiveDroplet, Exchange};
 use ib_core::body::{Guest, StepInfo, StepLimit};
+use ib_core::checkpoint::SavedState;
 use ib_core::input::{not_negative, positive};
 use ib_core::scene::BodyFlow;
 use ib_core::{Body, BodyError, Discretisation, Handle, MarkerKind, Observe, Vec2, Warning};
@@ -51,11 +52,15 @@ pub struct ParticlesInDroplet {
     diffusion: Diffusion,
     transport: Transport,
     numbers: Vec<f64>,
+    change: Vec<f64>,
     initial_number: f64,
     /// Of all nodes, the droplet's markers first: places, velocities of the fluid and of the nodes.
     nodes: Vec<Vec2>,
     fluid: Vec<Vec2>,
     motion: Vec<Vec2>,
+    /// Where the nodes were when the host was seen before, and how far they are from there.
+    before: Vec<Vec2>,
+    shift: Vec<Vec2>,
     /// Of the droplet's segments: lengths, particles, particles that bind less those that unbind (1/time).
     lengths: Vec<f64>,
     on: Vec<f64>,
@@ -114,6 +119,9 @@ impl ParticlesInDroplet {
             numbers,
             fluid: vec![Vec2::ZERO; nodes.len()],
             motion: vec![Vec2::ZERO; nodes.len()],
+            before: nodes.clone(),
+            shift: vec![Vec2::ZERO; nodes.len()],
+            change: vec![0.0; nodes.len()],
             lengths: droplet.segment_lengths().to_vec(),
             bound: vec![0.0; on.len()],
             on,
@@ -188,6 +196,7 @@ impl Guest for ParticlesInDroplet {
         let droplet = droplet.filter(|droplet| droplet.particle_numbers().len() == count);
         self.fits = droplet.is_some();
         if let Some(droplet) = droplet {
+            self.before.copy_from_slice(&self.nodes);
             self.nodes[..count].copy_from_slice(droplet.markers());
             self.mesh.place(&mut self.nodes);
             self.cells.move_to(&self.nodes);
@@ -298,6 +307,17 @@ impl Body for ParticlesInDroplet {
     }
 
     fn end_step(&mut self, _medium: &Discretisation, _dt: f64) -> Result<(), BodyError> {
+        // What the end of the host's step did to its markers, with the fluid at rest.
+        if self.before != self.nodes {
+            self.shift.iter_mut().zip(&self.nodes).zip(&self.before).for_each(|((by, to), from)| *by = *to - *from);
+            self.before.fill(Vec2::ZERO);
+            let fastest = self.transport.fastest;
+            self.transport.set_motion(&self.cells, &self.nodes, (&self.before, &self.shift));
+            self.transport.fastest = fastest;
+            self.change.fill(0.0);
+            self.transport.add(&self.cells, &self.numbers, 0.0, &mut self.change);
+            self.numbers.iter_mut().zip(&self.change).for_each(|(number, change)| *number += change);
+        }
         fill_up(&self.cells.edges, &mut self.numbers, PASSES);
         Ok(())
     }
@@ -345,6 +365,16 @@ impl Body for ParticlesInDroplet {
             ("the number of nodes", self.nodes.len() as f64),
         ];
         named.map(|(name, value)| (name.to_owned(), value)).to_vec()
+    }
+
+    fn save(&self) -> SavedState {
+        SavedState { reals: [self.numbers.as_slice(), &[self.transport.fastest]].concat(), counts: Vec::new() }
+    }
+
+    fn load(&mut self, _medium: &Discretisation, saved: &SavedState) -> Result<(), BodyError> {
+        let (numbers, fastest) = saved.reals_of(self.numbers.len() + 1)?.split_at(self.numbers.len());
+        self.transport.fastest = fastest[0];
+        self.read_state(numbers)
     }
 
     fn as_guest(&mut self) -> Option<&mut dyn Guest> {

@@ -31,6 +31,14 @@ impl<H: Hydrodynamics> System<H> {
         }
     }
 
+    /// Shows a body its host in the present state, if it fills one.
+    pub(super) fn show_host(&mut self, index: usize) {
+        let Some(number) = self.guests.iter().position(|&[_, guest]| guest == index) else { return };
+        if let Some((host, guest)) = pair(&mut self.bodies, self.guests[number]) {
+            guest.see(host);
+        }
+    }
+
     /// Adds the forces of guests on their hosts' markers.
     pub(super) fn add_guest_forces(&mut self) {
         for &[host, guest] in &self.guests {
