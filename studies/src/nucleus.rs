@@ -28,8 +28,7 @@ type Scene = (bool, f64, f64, [f64; 2]);
 
 const ASIDE: [f64; 2] = [0.05, 0.15];
 
-const SCENES: [Scene; 12] = [
-    (false, -1.0, 0.3, [0.0, 0.0]),
+const SCENES: [Scene; 9] = [
     (false, -1.0, 0.3, ASIDE),
     (false, -1.0, 0.5, ASIDE),
     (false, -1.0, 0.5, [-0.3, 0.25]),
@@ -39,8 +38,6 @@ const SCENES: [Scene; 12] = [
     (false, -2.0, 0.5, ASIDE),
     (false, -2.0, 0.7, ASIDE),
     (true, -1.0, 0.5, ASIDE),
-    (true, -2.0, 0.5, ASIDE),
-    (true, -2.0, 0.7, ASIDE),
 ];
 
 fn setup(&(boxed, activity, radius, centre): &Scene) -> Setup {
