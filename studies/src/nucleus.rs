@@ -43,7 +43,7 @@ const SCENES: [Scene; 9] = [
 fn setup(&(boxed, activity, radius, centre): &Scene) -> Setup {
     Setup {
         region: if boxed { Region::Box { lengths: [6.0; 2] } } else { Region::Plane },
-        method: Method::Integral(IntegralMethod { nodes: 48, cells: 192 }),
+        method: Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
         repulsion: Some(RepulsionSetup { strength: 500.0, range: 0.1 }),
         droplets: vec![DropletSetup::active(activity)],
         rigid_bodies: vec![RigidBodySetup { centre, ..RigidBodySetup::disc(radius) }],
