@@ -112,7 +112,8 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     }
     say(&table);
     if flags.write {
-        let code = [&tables::RUNS[..7], &["studies/src/nucleus.rs", "examples/src/turning.rs"]].concat();
+        let own = ["crates/elastic-solids", "studies/src/nucleus.rs", "examples/src/turning.rs"];
+        let code = [&tables::RUNS[..7], &own].concat();
         tables::write("nucleus", "nucleus --write", &code, &[table])?;
     }
     Ok(())

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use motile::elastic_solids::{BendingMeasure, Shell};
-use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Scene, StepSize, Vec2};
+use motile::ib_core::{Checkpoint, FlowSample, Hydrodynamics, MarkerKind, Markers, Scene, StepSize, Vec2};
 use motile::{
     Built, DropletSetup, DropletShape, Exclusion, GridMethod, Hold, IntegralMethod, Material, Method, Particles,
     Region, RigidBodySetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,
@@ -322,4 +322,36 @@ fn shells_keep_their_area() {
     let after = [area(scene.body(shells[0]).unwrap().positions()), energy(&scene)];
     println!("{before:?} {after:?}, {} steps", scene.steps());
     assert!(after[1] < 0.9 * before[1] && (after[0] / before[0] - 1.0).abs() < 1e-4, "{before:?} {after:?}");
+}
+
+/// On the way pictures are taken of one of them, and it is saved and resumed.
+#[test]
+fn cells_resume_bit_by_bit_and_looking_changes_nothing() {
+    let layers = IntegralMethod { nodes: 32, cells: 64 };
+    for method in [Method::Integral(layers), Method::Grid(GridMethod { layers, ..GridMethod::of_spacing(0.2) })] {
+        let setup = Setup {
+            method,
+            step: StepSize::Fixed(0.01),
+            rigid_bodies: vec![RigidBodySetup { centre: [-0.4, 0.1], ..RigidBodySetup::disc(0.3) }],
+            shells: vec![ShellSetup {
+                centre: [0.45, 0.0],
+                shape: DropletShape::Round { radius: 0.3 },
+                viscosity: Some(300.0),
+                ..ShellSetup::default()
+            }],
+            ..Setup::default()
+        };
+        let mut whole = setup.build().unwrap().scene;
+        whole.run(0.08).go().unwrap();
+        let mut parts = setup.build().unwrap().scene;
+        parts.run(0.05).go().unwrap();
+        let mut samples = [FlowSample::default(); 2];
+        parts.system_mut().sample(&[Vec2::new(-0.4, 0.1), Vec2::new(0.9, 1.2)], &mut samples).unwrap();
+        assert!(samples.iter().all(|sample| sample.velocity.length() > 1e-3), "{samples:?}");
+        let saved = parts.checkpoint("").to_bytes().unwrap();
+        parts = setup.build().unwrap().scene;
+        parts.resume(&Checkpoint::from_bytes(&saved).unwrap()).unwrap();
+        parts.run(0.08).go().unwrap();
+        assert!(parts.checkpoint("").to_bytes().unwrap() == whole.checkpoint("").to_bytes().unwrap(), "{method:?}");
+    }
 }
