@@ -7,6 +7,7 @@
 
 mod channels;
 mod elastic_step;
+mod gel;
 mod hard_cases;
 mod instructions;
 mod results;
@@ -52,6 +53,7 @@ enum Study {
     Scaling(scaling::Flags),
     Threads(threads::Flags),
     ElasticStep(elastic_step::Flags),
+    Gel(gel::Flags),
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
     Stale(tables::StaleFlags),
@@ -73,6 +75,7 @@ fn main() -> ExitCode {
         Study::Scaling(flags) => scaling::run(flags),
         Study::Threads(flags) => threads::run(flags),
         Study::ElasticStep(flags) => elastic_step::run(flags),
+        Study::Gel(flags) => gel::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),
         Study::Stale(flags) => tables::stale(flags),
