@@ -9,56 +9,13 @@
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use clap::{Parser, ValueEnum};
+use clap::Parser;
 use motile::interior_fields::GelInDroplet;
-use motile::{GridMethod, Method, Region, Setup};
-use motile_examples::{AlongFlags, BoxFlags, GelFlags, Preset, RegionFlags, SceneFlags, WatchedRun};
+use motile::{GridMethod, Method, Setup};
+use motile_examples::{AnyRegionFlags, GelFlags, Preset, RegionKind, SceneFlags, WatchedRun};
 
 /// Grid spacing unless another one is given.
 const SPACING: f64 = 0.1;
-
-/// What the droplet swims in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Kind {
-    /// A periodic box.
-    Box,
-    /// A channel with walls in y.
-    Channel,
-    /// Unbounded fluid, which has no grid.
-    Plane,
-}
-
-/// A box or a channel.
-#[derive(Debug, Clone, PartialEq, clap::Args)]
-struct GelRegion {
-    /// What the droplet swims in
-    #[arg(long, value_enum, default_value_t = Kind::Box)]
-    region: Kind,
-    #[command(flatten)]
-    in_box: BoxFlags,
-    /// Distance of the channel's walls (R0)
-    #[arg(long, default_value_t = 3.0, value_parser = motile_examples::positive)]
-    width: f64,
-    #[command(flatten)]
-    along: AlongFlags,
-}
-
-impl RegionFlags for GelRegion {}
-
-impl GelRegion {
-    fn apply(&self, setup: &mut Setup) -> Result<()> {
-        match self.region {
-            Kind::Box => self.in_box.apply(setup)?,
-            Kind::Channel => {
-                let AlongFlags { length, lateral_offset, drive } = self.along;
-                setup.region = Region::Channel { length, width: self.width, drive };
-                setup.droplets[0].centre = [0.0, lateral_offset];
-            }
-            Kind::Plane => bail!("a gel needs a grid, which unbounded fluid has not: give --region box --box 20, say"),
-        }
-        Ok(())
-    }
-}
 
 /// An active droplet filled with an active polar gel.
 #[derive(Debug, Parser)]
@@ -66,7 +23,7 @@ struct Flags {
     #[command(flatten)]
     gel: GelFlags,
     #[command(flatten)]
-    scene: SceneFlags<GelRegion>,
+    scene: SceneFlags<AnyRegionFlags>,
 }
 
 fn main() -> ExitCode {
@@ -82,6 +39,9 @@ fn swim(Flags { gel: gel_flags, scene: flags }: &Flags) -> Result<()> {
     let mut droplet = flags.droplet.clone();
     let seed = droplet.seed.take_if(|_| droplet.initial.is_none());
     let mut setup = flags.method.setup(&droplet, Some(base))?;
+    if flags.region.region == RegionKind::Plane {
+        bail!("a gel needs a grid, which unbounded fluid has not: give --region box --box 20, say");
+    }
     flags.region.apply(&mut setup)?;
     gel_flags.apply(&mut setup.droplets[0], seed.or(flags.droplet.seed))?;
 

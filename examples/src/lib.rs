@@ -2,7 +2,7 @@
 //!
 //! | for | there are |
 //! |---|---|
-//! | flags | [`run`] around [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`] or [`ElasticFlags`] |
+//! | flags | [`run`] around [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`], [`AnyRegionFlags`] or [`ElasticFlags`] |
 //! | results | [`Summary`] (`summary.json` and a table) |
 //! | runs | [`Job`] of any scene, [`WatchedRun`] of one with a droplet |
 //! | constrictions | [`Passage`] |
@@ -19,8 +19,10 @@ mod kept_warnings;
 mod method_flags;
 mod parse;
 mod passage;
+mod region_flags;
 mod steady;
 mod summary;
+mod turning;
 mod wall_flags;
 mod watched_run;
 
@@ -32,7 +34,9 @@ pub use job::{Job, Taken, Watch};
 pub use method_flags::{MethodFlags, Preset, settle_contrast};
 pub use parse::{activity, not_negative, pair, positive};
 pub use passage::{Decided, Passage, Verdict};
+pub use region_flags::{AnyRegionFlags, RegionKind};
 pub use steady::Steadiness;
 pub use summary::{Summary, make_directory};
+pub use turning::turning_rate;
 pub use wall_flags::{ElasticFlags, Material};
 pub use watched_run::WatchedRun;

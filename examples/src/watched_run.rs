@@ -128,12 +128,29 @@ impl WatchedRun {
         self.recorder.track()
     }
 
+    /// What was measured of the droplet, in the order of time.
+    #[must_use]
+    pub fn records(&self) -> &[TrajectoryRecord] {
+        self.recorder.records().records()
+    }
+
+    /// The number of particles at the start, on the interface and inside.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn totals(&self) -> Result<f64> {
+        let table = self.recorder.table();
+        let first =
+            |column| -> Result<f64> { Ok(table.curve("time", column)?.first().context("nothing was measured")?.1) };
+        Ok(first("particle_number")? + first("number_inside").unwrap_or(0.0))
+    }
+
     /// The last of what was measured of the droplet.
     ///
     /// # Errors
     /// A run that has not been.
     pub fn last(&self) -> Result<&TrajectoryRecord> {
-        self.recorder.records().records().last().context("nothing was measured")
+        self.records().last().context("nothing was measured")
     }
 
     /// Writes and prints the results; draws the final state (`final.png`), the run (`swim.gif`) and the plots, unless

@@ -10,6 +10,7 @@ mod elastic_step;
 mod gel;
 mod hard_cases;
 mod instructions;
+mod nucleus;
 mod results;
 mod run_pool;
 mod scaling;
@@ -56,6 +57,7 @@ enum Study {
     Gel(gel::Flags),
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
+    Nucleus(nucleus::Flags),
     Stale(tables::StaleFlags),
     Pages(tables::PagesFlags),
 }
@@ -78,6 +80,7 @@ fn main() -> ExitCode {
         Study::Gel(flags) => gel::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),
+        Study::Nucleus(flags) => nucleus::run(flags),
         Study::Stale(flags) => tables::stale(flags),
         Study::Pages(flags) => tables::pages(flags),
     })

@@ -12,13 +12,14 @@ mod spectral;
 use std::sync::Arc;
 
 use fourier::PeriodicSeries;
-use ib_core::input::{InputError, all_finite, not_negative, positive, same_length};
+use ib_core::input::{InputError, all_finite, at_least, not_negative, positive, same_length};
 use ib_core::{Discretisation, Vec2};
 
 use crate::{
-    Flux, InterfaceError, Tension,
+    Exchange, Flux, InterfaceError, Tension,
     concentration::{Repair, Transport, cell_peclet},
     curve::{CrossingFinder, polygon::raw_area},
+    exchange::Pool,
 };
 use filter::ShortWaveFilter;
 pub(crate) use limits::finest_response;
@@ -90,6 +91,8 @@ pub struct ActiveDroplet {
     pub(crate) relaxation: f64,
     pub(crate) motions: Vec<Vec2>,
     pub(crate) transport: Option<Transport>,
+    /// Particles inside, where they are exchanged.
+    pub(crate) pool: Option<Pool>,
     /// Diffusivities at the markers of the stabiliser, and of stabiliser and diffusion together (length^2 per time).
     pub(crate) stabiliser: Vec<f64>,
     pub(crate) diffusivities: Vec<f64>,
@@ -169,6 +172,7 @@ impl ActiveDroplet {
             relaxation: 0.0,
             motions: Vec::new(),
             transport,
+            pool: None,
             stabiliser: Vec::new(),
             diffusivities: Vec::new(),
             filter: ShortWaveFilter::default(),
@@ -250,6 +254,36 @@ impl ActiveDroplet {
     pub fn with_viscosity_inside(mut self, viscosity: f64) -> Result<Self, InterfaceError> {
         self.viscosity_inside = Some(positive("the viscosity inside", viscosity)?);
         Ok(self)
+    }
+
+    /// The same droplet whose particles are exchanged with its inside, where `number` particles are well mixed. What is
+    /// kept is the sum of the particles on the interface and inside; the exchange is implicit and sets no time step.
+    ///
+    /// # Errors
+    /// A droplet without particles on its interface; a number that is negative or not finite.
+    pub fn with_pool(mut self, exchange: Exchange, number: f64) -> Result<Self, InterfaceError> {
+        at_least("particle numbers of a droplet that exchanges particles", self.numbers.len(), MINIMUM_MARKERS)?;
+        self.pool = Some(Pool::new(exchange, number, self.initial_area)?);
+        self.initial_number = self.total_number();
+        Ok(self)
+    }
+
+    /// The number of particles inside; `None` without exchange.
+    #[must_use]
+    pub fn number_inside(&self) -> Option<f64> {
+        self.pool.map(|pool| pool.number)
+    }
+
+    /// Particles that bind to the interface less those that unbind (1/time); `None` without exchange.
+    #[must_use]
+    pub fn exchange_flux(&self) -> Option<f64> {
+        let on = self.numbers.iter().sum();
+        self.pool.map(|pool| pool.flux(&self.shape.geometry.lengths, on))
+    }
+
+    /// Particles on the interface and inside.
+    pub(crate) fn total_number(&self) -> f64 {
+        self.numbers.iter().sum::<f64>() + self.pool.map_or(0.0, |pool| pool.number)
     }
 
     /// Marker positions (length), counter-clockwise, not wrapped into a periodic box.

@@ -16,6 +16,7 @@
 //! * [`concentration`]: an [`InitialConcentration`] to start from, and the [`Flux`] by which particles are carried
 //!   along the interface without losing any.
 //! * [`tension`]: [`ConstantTension`], [`ContractileTension`] with an [`ExcludedVolume`], or a [`Tension`] of your own.
+//! * [`Exchange`] of particles with the inside of a droplet: [`ActiveDroplet::with_pool`].
 //! * [`observables`]: [`observe`] for all [`Observables`] at once, and a function for each; fluxes along a channel.
 //! * [`trajectory`]: a [`trajectory::TrajectoryRecorder`] for a run, [`trajectory::Trajectory::regime`] for what the
 //!   droplet does across a channel.
@@ -70,6 +71,7 @@ pub mod concentration;
 pub mod curve;
 pub mod droplet;
 mod error;
+mod exchange;
 mod function;
 pub mod observables;
 pub mod tension;
@@ -82,6 +84,7 @@ pub use concentration::{Flux, InitialConcentration};
 pub use curve::Curve;
 pub use droplet::{ActiveDroplet, Motion};
 pub use error::InterfaceError;
+pub use exchange::Exchange;
 pub use observables::{Convention, Observables, observe};
 pub use tension::{ConstantTension, ContractileTension, ExcludedVolume, Tension};
 pub use units::Units;

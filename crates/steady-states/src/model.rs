@@ -102,6 +102,9 @@ impl Model {
         };
         let nodes = method.nodes - method.nodes % 2;
         let settings = Settings { nodes, tolerance: TOLERANCE, ..Settings::default() };
+        if particles.exchange.is_some() {
+            return refuse("the particles are exchanged with the inside", "leave the exchange out");
+        }
         let &Particles { diffusion, concentration, .. } = particles;
         motile::ib_core::input::positive("the diffusion constant", diffusion)?;
         Ok(Self {

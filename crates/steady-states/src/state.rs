@@ -345,6 +345,7 @@ impl SteadyState {
                 velocities: &(0..fine).map(|k| at(&velocity, k)).collect::<Vec<_>>(),
                 numbers: &numbers,
                 viscosities: model.viscosities,
+                inside: None,
                 stresslet: None,
             },
             Convention::FarField,

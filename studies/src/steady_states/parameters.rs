@@ -14,6 +14,8 @@ const FACTOR: f64 = 1.15;
 const LONGEST: f64 = 400.0;
 /// Time of a run without a net flux at which its swings have nearly gone.
 const TILTED_AT: f64 = 1000.0;
+/// Distance from the centre line of a swimmer that is straight.
+const STRAIGHT: f64 = 1e-4;
 /// Last modes of a state that is worth a place among the data of a law.
 const SOUND: f64 = 1e-3;
 
@@ -23,7 +25,9 @@ fn stretched(from: &SteadyState, goal: f64) -> Result<SteadyState> {
     loop {
         let now = Parameter::Length.get(state.setup()).unwrap_or(f64::NAN);
         let next = goal.clamp(now / FACTOR, now * FACTOR);
-        state = state.at(Parameter::Length, next)?;
+        // Over nodes of its own, which crowd where it has become steep.
+        let setup = Parameter::Length.with(state.setup(), next)?;
+        state = SteadyState::near(&setup, state.profile(), state.velocity(), state.is_mirror_symmetric())?;
         if next == goal {
             return Ok(state);
         }
@@ -57,6 +61,10 @@ pub(super) fn length(count: usize) -> Result<Vec<Table>> {
     let mut tilts = vec![(LONGEST, first)];
     for length in LENGTHS.into_iter().rev() {
         let Ok(next) = stretched(&tilts[tilts.len() - 1].1, length) else { break };
+        // Beyond the end of their branch the straight ones are found.
+        if next.measured()?.centroid.y.abs() < STRAIGHT {
+            break;
+        }
         tilts.push((length, next));
     }
     let mut tilted = Table::new("Swimmers that are not their own mirror images, and without a net flux", &header);

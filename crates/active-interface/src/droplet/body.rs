@@ -70,7 +70,7 @@ impl Body for ActiveDroplet {
     }
 
     fn state_len(&self) -> usize {
-        2 * self.shape.markers.len() + self.numbers.len()
+        2 * self.shape.markers.len() + self.numbers.len() + usize::from(self.pool.is_some())
     }
 
     fn write_state(&self, state: &mut [f64]) {
@@ -78,11 +78,16 @@ impl Body for ActiveDroplet {
         for (pair, marker) in positions.chunks_exact_mut(2).zip(&self.shape.markers) {
             pair.copy_from_slice(&marker.to_array());
         }
-        numbers.copy_from_slice(&self.numbers);
+        let (on, inside) = numbers.split_at_mut(self.numbers.len());
+        on.copy_from_slice(&self.numbers);
+        if let (Some(inside), Some(pool)) = (inside.first_mut(), &self.pool) {
+            *inside = pool.number;
+        }
     }
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
         // The count differs from the present one only where a step with insertion is rejected.
+        // One more for the particles inside does not change these quotients.
         let count = if self.transport.is_some() { state.len() / 3 } else { state.len() / 2 };
         if let Some(index) = state.iter().position(|value| !value.is_finite()) {
             let what = if index < 2 * count { "marker coordinate" } else { "particle number" };
@@ -94,7 +99,11 @@ impl Body for ActiveDroplet {
             std::mem::swap(&mut self.shape, &mut self.other);
             self.shape.move_to(positions, self.spectral.as_mut());
         }
-        self.numbers.copy_from_slice(numbers);
+        let (on, inside) = numbers.split_at(self.numbers.len());
+        self.numbers.copy_from_slice(on);
+        if let (Some(pool), Some(&inside)) = (self.pool.as_mut(), inside.first()) {
+            pool.number = inside;
+        }
         self.update_tensions();
         Ok(())
     }
@@ -130,6 +139,7 @@ impl Body for ActiveDroplet {
         numbers.fill(0.0);
         if let Some(transport) = self.transport.as_mut() {
             let lengths = &self.shape.geometry.lengths;
+            let numbers = &mut numbers[..count];
             transport.add_advection(&self.numbers, lengths, &self.slip, numbers);
             // What the stabiliser adds implicitly is subtracted here.
             if self.stabiliser.len() == count {
@@ -168,7 +178,12 @@ impl Body for ActiveDroplet {
         let out = &mut out[positions.len()..];
         if let Some(transport) = self.transport.as_mut() {
             let geometry = geometry_at(&self.shape, &mut self.other, self.spectral.as_mut(), positions);
+            let (numbers, inside) = numbers.split_at(self.numbers.len());
+            let (out, out_inside) = out.split_at_mut(numbers.len());
             transport.add_diffusion(&geometry.lengths, &self.diffusivities, numbers, factor, out);
+            if let (Some(pool), [inside], [out_inside]) = (&self.pool, inside, out_inside) {
+                *out_inside += pool.add(factor, &geometry.lengths, numbers, *inside, out);
+            }
         }
     }
 
@@ -176,7 +191,15 @@ impl Body for ActiveDroplet {
         let (positions, numbers) = state.split_at_mut(2 * self.shape.markers.len());
         if let Some(transport) = self.transport.as_mut() {
             let geometry = geometry_at(&self.shape, &mut self.other, self.spectral.as_mut(), positions);
-            transport.solve_diffusion(&geometry.lengths, &self.diffusivities, factor, numbers);
+            let (numbers, inside) = numbers.split_at_mut(self.numbers.len());
+            if let (Some(pool), [inside]) = (&self.pool, inside) {
+                pool.before(factor, numbers);
+                let factor_of_diffusion = pool.diffusion_factor(factor);
+                transport.solve_diffusion(&geometry.lengths, &self.diffusivities, factor_of_diffusion, numbers);
+                pool.after(factor, &geometry.lengths, numbers, inside);
+            } else {
+                transport.solve_diffusion(&geometry.lengths, &self.diffusivities, factor, numbers);
+            }
         }
     }
 
@@ -234,8 +257,12 @@ impl Body for ActiveDroplet {
     fn write_scales(&self, scales: &mut [f64]) {
         let (positions, numbers) = scales.split_at_mut(2 * self.shape.markers.len());
         positions.fill((self.initial_area / PI).sqrt());
-        let mean = self.numbers.iter().sum::<f64>() / self.numbers.len().max(1) as f64;
-        numbers.fill(if mean > 0.0 { mean } else { 1.0 });
+        let on = self.numbers.len();
+        let positive = |number: f64| if number > 0.0 { number } else { 1.0 };
+        let (numbers, inside) = numbers.split_at_mut(on);
+        numbers.fill(positive(self.numbers.iter().sum::<f64>() / on.max(1) as f64));
+        // Errors inside count as those of as many segments do together.
+        inside.fill(positive(self.total_number()));
     }
 
     /// Viscosity, tension law and diffusion, and the number of markers at the start.
@@ -247,6 +274,10 @@ impl Body for ActiveDroplet {
         }
         if self.transport.is_some() {
             push("the diffusion constant", self.diffusion);
+        }
+        if let Some(pool) = &self.pool {
+            push("the rate of binding", pool.exchange.binding());
+            push("the rate of unbinding", pool.exchange.unbinding());
         }
         push("the number of markers at the start", self.initial_markers as f64);
         let mean = self.initial_number / (2.0 * (PI * self.initial_area).sqrt());
@@ -298,7 +329,9 @@ impl Body for ActiveDroplet {
         let per_marker = if self.transport.is_some() { 4 } else { 3 };
         let count = usize::try_from(count).unwrap_or(usize::MAX).min(saved.reals.len());
         at_least("markers of a saved droplet", count, MINIMUM_MARKERS)?;
-        let (state, rest) = saved.reals_of(per_marker * count + 5)?.split_at((per_marker - 1) * count);
+        let inside = usize::from(self.pool.is_some());
+        let (state, rest) =
+            saved.reals_of(per_marker * count + 5 + inside)?.split_at((per_marker - 1) * count + inside);
         let (slip, numbers) = rest.split_at(count);
         self.resize(count);
         self.read_state(state)?;
@@ -331,7 +364,7 @@ impl ActiveDroplet {
     /// Area and particles are what they were, and no tension law without a plateau has gathered the particles in a
     /// point.
     fn check_bounds(&self) -> Result<(), BodyError> {
-        let total: f64 = self.numbers.iter().sum();
+        let total = self.total_number();
         let changes = [
             ("the area", raw_area(&self.shape.markers) / self.initial_area - 1.0),
             ("the number of particles", if total > 0.0 { total / self.initial_number - 1.0 } else { 0.0 }),

@@ -23,6 +23,7 @@ impl<'a> InterfaceState<'a> {
             forces: flow.forces,
             velocities: flow.velocities,
             numbers: droplet.particle_numbers(),
+            inside: droplet.number_inside().zip(droplet.exchange_flux()),
             stresslet: flow.stresslet,
             viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
         }

@@ -23,6 +23,9 @@ pub struct InterfaceState<'a> {
     pub velocities: &'a [Vec2],
     /// Particle numbers of the segments, segment k from marker k to the next; empty for an interface without particles.
     pub numbers: &'a [f64],
+    /// The number of particles inside and the particles that bind less those that unbind (1/time); `None` for an
+    /// interface that exchanges none.
+    pub inside: Option<(f64, f64)>,
     /// Viscosities inside and outside (stress times time).
     pub viscosities: [f64; 2],
     /// The stresslet (force times length, along x and y) of the flow around the interface where it is known otherwise
@@ -44,8 +47,11 @@ pub struct Observables {
     pub area: f64,
     /// Perimeter (length).
     pub perimeter: f64,
-    /// Number of particles.
+    /// Number of particles on the interface.
     pub particle_number: f64,
+    /// The number of particles inside and the particles that bind less those that unbind (1/time); `None` without
+    /// exchange.
+    pub inside: Option<(f64, f64)>,
     /// Largest and smallest concentration (particles per length); `None` without particles.
     pub concentration_range: Option<[f64; 2]>,
     /// Aspect ratio from area moments, along the motion over across it.
@@ -79,7 +85,7 @@ pub struct Observables {
 /// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
 /// no area.
 pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
-    let InterfaceState { markers, forces, velocities, numbers, viscosities, stresslet } = *state;
+    let InterfaceState { markers, forces, velocities, numbers, viscosities, stresslet, inside } = *state;
     at_least("markers", markers.len(), 8)?;
     same_length("velocities", markers.len(), velocities.len())?;
     all_points_finite("the velocities", velocities)?;
@@ -100,6 +106,7 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         area: area.area,
         perimeter: raw_perimeter(markers),
         particle_number: 0.0,
+        inside,
         concentration_range: None,
         aspect_ratio_moments: aspect_ratio_of(&area, &frame)?,
         ellipse: fit_ellipse(markers, &frame).ok(),
@@ -200,6 +207,9 @@ impl Observables {
             ("n_yyx", known(mixed[1][1][0])),
         ];
         let relative = |modes: &FourierModes, k: usize| (modes.mean != 0.0).then(|| modes.amplitude(k) / modes.mean);
+        if let Some((number, flux)) = self.inside {
+            entries.extend([("number_inside", known(number)), ("exchange_flux", known(flux))]);
+        }
         entries.extend((2..).zip(SHAPE_MODES).map(|(k, name)| (name, relative(&self.shape_modes, k))));
         entries.extend((1..).zip(CONCENTRATION_MODES).map(|(k, name)| (name, relative(&self.concentration_modes, k))));
         entries

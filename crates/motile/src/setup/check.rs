@@ -4,8 +4,9 @@ use ib_core::{AnyKernel, StepSize};
 use stokes_grid::Drive;
 
 use super::{
-    Contrast, DropletSetup, DropletShape, Exclusion, Grading, GridMethod, Hold, IntegralMethod, MarkerMotion, Method,
-    Region, RigidSetup, Setup, SolidOutline, SolidSetup, Start, Surface,
+    Contrast, DropletSetup, DropletShape, ExchangeSetup, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
+    MarkerMotion, Method, Region, RigidBodySetup, RigidSetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,
+    Surface,
 };
 use crate::SetupError;
 
@@ -101,6 +102,13 @@ impl Setup {
         for (number, solid) in self.solids.iter().enumerate() {
             solid.check(&format!("solids[{number}]"), self)?;
         }
+        for (number, body) in self.rigid_bodies.iter().enumerate() {
+            let (place, held) = (format!("rigid-bodies[{number}]"), self.region != Region::Plane);
+            body.check(&Checked { place: &place }, held)?;
+        }
+        for (number, shell) in self.shells.iter().enumerate() {
+            shell.check(&Checked { place: &format!("shells[{number}]") })?;
+        }
         for (number, wall) in self.rigid.iter().enumerate() {
             wall.check(&format!("rigid[{number}]"), self)?;
         }
@@ -139,8 +147,7 @@ impl Setup {
                 }
             }
         }
-        let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
-        if differs && grid.corrected && grid.contrast == Contrast::Arithmetic {
+        if self.has_contrast() && grid.corrected && grid.contrast == Contrast::Arithmetic {
             let remedy = "an arithmetic contrast has no mobility correction: give false, or a sharp contrast";
             checked.refuse("corrected", &true, remedy)?;
         }
@@ -250,6 +257,36 @@ impl DropletShape {
     }
 }
 
+impl RigidBodySetup {
+    fn check(&self, checked: &Checked<'_>, held: bool) -> Result<(), SetupError> {
+        checked.all_finite("centre", &self.centre)?;
+        checked.finite("angle", self.angle)?;
+        checked.all_finite("force", &self.force)?;
+        checked.finite("torque", self.torque)?;
+        for &force in self.force.iter().filter(|_| !held) {
+            let remedy = "in the plane nothing holds a fluid that is pushed: give 0, or a box or a channel";
+            checked.require(force == 0.0, "force", force, remedy)?;
+        }
+        self.shape.check(checked)
+    }
+}
+
+impl ShellSetup {
+    fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+        checked.all_finite("centre", &self.centre)?;
+        checked.finite("angle", self.angle)?;
+        if let Some(viscosity) = self.viscosity {
+            checked.positive("viscosity", viscosity)?;
+        }
+        checked.not_negative("stretching", self.stretching)?;
+        checked.not_negative("bending", self.bending)?;
+        if let Some(curvature) = self.reference_curvature {
+            checked.finite("reference-curvature", curvature)?;
+        }
+        self.shape.check(checked)
+    }
+}
+
 impl DropletSetup {
     fn check(&self, place: &str) -> Result<(), SetupError> {
         let checked = Checked { place };
@@ -275,6 +312,23 @@ impl DropletSetup {
             Exclusion::None => {}
             Exclusion::Step(strength) => checked.not_negative("particles.excluded-volume.step", strength)?,
             Exclusion::Quadratic(strength) => checked.not_negative("particles.excluded-volume.quadratic", strength)?,
+        }
+        if let Some(ExchangeSetup { binding, unbinding, number_inside }) = particles.exchange {
+            checked.not_negative("particles.exchange.binding", binding)?;
+            checked.not_negative("particles.exchange.unbinding", unbinding)?;
+            let key = "particles.exchange.number-inside";
+            match number_inside {
+                Some(number) => checked.not_negative(key, number)?,
+                None => {
+                    let remedy = "nothing that unbinds comes back, so that no number inside is at rest: give one";
+                    checked.require(
+                        binding > 0.0 || unbinding == 0.0,
+                        "particles.exchange.binding",
+                        binding,
+                        remedy,
+                    )?;
+                }
+            }
         }
         let Start::Perturbed { amplitude, .. } = particles.start else { return Ok(()) };
         let (key, holds) = ("particles.start.perturbed.amplitude", (0.0..1.0).contains(&amplitude));

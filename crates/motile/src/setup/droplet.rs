@@ -121,6 +121,8 @@ pub struct Particles {
     pub start: Start,
     /// How they are carried from segment to segment.
     pub flux: Flux,
+    /// Their exchange with the inside of the droplet; `None` for particles that stay on the interface.
+    pub exchange: Option<ExchangeSetup>,
 }
 
 impl Default for Particles {
@@ -132,6 +134,7 @@ impl Default for Particles {
             concentration: 100.0,
             start: Start::Polarised,
             flux: Flux::Weno5,
+            exchange: None,
         }
     }
 }
@@ -149,6 +152,20 @@ impl Particles {
         };
         ContractileTension::new(tension, self.activity, excluded_volume)
     }
+}
+
+/// Exchange of particles with the inside of the droplet, where they are well mixed: `dc/dt = ... + k_on C - k_off c`, C
+/// the number inside over the area.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ExchangeSetup {
+    /// Rate k_on at which they bind to the interface (length per time).
+    pub binding: f64,
+    /// Rate k_off at which they unbind (1/time).
+    pub unbinding: f64,
+    /// Number inside at the start; `None` for as many as are at rest with the concentration on the interface.
+    #[serde(default)]
+    pub number_inside: Option<f64>,
 }
 
 /// Excluded volume of the particles.

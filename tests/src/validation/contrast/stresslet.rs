@@ -59,6 +59,7 @@ impl Exact {
                 velocities,
                 numbers: &[],
                 viscosities: [droplet.ratio, 1.0],
+                inside: None,
                 stresslet: flow.stresslet(index)?,
             };
             let stresslet = |state: &InterfaceState<'_>| -> Result<[f64; 2], StudyError> {

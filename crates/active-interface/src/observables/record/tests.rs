@@ -36,6 +36,7 @@ fn record(count: usize, heading: f64) -> Observables {
         velocities: &velocities,
         numbers: &numbers,
         viscosities: [100.0, 100.0],
+        inside: None,
         stresslet: None,
     };
     observe(&state, Convention::FarField).unwrap()
@@ -92,6 +93,7 @@ fn a_drop_without_particles_at_rest() {
         velocities: &rest,
         numbers: &[],
         viscosities,
+        inside: None,
         stresslet: None,
     };
     let record = observe(&state, Convention::AsPrinted).unwrap();
@@ -124,6 +126,7 @@ fn a_known_stresslet() {
         velocities: &velocities,
         numbers: &numbers,
         viscosities: [inside, outside],
+        inside: None,
         stresslet: None,
     };
     let [computed, printed] =

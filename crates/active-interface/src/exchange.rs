@@ -1,0 +1,118 @@
+//! Exchange of particles between an interface and the inside of its droplet.
+
+use ib_core::input::{not_negative, positive};
+
+use crate::InterfaceError;
+
+/// Rates at which particles go from the inside of a droplet to its interface and back,
+/// `dc/dt = ... + k_on C - k_off c`, c the concentration on the interface (particles per length), C that inside beside
+/// it (particles per area). Whitfield and Hawkins, "Immersed boundary simulations of active fluid droplets", PLoS ONE 11
+/// (2016) e0162474, have such a model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exchange {
+    binding: f64,
+    unbinding: f64,
+}
+
+impl Exchange {
+    /// The rates k_on of binding (length per time) and k_off of unbinding (1/time).
+    ///
+    /// # Errors
+    /// Rates that are negative or not finite.
+    pub fn new(binding: f64, unbinding: f64) -> Result<Self, InterfaceError> {
+        not_negative("the rate of binding", binding)?;
+        not_negative("the rate of unbinding", unbinding)?;
+        Ok(Self { binding, unbinding })
+    }
+
+    /// The rate k_on of binding (length per time).
+    #[must_use]
+    pub fn binding(&self) -> f64 {
+        self.binding
+    }
+
+    /// The rate k_off of unbinding (1/time).
+    #[must_use]
+    pub fn unbinding(&self) -> f64 {
+        self.unbinding
+    }
+
+    /// The concentration inside (particles per area) that is at rest with one on the interface (particles per length),
+    /// `C = k_off c/k_on`; `None` where nothing binds and so all particles leave the interface.
+    #[must_use]
+    pub fn concentration_at_rest(&self, on: f64) -> Option<f64> {
+        match (self.binding > 0.0, self.unbinding > 0.0) {
+            (true, _) => Some(self.unbinding * on / self.binding),
+            (false, false) => Some(0.0),
+            (false, true) => None,
+        }
+    }
+}
+
+/// A well-mixed inside: its particles have the same concentration everywhere, as with fast diffusion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Pool {
+    pub(crate) exchange: Exchange,
+    pub(crate) number: f64,
+    /// Area of the droplet at the start (length squared), which it keeps.
+    area: f64,
+}
+
+impl Pool {
+    pub(crate) fn new(exchange: Exchange, number: f64, area: f64) -> Result<Self, InterfaceError> {
+        not_negative("the number of particles inside", number)?;
+        Ok(Self { exchange, number, area: positive("the area of a droplet", area)? })
+    }
+
+    /// Rate at which a particle inside goes to an interface of this length (1/time).
+    fn rate(&self, perimeter: f64) -> f64 {
+        self.exchange.binding * perimeter / self.area
+    }
+
+    /// Particles that bind less those that unbind (1/time).
+    pub(crate) fn flux(&self, lengths: &[f64], on: f64) -> f64 {
+        self.rate(lengths.iter().sum()) * self.number - self.exchange.unbinding * on
+    }
+
+    /// Adds `factor` times the rates, `factor` a time, to the numbers of the segments; returns what is to be added to that
+    /// inside.
+    pub(crate) fn add(&self, factor: f64, lengths: &[f64], numbers: &[f64], inside: f64, out: &mut [f64]) -> f64 {
+        let unit = factor * self.exchange.binding * inside / self.area;
+        let mut loss = 0.0;
+        for ((out, length), number) in out.iter_mut().zip(lengths).zip(numbers) {
+            let change = unit * length - factor * self.exchange.unbinding * number;
+            *out += change;
+            loss -= change;
+        }
+        loss
+    }
+
+    /// The factor of the diffusion that is to be solved for, between [`Pool::before`] and [`Pool::after`].
+    pub(crate) fn diffusion_factor(&self, factor: f64) -> f64 {
+        factor / (1.0 + factor * self.exchange.unbinding)
+    }
+
+    /// The right side of the diffusion of the numbers.
+    ///
+    /// With the numbers n and P inside, `n - f (diffusion + k_on l P/A - k_off n) = r` is solved by `n = a + b P`, where b
+    /// is `f k_on l/(A (1 + f k_off))`, as numbers that go with the lengths l do not diffuse, and a is what diffuses.
+    pub(crate) fn before(&self, factor: f64, numbers: &mut [f64]) {
+        let part = 1.0 / (1.0 + factor * self.exchange.unbinding);
+        numbers.iter_mut().for_each(|number| *number *= part);
+    }
+
+    /// The numbers on and inside after the diffusion, of which the sum is what it was.
+    pub(crate) fn after(&self, factor: f64, lengths: &[f64], numbers: &mut [f64], inside: &mut f64) {
+        let Exchange { binding, unbinding } = self.exchange;
+        let left: f64 = numbers.iter().sum();
+        let part = 1.0 / (1.0 + factor * unbinding);
+        let perimeter: f64 = lengths.iter().sum();
+        let number = (*inside + factor * unbinding * left) / (1.0 + factor * self.rate(perimeter) * part);
+        let bound = factor * binding * number * part / self.area;
+        numbers.iter_mut().zip(lengths).for_each(|(on, length)| *on += bound * length);
+        *inside = number;
+    }
+}
+
+#[cfg(test)]
+mod tests;

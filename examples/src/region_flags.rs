@@ -1,0 +1,76 @@
+//! The region of scenes that can be in any.
+
+use anyhow::{Result, ensure};
+use clap::{Args, ValueEnum};
+use motile::{Region, Setup};
+
+use crate::flags::RADIUS;
+use crate::parse::positive;
+use crate::{AlongFlags, BoxFlags, RegionFlags};
+
+/// Kinds of region.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum RegionKind {
+    /// A periodic box.
+    Box,
+    /// A channel between rigid walls, periodic along it.
+    Channel,
+    /// Unbounded fluid.
+    Plane,
+}
+
+/// A region of any kind.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct AnyRegionFlags {
+    /// Region
+    #[arg(long, value_enum, default_value_t = RegionKind::Box)]
+    pub region: RegionKind,
+    /// The box
+    #[command(flatten)]
+    pub periodic: BoxFlags,
+    /// Distance of the walls of a channel (R0)
+    #[arg(long, default_value_t = 3.0, value_parser = positive, allow_hyphen_values = true)]
+    pub width: f64,
+    /// The channel
+    #[command(flatten)]
+    pub along: AlongFlags,
+}
+
+impl AnyRegionFlags {
+    /// Overrides the region of a scene.
+    ///
+    /// # Errors
+    /// A region that is unreasonably large, a channel that is narrower than the droplet, a place that is not given by
+    /// `--lateral-offset` in a channel.
+    pub fn apply(&self, setup: &mut Setup) -> Result<()> {
+        match self.region {
+            RegionKind::Box => self.periodic.apply(setup),
+            RegionKind::Plane => {
+                self.periodic.apply(setup)?;
+                setup.region = Region::Plane;
+                Ok(())
+            }
+            RegionKind::Channel => {
+                let width = self.width;
+                ensure!(
+                    width >= 2.0 * RADIUS,
+                    "--width {width} is too small for a droplet of diameter 2: give 2 or more"
+                );
+                ensure!(
+                    self.periodic.offset.is_none(),
+                    "--offset is for boxes and unbounded fluid: give --lateral-offset in a channel"
+                );
+                self.along.apply(setup, 0.0, width)
+            }
+        }
+    }
+}
+
+impl RegionFlags for AnyRegionFlags {
+    fn caption(&self) -> Result<String> {
+        Ok(match self.region {
+            RegionKind::Channel => format!("w = {},  l = {}", self.width, self.along.length),
+            RegionKind::Box | RegionKind::Plane => String::new(),
+        })
+    }
+}
