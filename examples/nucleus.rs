@@ -10,23 +10,11 @@ use std::process::ExitCode;
 use anyhow::{Result, ensure};
 use clap::{Args, Parser, ValueEnum};
 use motile::ib_core::{Body, Handle, Vec2};
-use motile::stokes_grid::Drive;
 use motile::{
-    Built, GridMethod, Hold, IntegralMethod, Material, Method, MethodKind, Region, RigidBodySetup, Setup, ShellSetup,
-    SolidOutline, SolidSetup,
+    Built, DropletShape, GridMethod, Hold, Material, Method, RigidBodySetup, Setup, ShellSetup, SolidOutline,
+    SolidSetup,
 };
-use motile_examples::{MethodFlags, RegionFlags, SceneFlags, WatchedRun, not_negative, pair, positive, turning_rate};
-
-/// Which region.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum RegionKind {
-    /// Periodic along x and y.
-    Box,
-    /// Rigid walls in y, periodic along x, no mean pressure gradient.
-    Channel,
-    /// Unbounded fluid.
-    Plane,
-}
+use motile_examples::{AnyRegionFlags, Preset, SceneFlags, WatchedRun, not_negative, pair, positive, turning_rate};
 
 /// What is inside the droplet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -41,18 +29,9 @@ enum Core {
     None,
 }
 
-/// The region and the core.
+/// The core.
 #[derive(Debug, Clone, PartialEq, Args)]
 struct CoreFlags {
-    /// The region that the fluid fills
-    #[arg(long, value_enum, default_value_t = RegionKind::Box)]
-    region: RegionKind,
-    /// Side of the periodic box, period of the channel (R0)
-    #[arg(long = "box", value_name = "SIDE", default_value_t = 6.0, value_parser = positive, allow_hyphen_values = true)]
-    side: f64,
-    /// Distance of the channel's walls (R0)
-    #[arg(long, default_value_t = 3.0, value_parser = positive, allow_hyphen_values = true)]
-    width: f64,
     /// What is inside the droplet
     #[arg(long, value_enum, default_value_t = Core::Rigid)]
     core: Core,
@@ -73,21 +52,9 @@ struct CoreFlags {
     core_bending: Option<f64>,
 }
 
-impl RegionFlags for CoreFlags {
-    fn caption(&self) -> Result<String> {
-        let core = self.core.to_possible_value().map_or(String::new(), |core| core.get_name().to_owned());
-        Ok(if self.core == Core::None { String::new() } else { format!("{core} of radius {}", self.core_radius) })
-    }
-}
-
 impl CoreFlags {
-    /// Puts region and core into a scene.
-    fn apply(&self, method: &MethodFlags, setup: &mut Setup) -> Result<()> {
-        setup.region = match self.region {
-            RegionKind::Box => Region::Box { lengths: [self.side; 2] },
-            RegionKind::Channel => Region::Channel { length: self.side, width: self.width, drive: Drive::ZeroGradient },
-            RegionKind::Plane => Region::Plane,
-        };
+    /// Puts the core into a scene.
+    fn apply(&self, setup: &mut Setup) -> Result<()> {
         for (flag, given, used) in [
             ("core-viscosity", self.core_viscosity.is_some(), self.core == Core::Shell),
             ("core-bending", self.core_bending.is_some(), self.core == Core::Shell),
@@ -95,7 +62,8 @@ impl CoreFlags {
         ] {
             ensure!(used || !given, "--{flag} means nothing to this core: leave it out or give --core shell");
         }
-        let (centre, radius) = (self.core_offset, self.core_radius);
+        let [[x, y], [dx, dy]] = [setup.droplets[0].centre, self.core_offset];
+        let (centre, radius) = ([x + dx, y + dy], self.core_radius);
         match self.core {
             Core::None => {}
             Core::Rigid => {
@@ -108,16 +76,13 @@ impl CoreFlags {
                     centre,
                     name: "core".into(),
                     viscosity: self.core_viscosity,
-                    shape: motile::DropletShape::Round { radius },
+                    shape: DropletShape::Round { radius },
                     stretching: self.core_stiffness.unwrap_or(usual.stretching),
                     bending: self.core_bending.unwrap_or(usual.bending),
                     ..usual
                 }];
             }
             Core::Disc => {
-                if let (None, Method::Integral(layers)) = (method.method, setup.method) {
-                    setup.method = Method::Grid(GridMethod { layers, ..GridMethod::default() });
-                }
                 let shear = self.core_stiffness.unwrap_or(1000.0);
                 let material = Material::NeoHookean { shear, bulk: 2.0 * shear };
                 let disc = SolidSetup::new(SolidOutline::Disc { centre, radius }, material);
@@ -132,28 +97,22 @@ impl CoreFlags {
 #[derive(Debug, Parser)]
 struct Flags {
     #[command(flatten)]
-    scene: SceneFlags<CoreFlags>,
+    core: CoreFlags,
+    #[command(flatten)]
+    scene: SceneFlags<AnyRegionFlags>,
 }
 
 fn main() -> ExitCode {
     motile_examples::run(swim)
 }
 
-fn swim(Flags { scene: flags }: &Flags) -> Result<()> {
-    // Nodes and cells are those of interfaces, on a grid too.
-    let (nodes, cells) = (flags.method.nodes, flags.method.concentration_cells);
-    let grid = flags.method.method == Some(MethodKind::Grid);
-    let method = if grid {
-        MethodFlags { nodes: None, concentration_cells: None, ..flags.method.clone() }
-    } else {
-        flags.method.clone()
-    };
-    let mut setup = method.setup(&flags.droplet, None)?;
-    if let (true, Method::Grid(grid)) = (grid, &mut setup.method) {
-        let nodes = nodes.unwrap_or(grid.layers.nodes);
-        grid.layers = IntegralMethod { nodes, cells: cells.unwrap_or(4 * nodes) };
-    }
-    flags.region.apply(&flags.method, &mut setup)?;
+fn swim(Flags { core: core_flags, scene: flags }: &Flags) -> Result<()> {
+    // The droplet, on a grid where that is needed, its region and its core.
+    let grid = Setup { method: Method::Grid(GridMethod::default()), ..Setup::default() };
+    let base = (core_flags.core == Core::Disc && flags.method.preset == Preset::Accurate).then_some(grid);
+    let mut setup = flags.method.setup(&flags.droplet, base)?;
+    flags.region.apply(&mut setup)?;
+    core_flags.apply(&mut setup)?;
 
     // The run, with all that watches it.
     let built = setup.build()?;

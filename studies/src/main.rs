@@ -8,6 +8,7 @@
 mod channels;
 mod elastic_step;
 mod exchange;
+mod gel;
 mod hard_cases;
 mod instructions;
 mod nucleus;
@@ -54,6 +55,7 @@ enum Study {
     Scaling(scaling::Flags),
     Threads(threads::Flags),
     ElasticStep(elastic_step::Flags),
+    Gel(gel::Flags),
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
     Nucleus(nucleus::Flags),
@@ -77,6 +79,7 @@ fn main() -> ExitCode {
         Study::Scaling(flags) => scaling::run(flags),
         Study::Threads(flags) => threads::run(flags),
         Study::ElasticStep(flags) => elastic_step::run(flags),
+        Study::Gel(flags) => gel::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),
         Study::Nucleus(flags) => nucleus::run(flags),

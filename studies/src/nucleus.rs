@@ -28,8 +28,7 @@ type Scene = (bool, f64, f64, [f64; 2]);
 
 const ASIDE: [f64; 2] = [0.05, 0.15];
 
-const SCENES: [Scene; 12] = [
-    (false, -1.0, 0.3, [0.0, 0.0]),
+const SCENES: [Scene; 9] = [
     (false, -1.0, 0.3, ASIDE),
     (false, -1.0, 0.5, ASIDE),
     (false, -1.0, 0.5, [-0.3, 0.25]),
@@ -39,14 +38,12 @@ const SCENES: [Scene; 12] = [
     (false, -2.0, 0.5, ASIDE),
     (false, -2.0, 0.7, ASIDE),
     (true, -1.0, 0.5, ASIDE),
-    (true, -2.0, 0.5, ASIDE),
-    (true, -2.0, 0.7, ASIDE),
 ];
 
 fn setup(&(boxed, activity, radius, centre): &Scene) -> Setup {
     Setup {
         region: if boxed { Region::Box { lengths: [6.0; 2] } } else { Region::Plane },
-        method: Method::Integral(IntegralMethod { nodes: 48, cells: 192 }),
+        method: Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
         repulsion: Some(RepulsionSetup { strength: 500.0, range: 0.1 }),
         droplets: vec![DropletSetup::active(activity)],
         rigid_bodies: vec![RigidBodySetup { centre, ..RigidBodySetup::disc(radius) }],
@@ -115,7 +112,8 @@ pub(crate) fn run(flags: &Flags) -> Result<()> {
     }
     say(&table);
     if flags.write {
-        let code = [&tables::RUNS[..7], &["studies/src/nucleus.rs", "examples/src/turning.rs"]].concat();
+        let own = ["crates/elastic-solids", "studies/src/nucleus.rs", "examples/src/turning.rs"];
+        let code = [&tables::RUNS[..7], &own].concat();
         tables::write("nucleus", "nucleus --write", &code, &[table])?;
     }
     Ok(())

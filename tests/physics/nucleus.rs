@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use motile::elastic_solids::{BendingMeasure, Shell};
-use motile::ib_core::{Hydrodynamics, MarkerKind, Markers, Scene, StepSize, Vec2};
+use motile::ib_core::{Checkpoint, FlowSample, Hydrodynamics, MarkerKind, Markers, Scene, SceneError, StepSize, Vec2};
 use motile::{
-    Built, DropletSetup, DropletShape, Exclusion, IntegralMethod, Method, Particles, Region, RigidBodySetup, Setup,
-    Start,
+    Built, DropletSetup, DropletShape, Exclusion, GridMethod, Hold, IntegralMethod, Material, Method, Particles,
+    Region, RigidBodySetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,
 };
 use motile_tests::validation::scene::flow;
 
@@ -252,5 +252,106 @@ fn nested_circles_relax_at_their_rates() {
                 assert!((found / exact - 1.0).abs() < 1e-4, "{k} {wavy}: {found} {exact}");
             }
         }
+    }
+}
+
+/// Where droplet and core are at the end of a short run.
+fn moved(setup: &Setup) -> [Vec2; 2] {
+    let Built { mut scene, droplets, solids, rigid_bodies, .. } = setup.build().expect("a valid scene");
+    scene.run(0.6).go().expect("a run without trouble");
+    let droplet = scene.observe(droplets[0]).expect("a droplet").centroid;
+    let core = match (solids.first(), rigid_bodies.first()) {
+        (Some(&solid), _) => {
+            let points = scene.body(solid).expect("a solid").positions();
+            points.iter().sum::<Vec2>() / points.len() as f64
+        }
+        (None, Some(&body)) => scene.body(body).expect("a rigid body").centre(),
+        (None, None) => Vec2::ZERO,
+    };
+    [droplet, core]
+}
+
+#[test]
+fn an_elastic_core_tends_to_a_rigid_one_with_its_stiffness() {
+    let (centre, radius) = ([0.1, 0.15], 0.45);
+    let layers = IntegralMethod { nodes: 32, cells: 128 };
+    let bare = Setup { method: Method::Integral(layers), ..Setup::default() };
+    let rigid = Setup { rigid_bodies: vec![RigidBodySetup { centre, ..RigidBodySetup::disc(radius) }], ..bare.clone() };
+    let exact = moved(&rigid);
+    // On a grid too: layers alone.
+    let method = Method::Grid(GridMethod { layers, ..GridMethod::of_spacing(0.1) });
+    let layered = moved(&Setup { method, ..rigid });
+    let apart = |found: [Vec2; 2]| found.iter().zip(&exact).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+    assert!(apart(layered) < 1e-4 * exact[0].length(), "{layered:?} {exact:?}");
+    let errors = [200.0, 2000.0].map(|shear| {
+        let material = Material::NeoHookean { shear, bulk: 2.0 * shear };
+        let disc = SolidSetup { hold: Hold::Free, ..SolidSetup::new(SolidOutline::Disc { centre, radius }, material) };
+        let at_rest = {
+            let points = Setup { method, solids: vec![disc.clone()], ..bare.clone() }.build().expect("a valid scene");
+            let solid = points.scene.body(points.solids[0]).expect("a solid").positions();
+            solid.iter().sum::<Vec2>() / solid.len() as f64 - Vec2::from(centre)
+        };
+        let [droplet, core] = moved(&Setup { method, solids: vec![disc], ..bare.clone() });
+        apart([droplet, core - at_rest]) / exact[0].length()
+    });
+    println!("{errors:?}");
+    assert!(errors[1] < 0.012 && errors[1] < 0.25 * errors[0], "{errors:?}");
+}
+
+/// Relaxation takes energy and leaves the area.
+#[test]
+fn shells_keep_their_area() {
+    let shape = DropletShape::Ellipse { half_axes: [0.6, 0.4] };
+    let shell = ShellSetup { shape, bending: 0.02, reference_curvature: Some(2.0), ..ShellSetup::default() };
+    let setup = Setup {
+        region: Region::Plane,
+        method: Method::Integral(IntegralMethod { nodes: 32, cells: 64 }),
+        viscosity: 1.0,
+        droplets: Vec::new(),
+        shells: vec![shell],
+        ..Setup::default()
+    };
+    let Built { mut scene, shells, .. } = setup.build().unwrap();
+    let area = |points: &[Vec2]| {
+        let pairs = points.iter().zip(points.iter().cycle().skip(1));
+        0.5 * pairs.map(|(a, b)| a.perp_dot(*b)).sum::<f64>()
+    };
+    let energy = |scene: &Scene<_>| scene.body(shells[0]).unwrap().energy();
+    let before = [area(scene.body(shells[0]).unwrap().positions()), energy(&scene)];
+    scene.run(5.0).go().unwrap();
+    let after = [area(scene.body(shells[0]).unwrap().positions()), energy(&scene)];
+    println!("{before:?} {after:?}, {} steps", scene.steps());
+    assert!(after[1] < 0.9 * before[1] && (after[0] / before[0] - 1.0).abs() < 1e-4, "{before:?} {after:?}");
+}
+
+/// On the way pictures are taken of one of them, and it is saved and resumed.
+#[test]
+fn cells_resume_bit_by_bit_and_looking_changes_nothing() {
+    let layers = IntegralMethod { nodes: 32, cells: 64 };
+    for method in [Method::Integral(layers), Method::Grid(GridMethod { layers, ..GridMethod::of_spacing(0.2) })] {
+        let setup = Setup {
+            method,
+            step: StepSize::Fixed(0.01),
+            rigid_bodies: vec![RigidBodySetup { centre: [-0.4, 0.1], ..RigidBodySetup::disc(0.3) }],
+            shells: vec![ShellSetup {
+                centre: [0.45, 0.0],
+                shape: DropletShape::Round { radius: 0.3 },
+                viscosity: Some(300.0),
+                ..ShellSetup::default()
+            }],
+            ..Setup::default()
+        };
+        let mut whole = setup.build().unwrap().scene;
+        whole.run(0.08).go().unwrap();
+        let mut parts = setup.build().unwrap().scene;
+        assert!(matches!(parts.run(0.08).most_steps(5).go(), Err(SceneError::TooManySteps { .. })));
+        let mut samples = [FlowSample::default(); 2];
+        parts.system_mut().sample(&[Vec2::new(-0.4, 0.1), Vec2::new(0.9, 1.2)], &mut samples).unwrap();
+        assert!(samples.iter().all(|sample| sample.velocity.length() > 1e-3), "{samples:?}");
+        let saved = parts.checkpoint("").to_bytes().unwrap();
+        parts = setup.build().unwrap().scene;
+        parts.resume(&Checkpoint::from_bytes(&saved).unwrap()).unwrap();
+        parts.run(0.08).go().unwrap();
+        assert!(parts.checkpoint("").to_bytes().unwrap() == whole.checkpoint("").to_bytes().unwrap(), "{method:?}");
     }
 }

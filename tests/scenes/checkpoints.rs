@@ -161,8 +161,8 @@ fn a_gel() {
     setup.droplets[0].gel = Some(GelSetup { anchoring: Anchoring::Planar, start, ..GelSetup::default() });
     for viscosity in [None, Some(20.0)] {
         setup.droplets[0].viscosity = viscosity;
-        compare(|| scene(&setup), 0.2, StepSize::OfLimit(0.5), &[1, 7, 13]);
-        compare(|| scene(&setup), 0.2, StepSize::Adaptive { tolerance: 1e-3 }, &[2, 5]);
+        compare(|| scene(&setup), 4.0, AUTO, &[1, 7, 13]);
+        compare(|| scene(&setup), 4.0, StepSize::Adaptive { tolerance: 1e-3 }, &[2, 5]);
     }
 }
 

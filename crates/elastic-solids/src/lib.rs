@@ -39,8 +39,8 @@
 //! * **Materials**: [`NeoHookean`] (Cowley's), others in [`material`], or an [`EnergyDensity`] of your own;
 //!   [`Moduli`] converts between constants, Cowley's spring constant among them.
 //! * **Forces** of a mesh by themselves ([`forces`]), and what every law of your own must satisfy ([`check`]).
-//! * **Membranes and rigid bodies**: [`Shell`], a closed membrane that resists stretching and bending; [`RigidBody`], of
-//!   any outline, that the fluid carries along.
+//! * **Membranes and rigid bodies**: [`Shell`], a closed membrane that resists stretching and bending; [`RigidBody`],
+//!   of any outline, that the fluid carries along.
 //! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid.
 //! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`channel::width_between`] walls.
 //!

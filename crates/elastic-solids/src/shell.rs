@@ -41,9 +41,10 @@ pub enum BendingMeasure {
 /// use elastic_solids::{Shell, SolidError};
 /// use ib_core::Vec2;
 ///
-/// let circle = |radius: f64| (0..64).map(move |k| radius * Vec2::from_angle(std::f64::consts::TAU * f64::from(k) / 64.0));
-/// let shell = Shell::new(&circle(1.0).collect::<Vec<_>>(), 10.0, 0.5)?.deformed(&circle(1.2).collect::<Vec<_>>())?;
-/// let exact = std::f64::consts::TAU * (0.5 * 10.0 * 0.2_f64.powi(2) + 0.5 * 0.5 * (1.0 / 1.2_f64 - 1.0).powi(2));
+/// let turn = std::f64::consts::TAU;
+/// let circle = |r: f64| (0..64).map(|k| r * Vec2::from_angle(turn * f64::from(k) / 64.0)).collect::<Vec<_>>();
+/// let shell = Shell::new(&circle(1.0), 10.0, 0.5)?.deformed(&circle(1.2))?;
+/// let exact = turn * (0.5 * 10.0 * 0.2_f64.powi(2) + 0.5 * 0.5 * (1.0 / 1.2_f64 - 1.0).powi(2));
 /// println!("energy {:.6}", shell.energy());
 /// assert!((shell.energy() / exact - 1.0).abs() < 1e-12);
 /// # Ok::<(), SolidError>(())

@@ -19,6 +19,7 @@ mod elements;
 mod in_box;
 mod in_droplet;
 mod material;
+mod stabiliser;
 mod start;
 
 pub use anchoring::Anchoring;

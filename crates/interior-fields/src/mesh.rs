@@ -32,7 +32,7 @@ const MOST_WEIGHTS: f64 = 1e8;
 /// let circle = |k: usize| Vec2::from_angle(std::f64::consts::TAU * k as f64 / 64.0);
 /// let mut nodes: Vec<Vec2> = (0..mesh.node_count()).map(circle).collect();
 /// mesh.place(&mut nodes);
-/// println!("{} nodes, {} triangles", mesh.node_count(), mesh.triangles().len()); // 392 and 718
+/// println!("{} nodes, {} triangles", mesh.node_count(), mesh.triangles().len()); // 400 and 734
 /// assert!(nodes[64..].iter().all(|node| node.length() < 0.95));
 /// # Ok::<(), interior_fields::InteriorError>(())
 /// ```

@@ -1,6 +1,6 @@
 //! A gel that fills a periodic box.
 
-use ib_core::body::StepLimit;
+use ib_core::body::{StepInfo, StepLimit};
 use ib_core::input::{at_least, positive};
 use ib_core::scene::BodyFlow;
 use ib_core::{Body, BodyError, Discretisation, MarkerKind, Observe, Vec2};
@@ -106,8 +106,21 @@ impl Body for GelInBox {
         self.director.write_rate(velocities, &self.rest, rate);
     }
 
+    fn begin_step(&mut self, medium: &Discretisation, step: StepInfo) -> Result<(), BodyError> {
+        self.director.begin_step(step.stabilised, medium.viscosity);
+        Ok(())
+    }
+
+    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        self.director.stabiliser.add(state, factor, out);
+    }
+
+    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        self.director.stabiliser.solve(factor, state);
+    }
+
     fn step_limits(&self, medium: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
-        limits(StepLimit::decay(2.0 / self.director.fastest_rate(medium.viscosity), "the gel's director"));
+        self.director.step_limits(medium.viscosity, limits);
     }
 
     fn properties(&self) -> Vec<(String, f64)> {

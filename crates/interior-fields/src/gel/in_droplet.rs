@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use active_interface::ActiveDroplet;
-use ib_core::body::{Guest, StepLimit};
+use ib_core::body::{Guest, StepInfo, StepLimit};
 use ib_core::scene::BodyFlow;
 use ib_core::{Body, BodyError, Discretisation, Handle, MarkerKind, Observe, Vec2};
 
@@ -195,8 +195,21 @@ impl Body for GelInDroplet {
         self.director.write_rate(&self.fluid, &self.motion, rate);
     }
 
+    fn begin_step(&mut self, medium: &Discretisation, step: StepInfo) -> Result<(), BodyError> {
+        self.director.begin_step(step.stabilised, medium.viscosity);
+        Ok(())
+    }
+
+    fn add_implicit(&mut self, state: &[f64], factor: f64, out: &mut [f64]) {
+        self.director.stabiliser.add(state, factor, out);
+    }
+
+    fn solve_implicit(&mut self, factor: f64, state: &mut [f64]) {
+        self.director.stabiliser.solve(factor, state);
+    }
+
     fn step_limits(&self, medium: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
-        limits(StepLimit::decay(2.0 / self.director.fastest_rate(medium.viscosity), "the gel's director"));
+        self.director.step_limits(medium.viscosity, limits);
     }
 
     fn properties(&self) -> Vec<(String, f64)> {
