@@ -2,7 +2,7 @@
 //!
 //! | for | there are |
 //! |---|---|
-//! | flags | [`run`] around [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`], [`AnyRegionFlags`] or [`ElasticFlags`] |
+//! | flags | [`run`]; [`SceneFlags`] with [`BoxFlags`], [`ChannelFlags`], [`AnyRegionFlags`], [`ElasticFlags`] |
 //! | results | [`Summary`] (`summary.json` and a table) |
 //! | runs | [`Job`] of any scene, [`WatchedRun`] of one with a droplet |
 //! | constrictions | [`Passage`] |

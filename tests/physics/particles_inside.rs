@@ -85,8 +85,8 @@ impl Mode {
     }
 }
 
-/// The rate of a mode from a short step and the Rayleigh quotient: its error is that of the operator, as it is symmetric
-/// in the densities weighted by areas, and by lengths times k_off/k_on.
+/// The rate of a mode from a short step and the Rayleigh quotient: its error is that of the operator, as it is
+/// symmetric in the densities weighted by areas, and by lengths times k_off/k_on.
 fn quotient(mode: Mode, activity: f64, markers: usize, spacing: f64) -> f64 {
     let nodes = markers / 2;
     let flow = BoundaryIntegral::new(Geometry::Plane, VISCOSITY, Settings { nodes, ..Settings::default() }).unwrap();

@@ -4,10 +4,10 @@ use ib_core::input::{not_negative, positive};
 
 use crate::InterfaceError;
 
-/// Rates at which particles go from the inside of a droplet to its interface and back,
-/// `dc/dt = ... + k_on C - k_off c`, c the concentration on the interface (particles per length), C that inside beside
-/// it (particles per area). Whitfield and Hawkins, "Immersed boundary simulations of active fluid droplets", PLoS ONE 11
-/// (2016) e0162474, have such a model.
+/// Rates at which particles go from the inside of a droplet to its interface and back, `dc/dt = ... + k_on C - k_off
+/// c`, c the concentration on the interface (particles per length), C that inside beside it (particles per area).
+/// Whitfield and Hawkins, "Immersed boundary simulations of active fluid droplets", PLoS ONE 11 (2016) e0162474, have
+/// such a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exchange {
     binding: f64,
@@ -74,8 +74,8 @@ impl Pool {
         self.rate(lengths.iter().sum()) * self.number - self.exchange.unbinding * on
     }
 
-    /// Adds `factor` times the rates, `factor` a time, to the numbers of the segments; returns what is to be added to that
-    /// inside.
+    /// Adds `factor` times the rates, `factor` a time, to the numbers of the segments; returns what is to be added to
+    /// that inside.
     pub(crate) fn add(&self, factor: f64, lengths: &[f64], numbers: &[f64], inside: f64, out: &mut [f64]) -> f64 {
         let unit = factor * self.exchange.binding * inside / self.area;
         let mut loss = 0.0;
@@ -94,8 +94,9 @@ impl Pool {
 
     /// The right side of the diffusion of the numbers.
     ///
-    /// With the numbers n and P inside, `n - f (diffusion + k_on l P/A - k_off n) = r` is solved by `n = a + b P`, where b
-    /// is `f k_on l/(A (1 + f k_off))`, as numbers that go with the lengths l do not diffuse, and a is what diffuses.
+    /// With the numbers n and P inside, `n - f (diffusion + k_on l P/A - k_off n) = r` is solved by `n = a + b P`,
+    /// where b is `f k_on l/(A (1 + f k_off))`, as numbers that go with the lengths l do not diffuse, and a is what
+    /// diffuses.
     pub(crate) fn before(&self, factor: f64, numbers: &mut [f64]) {
         let part = 1.0 / (1.0 + factor * self.exchange.unbinding);
         numbers.iter_mut().for_each(|number| *number *= part);

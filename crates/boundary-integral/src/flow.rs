@@ -16,9 +16,9 @@ use stokes_layers::{Forcing, Geometry, InterfaceFlow, LayerError, Settings, Solu
 /// [`stokes_layers::InterfaceFlow`], which has the equations, for the markers of bodies.
 ///
 /// Every interface comes as a group of markers, [`MarkerKind::Interface`], [`MarkerKind::UnevenInterface`] or
-/// [`MarkerKind::Rigid`]: `nodes` or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers. Positions
-/// and forces are truncated to the modes that the nodes carry and the velocities come back with these modes alone.
-/// Points on which nothing pulls ([`MarkerKind::Points`]) are carried along.
+/// [`MarkerKind::Rigid`]: `nodes` or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers.
+/// Positions and forces are truncated to the modes that the nodes carry and the velocities come back with these modes
+/// alone. Points on which nothing pulls ([`MarkerKind::Points`]) are carried along.
 #[derive(Debug, Clone)]
 pub struct BoundaryIntegral {
     flow: InterfaceFlow,

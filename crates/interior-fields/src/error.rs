@@ -11,7 +11,8 @@ pub enum InteriorError {
     Input(#[from] InputError),
     /// A droplet whose number of markers changes.
     #[error(
-        "a droplet with a gel or particles inside needs a fixed number of markers: give it equally spaced ones (`Equidistributed`)"
+        "a droplet with a gel or particles inside needs a fixed number of markers: give it equally spaced ones \
+         (`Equidistributed`)"
     )]
     ChangingMarkers,
     /// A droplet whose interface has no particles that could be exchanged.

@@ -9,8 +9,8 @@
 //! sigma   = 2 eta u - zeta_b (p p - 1/2) + nu1/2 (p h + h p) + 1/2 (p h - h p) - K grad p . grad p
 //! ```
 //!
-//! u is the rate of strain, nu1 < 0 for rods, zeta_b < 0 for a contractile gel; the last terms are the antisymmetric and
-//! the Ericksen stress.
+//! u is the rate of strain, nu1 < 0 for rods, zeta_b < 0 for a contractile gel; the last terms are the antisymmetric
+//! and the Ericksen stress.
 
 mod anchoring;
 mod defect;

@@ -13,8 +13,8 @@ use motile::ib_core::{Hydrodynamics, Observer, System};
 use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers, solids::curves};
 
 /// Writes the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`) and, where there are some, all
-/// elastic solids (`solids.pvd`), gels (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid bodies
-/// and membranes (`curves.pvd`) whenever it is called.
+/// elastic solids (`solids.pvd`), gels (`gels.pvd`), particles that diffuse inside droplets (`inside.pvd`), rigid
+/// bodies and membranes (`curves.pvd`) whenever it is called.
 ///
 /// | file | where | what (dimension) |
 /// |---|---|---|

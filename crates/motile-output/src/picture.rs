@@ -13,9 +13,9 @@ const STREAMLINES: f64 = 0.05;
 pub type Track = Vec<(f64, Vec2)>;
 
 /// How scenes are drawn: pressure in colour, streamlines in the laboratory frame, the interfaces of all droplets
-/// coloured by their concentrations (black without particles), the directors and defects of gels, solids, rigid walls, between walls the paths of the
-/// droplets, the time and a scale bar. In periodic directions everything is drawn with its periodic images, so
-/// positions need not be wrapped.
+/// coloured by their concentrations (black without particles), the directors and defects of gels, solids, rigid walls,
+/// between walls the paths of the droplets, the time and a scale bar. In periodic directions everything is drawn with
+/// its periodic images, so positions need not be wrapped.
 ///
 /// ```
 /// use motile::prelude::*;

@@ -183,8 +183,8 @@ impl Director {
         Ok(())
     }
 
-    /// Writes the rate of change of the angles that are not anchored (1/time) after [`Director::write_forces`], from the
-    /// velocities of the fluid at all nodes and those of the nodes (length per time).
+    /// Writes the rate of change of the angles that are not anchored (1/time) after [`Director::write_forces`], from
+    /// the velocities of the fluid at all nodes and those of the nodes (length per time).
     pub(super) fn write_rate(&mut self, fluid: &[Vec2], mesh: &[Vec2], rate: &mut [f64]) {
         let anchored = self.anchored();
         let Self { material, elements, directors, couples, slopes, .. } = self;

@@ -11,8 +11,8 @@ use crate::InteriorError;
 /// The most nodes.
 const MOST_NODES: f64 = 1e6;
 
-/// A polar gel that fills a box with two periods, a body of a scene: its markers are nodes at rest, at which it puts its
-/// forces on the fluid, and its state are the angles of the director.
+/// A polar gel that fills a box with two periods, a body of a scene: its markers are nodes at rest, at which it puts
+/// its forces on the fluid, and its state are the angles of the director.
 #[derive(Debug, Clone)]
 pub struct GelInBox {
     director: Director,

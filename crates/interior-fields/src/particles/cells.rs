@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use ib_core::Vec2;
 
-/// The cells around the nodes of a triangulation, bounded by the lines from the middles of the triangles' sides to their
-/// centroids: areas, and for each edge between two nodes the weight of the linear elements, half the sum of the
+/// The cells around the nodes of a triangulation, bounded by the lines from the middles of the triangles' sides to
+/// their centroids: areas, and for each edge between two nodes the weight of the linear elements, half the sum of the
 /// cotangents of the angles opposite to it.
 #[derive(Debug, Clone)]
 pub(super) struct Cells {

@@ -32,15 +32,15 @@ pub struct InteriorObservables {
     pub range: [f64; 2],
 }
 
-/// Particles inside a droplet that diffuse there, are carried along by the fluid and are exchanged with its interface, a
-/// body of a scene ([`ib_core::body::Guest`]) without forces:
+/// Particles inside a droplet that diffuse there, are carried along by the fluid and are exchanged with its interface,
+/// a body of a scene ([`ib_core::body::Guest`]) without forces:
 /// ```text
 /// dC/dt + v.grad C = D_b lap C,   -D_b dC/dn = k_on C - k_off c = gain of c
 /// ```
 /// The unknowns are the numbers of particles in the cells around the nodes of a [`DiscMesh`] whose boundary are the
-/// droplet's markers; a node's density is its number over the area of its cell. All fluxes leave one cell or segment and
-/// enter another one, so particles are lost to round-off only. Diffusion is implicit, with the mesh of the start of a
-/// step; what that misses is explicit, so that a step is of second order.
+/// droplet's markers; a node's density is its number over the area of its cell. All fluxes leave one cell or segment
+/// and enter another one, so particles are lost to round-off only. Diffusion is implicit, with the mesh of the start of
+/// a step; what that misses is explicit, so that a step is of second order.
 #[derive(Debug, Clone)]
 pub struct ParticlesInDroplet {
     name: String,
@@ -71,8 +71,8 @@ pub struct ParticlesInDroplet {
 
 impl ParticlesInDroplet {
     /// Particles of that density (particles per area) and diffusion constant (length squared per time) in `droplet`,
-    /// which is or will be the body `host` of the scene, on a mesh of that spacing (length) inside. The droplet is to be
-    /// one whose particles come and go ([`ActiveDroplet::with_open_number`]).
+    /// which is or will be the body `host` of the scene, on a mesh of that spacing (length) inside. The droplet is to
+    /// be one whose particles come and go ([`ActiveDroplet::with_open_number`]).
     ///
     /// # Errors
     /// Densities that are negative or not finite, a diffusion constant that is not positive, a spacing that cannot be
@@ -176,7 +176,8 @@ impl ParticlesInDroplet {
         [segment, (segment + 1) % self.mesh.marker_count()]
     }
 
-    /// The largest cell Peclet number, speed relative to the mesh times the width of a cell over the diffusion constant.
+    /// The largest cell Peclet number, speed relative to the mesh times the width of a cell over the diffusion
+    /// constant.
     fn cell_peclet(&self) -> f64 {
         let speeds = self.fluid.iter().zip(&self.motion).map(|(fluid, motion)| fluid.distance(*motion));
         let widest = speeds.zip(&self.cells.areas).map(|(speed, area)| speed * area.sqrt()).fold(0.0, f64::max);
@@ -345,7 +346,7 @@ impl Body for ParticlesInDroplet {
             return Vec::new();
         }
         let message = format!(
-            "the cell Peclet number inside is {peclet:.2}, above {PECLET_LIMIT}: upwind fluxes add to the diffusion, give \
+            "the cell Peclet number inside is {peclet:.2}, above {PECLET_LIMIT}: upwind fluxes add diffusion, give \
              the mesh inside a narrower spacing"
         );
         let cause = "particles inside not resolved";

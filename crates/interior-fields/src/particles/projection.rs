@@ -7,8 +7,8 @@ use crate::InteriorError;
 const MOST_ENTRIES: usize = 1 << 26;
 
 /// Corrects fluxes from cell to cell by the differences of a potential so that what leaves each cell is what it should:
-/// a Cholesky factor, within the rows' first entries, of the linear elements' matrix at the places that the cells had at
-/// the start. Any other positive matrix would do too, as the correction is of the order of the error of the fluxes.
+/// a Cholesky factor, within the rows' first entries, of the linear elements' matrix at the places that the cells had
+/// at the start. Any other positive matrix would do too, as the correction is of the order of the error of the fluxes.
 #[derive(Debug, Clone)]
 pub(super) struct Projection {
     weights: Vec<f64>,

@@ -14,8 +14,8 @@ const ROOM: f64 = 2.0;
 /// Fluxes between cells come from velocities at the nodes, corrected so that what leaves each cell is exactly what its
 /// own growth leaves no room for: a uniform density stays uniform however the mesh moves. A density at a face is the
 /// mean of its two nodes'; where diffusion does not make that positive (cell Peclet numbers above 2) what is missing to
-/// the upwind one is added in part, as the limiter of Zalesak, J. Comput. Phys. 31 (1979) 335, in the form of Kuzmin, J.
-/// Comput. Phys. 228 (2009) 2517, has it.
+/// the upwind one is added in part, as the limiter of Zalesak, J. Comput. Phys. 31 (1979) 335, in the form of Kuzmin,
+/// J. Comput. Phys. 228 (2009) 2517, has it.
 #[derive(Debug, Clone)]
 pub(super) struct Transport {
     projection: Projection,
