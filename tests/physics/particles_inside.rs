@@ -89,9 +89,10 @@ impl Mode {
 /// symmetric in the densities weighted by areas, and by lengths times k_off/k_on.
 fn quotient(mode: Mode, activity: f64, markers: usize, spacing: f64) -> f64 {
     let nodes = markers / 2;
-    let flow = BoundaryIntegral::new(Geometry::Plane, VISCOSITY, Settings { nodes, ..Settings::default() }).unwrap();
+    let flow = BoundaryIntegral::new(Geometry::Plane, VISCOSITY, Settings { nodes, ..Settings::default() })
+        .expect("a scene that works");
     let mut scene = Scene::new(flow);
-    let circle = Curve::circle(1.0).unwrap().markers(markers).unwrap();
+    let circle = Curve::circle(1.0).expect("a scene that works").markers(markers).expect("a scene that works");
     let length = circle[0].distance(circle[1]);
     // Without activity the equations are linear at any size.
     let part = if activity == 0.0 { 0.3 } else { 1e-4 };
@@ -99,22 +100,25 @@ fn quotient(mode: Mode, activity: f64, markers: usize, spacing: f64) -> f64 {
     let wave = |segment: usize| mode.on() * (mode.k * TAU * (segment as f64 + 0.5) / markers as f64).cos();
     let numbers = (0..markers).map(|segment| length * (MEAN + size * wave(segment))).collect();
     let droplet = if activity == 0.0 {
-        ActiveDroplet::new(&circle, numbers, ConstantTension::new(10.0).unwrap(), DIFFUSION).unwrap()
+        ActiveDroplet::new(&circle, numbers, ConstantTension::new(10.0).expect("a scene that works"), DIFFUSION)
+            .expect("a scene that works")
     } else {
-        let law = ContractileTension::new(10.0 - activity * MEAN, activity, ExcludedVolume::None).unwrap();
-        ActiveDroplet::new(&circle, numbers, law, DIFFUSION).unwrap()
+        let law = ContractileTension::new(10.0 - activity * MEAN, activity, ExcludedVolume::None)
+            .expect("a scene that works");
+        ActiveDroplet::new(&circle, numbers, law, DIFFUSION).expect("a scene that works")
     };
     let droplet = droplet.with_open_number();
-    let exchange = Exchange::new(BINDING, UNBINDING).unwrap();
-    let rest = exchange.concentration_at_rest(MEAN).unwrap();
+    let exchange = Exchange::new(BINDING, UNBINDING).expect("a scene that works");
+    let rest = exchange.concentration_at_rest(MEAN).expect("a scene that works");
     let host = scene.add(droplet.clone());
     let density = |at: Vec2| rest + size * mode.density(at);
-    let inside = ParticlesInDroplet::new(&droplet, host, exchange, mode.bulk, density, spacing).unwrap();
+    let inside =
+        ParticlesInDroplet::new(&droplet, host, exchange, mode.bulk, density, spacing).expect("a scene that works");
     scene.add(inside.clone());
     let at_start = inside;
     let [mut before, mut after] = [Vec::new(), Vec::new()];
     scene.system().write_state(&mut before);
-    scene.step(STEP).unwrap();
+    scene.step(STEP).expect("a scene that works");
     scene.system().write_state(&mut after);
     let change: Vec<f64> = after.iter().zip(&before).map(|(after, before)| (after - before) / size).collect();
     let [mut above, mut below] = [0.0; 2];
@@ -169,7 +173,7 @@ fn swimmer(method: Setup, region: Region, exchange: ExchangeSetup) -> Built {
         ..Particles::default()
     };
     let droplet = DropletSetup { particles: Some(particles), ..DropletSetup::default() };
-    Setup { region, droplets: vec![droplet], ..method }.build().unwrap()
+    Setup { region, droplets: vec![droplet], ..method }.build().expect("a scene that works")
 }
 
 fn seen(scene: &mut Scene<AnyFlow>) -> InteriorObservables {
