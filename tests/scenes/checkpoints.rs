@@ -173,8 +173,8 @@ fn particles_inside() {
     if let Some(particles) = &mut setup.droplets[0].particles {
         particles.exchange = Some(exchange);
     }
-    compare(|| scene(&setup), 0.2, StepSize::OfLimit(0.5), &[1, 7, 13]);
-    compare(|| scene(&setup), 0.2, StepSize::Adaptive { tolerance: 1e-3 }, &[2, 5]);
+    compare(|| scene(&setup), 2.0, StepSize::OfLimit(0.5), &[1, 3, 5]);
+    compare(|| scene(&setup), 4.0, StepSize::Adaptive { tolerance: 1e-3 }, &[1, 2]);
 }
 
 #[test]

@@ -47,6 +47,9 @@ pub struct System<H> {
     placed: bool,
     /// Whether the bodies are known to lie as they may.
     apart: bool,
+    /// Whether bodies have been put in or changed since the last step, so that what bounds a step by how fast they
+    /// move is not known.
+    unmoved: bool,
     minimum_wall_gap: Option<f64>,
     minimum_gap: Option<f64>,
     gaps: Gaps,
@@ -82,6 +85,7 @@ impl<H: Hydrodynamics> System<H> {
             current: false,
             placed: false,
             apart: false,
+            unmoved: true,
             minimum_wall_gap: None,
             minimum_gap: None,
             gaps: Gaps::default(),
@@ -98,6 +102,7 @@ impl<H: Hydrodynamics> System<H> {
     }
 
     pub(crate) fn push<B: Body>(&mut self, mut body: B) -> Handle<B> {
+        self.unmoved = true;
         self.push_guest(&mut body);
         self.markers.push_solid(body.marker_count(), body.kind(), body.surfaces());
         self.bodies.push(Box::new(body));
@@ -179,6 +184,11 @@ impl<H: Hydrodynamics> System<H> {
         self.current
     }
 
+    /// Whether bodies have been put in or changed since the last step.
+    pub(crate) fn is_unmoved(&self) -> bool {
+        self.unmoved
+    }
+
     /// Takes over the state of a checkpoint.
     pub(crate) fn load<'a>(
         &mut self,
@@ -190,6 +200,8 @@ impl<H: Hydrodynamics> System<H> {
     ) -> Result<(), SceneError> {
         self.forget_flow();
         self.apart = false;
+        // Later on bodies have saved it.
+        self.unmoved = steps == 0;
         self.hydrodynamics.load(flow);
         let discretisation = self.hydrodynamics.discretisation();
         for (body, saved) in self.bodies.iter_mut().zip(bodies) {
@@ -360,6 +372,7 @@ impl<H: Hydrodynamics> System<H> {
         let (discretisation, time) = (self.hydrodynamics.discretisation(), self.time);
         self.forget_flow();
         self.apart = false;
+        self.unmoved = false;
         self.show_hosts();
         for index in 0..self.bodies.len() {
             self.show_host(index);

@@ -46,6 +46,7 @@ impl<H: Hydrodynamics> System<H> {
         // Whoever holds the body mutably may change it.
         self.forget_flow();
         self.apart = false;
+        self.unmoved = true;
         let body: &mut dyn Any = self.bodies[index].as_mut();
         body.downcast_mut().ok_or(SceneError::ForeignHandle)
     }
