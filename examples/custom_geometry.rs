@@ -43,7 +43,7 @@ fn build_with(setup: &Setup, shape: &Channel) -> Result<Built> {
     let lower = walls[0].on_mesh(shape.lower_wall(-top, &walls[0].mesher(grid)?)?, &setup.region)?;
     let upper = walls[1].on_mesh(shape.upper_wall(top, &walls[1].mesher(grid)?)?, &setup.region)?;
     let solids = vec![scene.add(lower), scene.add(upper)];
-    Ok(Built { scene, droplets, solids })
+    Ok(Built { scene, droplets, solids, rigid_bodies: Vec::new(), shells: Vec::new() })
 }
 
 /// Which geometry.

@@ -22,6 +22,7 @@ mod passage;
 mod region_flags;
 mod steady;
 mod summary;
+mod turning;
 mod wall_flags;
 mod watched_run;
 
@@ -36,5 +37,6 @@ pub use passage::{Decided, Passage, Verdict};
 pub use region_flags::{AnyRegionFlags, RegionKind};
 pub use steady::Steadiness;
 pub use summary::{Summary, make_directory};
+pub use turning::turning_rate;
 pub use wall_flags::{ElasticFlags, Material};
 pub use watched_run::WatchedRun;

@@ -128,6 +128,12 @@ impl WatchedRun {
         self.recorder.track()
     }
 
+    /// What was measured of the droplet, in the order of time.
+    #[must_use]
+    pub fn records(&self) -> &[TrajectoryRecord] {
+        self.recorder.records().records()
+    }
+
     /// The number of particles at the start, on the interface and inside.
     ///
     /// # Errors
@@ -144,7 +150,7 @@ impl WatchedRun {
     /// # Errors
     /// A run that has not been.
     pub fn last(&self) -> Result<&TrajectoryRecord> {
-        self.recorder.records().records().last().context("nothing was measured")
+        self.records().last().context("nothing was measured")
     }
 
     /// Writes and prints the results; draws the final state (`final.png`), the run (`swim.gif`) and the plots, unless

@@ -9,6 +9,7 @@ mod channels;
 mod elastic_step;
 mod hard_cases;
 mod instructions;
+mod nucleus;
 mod results;
 mod run_pool;
 mod scaling;
@@ -54,6 +55,7 @@ enum Study {
     ElasticStep(elastic_step::Flags),
     Warnings(warnings::Flags),
     Instructions(instructions::Flags),
+    Nucleus(nucleus::Flags),
     Stale(tables::StaleFlags),
     Pages(tables::PagesFlags),
 }
@@ -75,6 +77,7 @@ fn main() -> ExitCode {
         Study::ElasticStep(flags) => elastic_step::run(flags),
         Study::Warnings(flags) => warnings::run(flags),
         Study::Instructions(flags) => instructions::run(flags),
+        Study::Nucleus(flags) => nucleus::run(flags),
         Study::Stale(flags) => tables::stale(flags),
         Study::Pages(flags) => tables::pages(flags),
     })

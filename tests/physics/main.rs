@@ -16,6 +16,7 @@ mod linear_theory;
 mod near_walls;
 mod nested;
 mod net_forces;
+mod nucleus;
 mod recommended;
 mod relaxation;
 mod solids;

@@ -51,7 +51,7 @@ fn setup(units: Units, scene: Scene) -> Setup {
     let repulsion = repulsion.filter(|_| droplets.len() == 2);
     let viscosity = units.viscosity(100.0);
     let step = StepSize::OfLimit(0.5);
-    Setup { region, method, viscosity, droplets, solids, rigid: Vec::new(), repulsion, least_gap: None, step }
+    Setup { region, method, viscosity, droplets, solids, repulsion, step, ..Setup::default() }
 }
 
 /// Speed, direction, stresslet, aspect ratio and place of the first droplet in the units of the scene, and the steps.

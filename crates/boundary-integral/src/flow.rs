@@ -10,13 +10,13 @@ use ib_core::{
 };
 use ib_core::{Vec2, hydrodynamics::MarkerGroup};
 use stokes_grid::Drive;
-use stokes_layers::{Forcing, Geometry, Interface, InterfaceFlow, LayerError, Settings, Solution, WarmStart};
+use stokes_layers::{Forcing, Geometry, InterfaceFlow, LayerError, Settings, Solution, WarmStart};
 
 /// Stokes flow of closed fluid interfaces in the plane, a periodic box or a channel, without a grid:
 /// [`stokes_layers::InterfaceFlow`], which has the equations, for the markers of bodies.
 ///
-/// Every interface comes as a group of markers, [`MarkerKind::Interface`] or [`MarkerKind::UnevenInterface`]: `nodes`
-/// or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers. Positions and forces are truncated to
+/// Every interface comes as a group of markers, [`MarkerKind::Interface`], [`MarkerKind::UnevenInterface`] or
+/// [`MarkerKind::Rigid`]: `nodes` or more markers, counter-clockwise, marker k at the parameter 2 pi k/markers. Positions and forces are truncated to
 /// the modes that the nodes carry and the velocities come back with these modes alone.
 #[derive(Debug, Clone)]
 pub struct BoundaryIntegral {
@@ -89,11 +89,8 @@ impl BoundaryIntegral {
             });
         }
         let viscosity = self.flow.viscosity();
-        let interface = |group: &MarkerGroup| {
-            let (positions, forces) =
-                (&markers.positions()[group.range.clone()], &markers.forces()[group.range.clone()]);
-            Interface::closed(positions, forces, group.viscosities(viscosity))
-        };
+        let (positions, forces) = (markers.positions(), markers.forces());
+        let interface = |group: &MarkerGroup| group.interface(positions, forces, viscosity);
         Ok(self.flow.load(markers.groups().iter().map(interface))?)
     }
 }
@@ -149,6 +146,13 @@ impl Hydrodynamics for BoundaryIntegral {
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
         self.load(markers)?;
+        if markers.groups().iter().any(|group| group.kind == MarkerKind::Rigid) {
+            // Velocities do not tell of the layer on a rigid body. What the next step starts from stays what it is.
+            let before = self.flow.warm_start();
+            self.flow.solve()?;
+            self.flow.resume(before);
+            return Ok(self.flow.sample(points, out)?);
+        }
         for (index, group) in markers.groups().iter().enumerate() {
             self.flow.set_velocities(index, &markers.velocities()[group.range.clone()])?;
         }

@@ -39,6 +39,8 @@
 //! * **Materials**: [`NeoHookean`] (Cowley's), others in [`material`], or an [`EnergyDensity`] of your own;
 //!   [`Moduli`] converts between constants, Cowley's spring constant among them.
 //! * **Forces** of a mesh by themselves ([`forces`]), and what every law of your own must satisfy ([`check`]).
+//! * **Membranes and rigid bodies**: [`Shell`], a closed membrane that resists stretching and bending; [`RigidBody`], of
+//!   any outline, that the fluid carries along.
 //! * **In the fluid**: [`Solid::pinned`] and [`Solid::tethered`] to hold a solid.
 //! * **Measurements**: displacement, stress, energy and drift of a [`Solid`]; [`channel::width_between`] walls.
 //!
@@ -59,6 +61,8 @@ pub mod material;
 pub mod mesh;
 mod mesher;
 mod outline;
+mod rigid_body;
+mod shell;
 pub mod solid;
 
 pub use channel::Channel;
@@ -68,4 +72,6 @@ pub use material::{EnergyDensity, Moduli, NeoHookean};
 pub use mesh::TriangleMesh;
 pub use mesher::Mesher;
 pub use outline::{Interior, Outline};
+pub use rigid_body::{RigidBody, RigidBodyMotion};
+pub use shell::{BendingMeasure, Shell};
 pub use solid::Solid;

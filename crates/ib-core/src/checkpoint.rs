@@ -108,6 +108,7 @@ fn kind(kind: MarkerKind) -> u8 {
         MarkerKind::UnevenInterface { viscosity_inside: None } => 2,
         MarkerKind::UnevenInterface { .. } => 3,
         MarkerKind::Points => 4,
+        MarkerKind::Rigid => 5,
     }
 }
 

@@ -8,7 +8,7 @@ mod stresslet;
 
 use std::ops::Range;
 
-use input_checks::{InputError, positive};
+use input_checks::positive;
 use stokes_layers::Geometry;
 use stokes_layers::dense::{DoubleLayerMatrix, NodeCurve};
 pub(crate) use stokes_layers::gmres::Outcome;
@@ -94,8 +94,14 @@ pub(crate) struct Droplet {
 /// fluid.
 ///
 /// # Errors
-/// A viscosity that is not positive and finite.
-pub(crate) fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 2]>, InputError> {
+/// A viscosity that is not positive and finite; a rigid body.
+pub(crate) fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 2]>, FlowError> {
+    if group.kind == MarkerKind::Rigid {
+        return Err(FlowError::Unsupported {
+            what: "a rigid body that is coupled to a grid alone",
+            remedy: "use boundary integrals, or layers beside elastic solids",
+        });
+    }
     if !group.kind.is_interface() {
         return Ok(None);
     }

@@ -75,7 +75,7 @@ impl Gaps {
 
     /// Whether a body lies inside an interface, or inside one of its images.
     fn lies_in(&self, inner: usize, outer: usize, periods: [Option<f64>; 2]) -> bool {
-        let around = inner != outer && self.kinds[outer].is_interface();
+        let around = inner != outer && self.kinds[outer].holds_fluid();
         around && self.boundaries[inner].lies_in(&self.boundaries[outer], periods, 0.0)
     }
 

@@ -10,7 +10,7 @@ use stokes_layers::{Forcing, Geometry, Reciprocity, SingleLayer, Solution};
 
 use crate::immersed_boundary::{WALL_TOLERANCE, sampling};
 use crate::{
-    Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, Markers, Transfer, Vec2,
+    Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, Kernel, MarkerKind, Markers, Transfer, Vec2,
     checkpoint::SavedState,
     hydrodynamics::{FlowWork, MarkerGroup},
 };
@@ -181,7 +181,8 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
     /// Whether all fluid has one viscosity.
     fn is_uniform(&self, markers: &Markers) -> bool {
         let viscosity = self.solver.viscosity();
-        let uniform = |group: &MarkerGroup| group.viscosities(viscosity).iter().all(|value| *value == viscosity);
+        let same = |group: &MarkerGroup| group.viscosities(viscosity).iter().all(|value| *value == viscosity);
+        let uniform = |group: &MarkerGroup| group.kind != MarkerKind::Rigid && same(group);
         markers.groups().iter().all(uniform)
     }
 

@@ -9,10 +9,10 @@ use std::path::Path;
 use motile::active_interface::{ActiveDroplet, observables::InterfaceState};
 use motile::ib_core::{Hydrodynamics, Observer, System};
 
-use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers};
+use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_markers, solids::curves};
 
 /// Writes the flow (`fields.pvd`), the interfaces of all droplets (`interface.pvd`) and, where there are some, all
-/// elastic solids (`solids.pvd`) and gels (`gels.pvd`) whenever it is called.
+/// elastic solids (`solids.pvd`), gels (`gels.pvd`), rigid bodies and membranes (`curves.pvd`) whenever it is called.
 ///
 /// | file | where | what (dimension) |
 /// |---|---|---|
@@ -25,6 +25,8 @@ use crate::{Error, Raster, Snapshot, Vec2, VtkFile, VtkSeries, snapshot::at_mark
 /// | solids | in the triangles | the number of the solid |
 /// | gels | at the nodes | director (no dimension) |
 /// | gels | in the triangles | the number of the gel |
+/// | curves | at the markers | velocity (length per time), force on the fluid (force) |
+/// | curves | one line a body | its number, in the order of addition |
 ///
 /// The vorticity is `dv/dx - du/dy`, the deviator of the stress `sqrt(((s_xx - s_yy)/2)^2 + s_xy^2)`.
 ///
@@ -47,6 +49,7 @@ pub struct ParaView {
     interface: VtkSeries,
     solids: VtkSeries,
     gels: VtkSeries,
+    curves: VtkSeries,
 }
 
 impl ParaView {
@@ -56,8 +59,8 @@ impl ParaView {
     /// [`Error::Write`]: a directory that cannot be made.
     pub fn create(directory: impl AsRef<Path>, raster: Raster) -> Result<Self, Error> {
         let series = |name| VtkSeries::create(directory.as_ref(), name);
-        let [fields, interface] = [series("fields")?, series("interface")?];
-        Ok(Self { raster, fields, interface, solids: series("solids")?, gels: series("gels")? })
+        let [fields, interface, solids] = [series("fields")?, series("interface")?, series("solids")?];
+        Ok(Self { raster, fields, interface, solids, gels: series("gels")?, curves: series("curves")? })
     }
 
     fn write<H: Hydrodynamics>(&mut self, system: &mut System<H>) -> Result<(), Error> {
@@ -69,6 +72,9 @@ impl ParaView {
         self.fields.push(seen.time, &file)?;
 
         self.interface.push(seen.time, &interfaces(system, &seen)?)?;
+        if let Some(file) = curve_lines(system)? {
+            self.curves.push(seen.time, &file)?;
+        }
         if let Some(file) = solids::file(system) {
             self.solids.push(seen.time, &file)?;
         }
@@ -92,6 +98,20 @@ fn interfaces<H: Hydrodynamics>(system: &System<H>, seen: &Snapshot) -> Result<V
         .point_vectors("velocity", velocity)
         .point_vectors("force", force)
         .cell_scalars("droplet", (0..lines.len()).map(|number| number as f64)))
+}
+
+/// All rigid bodies and membranes; `None` if there are none.
+fn curve_lines<H: Hydrodynamics>(system: &System<H>) -> Result<Option<VtkFile>, Error> {
+    let (mut lines, mut velocity, mut force): (Vec<Vec<Vec2>>, Vec<Vec2>, Vec<Vec2>) = Default::default();
+    for (handle, _) in curves(system) {
+        let flow = system.flow_at(handle)?;
+        lines.push(flow.positions.to_vec());
+        velocity.extend(flow.velocities);
+        force.extend(flow.forces);
+    }
+    let numbers = (0..lines.len()).map(|number| number as f64);
+    let file = || VtkFile::closed_lines(&lines).point_vectors("velocity", velocity).point_vectors("force", force);
+    Ok((!lines.is_empty()).then(|| file().cell_scalars("body", numbers)))
 }
 
 impl<H: Hydrodynamics> Observer<H> for ParaView {

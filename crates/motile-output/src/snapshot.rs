@@ -6,7 +6,7 @@ use motile::interior_fields::{Defect, GelInDroplet};
 
 use crate::{
     Error, Raster, SolidShape, Vec2,
-    solids::{rigid_shape, solid_shape},
+    solids::{curve_shapes, rigid_shape, solid_shape},
 };
 
 /// A droplet at one time.
@@ -44,7 +44,8 @@ pub struct Snapshot {
     pub droplets: Vec<DropletOutline>,
     /// The gels inside droplets, in the order of addition.
     pub gels: Vec<GelField>,
-    /// The elastic solids, in the order of addition, and rigid walls and obstacles as one more.
+    /// The elastic solids, rigid bodies and membranes, each in the order of addition, and rigid walls and obstacles as
+    /// one more.
     pub solids: Vec<SolidShape>,
     /// Heights of straight rigid walls (length).
     pub walls: Option<[f64; 2]>,
@@ -76,7 +77,12 @@ impl Snapshot {
             raster,
             flow,
             droplets: system.bodies().map(shape).collect::<Result<_, Error>>()?,
-            solids: system.bodies().map(|(_, solid)| solid_shape(solid)).chain(rigid).collect(),
+            solids: system
+                .bodies()
+                .map(|(_, solid)| solid_shape(solid))
+                .chain(curve_shapes(system))
+                .chain(rigid)
+                .collect(),
             walls,
         })
     }

@@ -1,8 +1,11 @@
 //! What is seen of the elastic solids of a scene.
 
+use std::any::Any;
+
+use motile::active_interface::ActiveDroplet;
 use motile::elastic_solids::{Solid, channel::width_between, solid::Deformation};
 use motile::ib_core::gap::{Boundary, SolidGap};
-use motile::ib_core::{Hydrodynamics, System};
+use motile::ib_core::{Body, Handle, Hydrodynamics, System};
 
 use crate::{Error, SolidShape, Vec2};
 
@@ -43,6 +46,25 @@ pub(crate) fn solid_shape(solid: &Solid) -> SolidShape {
         shape.area.push(around);
     }
     shape
+}
+
+/// The bodies of a system that are closed curves but no droplets: rigid bodies, membranes.
+pub(crate) fn curves<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = (Handle<dyn Body>, &dyn Body)> {
+    system.all_bodies().filter(|(_, body)| {
+        let any: &dyn Any = *body;
+        body.kind().is_interface() && !any.is::<ActiveDroplet>()
+    })
+}
+
+/// Their shapes: rigid ones are filled.
+pub(crate) fn curve_shapes<H: Hydrodynamics>(system: &System<H>) -> impl Iterator<Item = SolidShape> {
+    curves(system).map(|(_, body)| {
+        let mut shape = rigid_shape(&Boundary::of(body), None);
+        if body.kind().holds_fluid() {
+            shape.area.clear();
+        }
+        shape
+    })
 }
 
 /// Rigid walls and obstacles; those that are open reach to the straight walls behind them.

@@ -3,9 +3,10 @@
 pub use crate::{
     AnyFlow, Axis, Built, ChannelShape, Contrast, DropletSetup, DropletShape, ExchangeSetup, Exclusion, GelSetup,
     Grading, GridMethod, Hold, IntegralMethod, MarkerMotion, Material, MeshKind, Method, Particles, Region,
-    RepulsionSetup, RigidSetup, Setup, SetupError, SolidOutline, SolidSetup, Squeezed, Start, Surface,
+    RepulsionSetup, RigidBodySetup, RigidSetup, Setup, SetupError, ShellSetup, SolidOutline, SolidSetup, Squeezed,
+    Start, Surface,
 };
 pub use active_interface::{ActiveDroplet, Curve, Flux};
-pub use elastic_solids::Solid;
+pub use elastic_solids::{BendingMeasure, RigidBody, Shell, Solid};
 pub use ib_core::{AnyKernel, Checkpoint, Every, Handle, Hydrodynamics, Scene, SceneError, StepSize, System, Vec2};
 pub use stokes_grid::Drive;

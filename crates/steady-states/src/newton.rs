@@ -17,8 +17,8 @@ const LEAST_PART: f64 = 0.01;
 /// and particles of this part of them, are none.
 const NO_RATE: f64 = 1e-14;
 const NO_LACK: f64 = 1e-11;
-/// Rates beyond this part of D/R^2 are left where what is not solved for, the other symmetry, is not steady; the flow of
-/// a mirror-symmetric droplet is so up to the error of its nodes.
+/// Rates beyond this part of D/R^2 are left where what is not solved for, the other symmetry, is not steady; the flow
+/// of a mirror-symmetric droplet is so up to the error of its nodes.
 const MOST_RATE: f64 = 0.1;
 /// Corrections that shrink by this factor do with the matrix that there is.
 const CONTRACTION: f64 = 0.1;

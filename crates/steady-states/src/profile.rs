@@ -115,8 +115,8 @@ impl Profile {
         }
     }
 
-    /// The mirror-symmetric droplet next to this one: its mean with its mirror image at the x axis, its first node being
-    /// where it crosses the axis in front.
+    /// The mirror-symmetric droplet next to this one: its mean with its mirror image at the x axis, its first node
+    /// being where it crosses the axis in front.
     ///
     /// # Errors
     /// A curve that is not finite.

@@ -146,9 +146,9 @@ impl SteadyState {
         Self::newton(setup, &profile, [0.0; 3], true, 0.0)
     }
 
-    /// Newton's method from a droplet that is near a steady state, such as one from a run
-    /// ([`Profile::from_markers`]) or a neighbour ([`SteadyState::profile`]) with its velocity; `mirror` says that only
-    /// states which are their own mirror image at the x axis are looked for, from the mean of the droplet and its image.
+    /// Newton's method from a droplet that is near a steady state, such as one from a run ([`Profile::from_markers`])
+    /// or a neighbour ([`SteadyState::profile`]) with its velocity; `mirror` says that only states which are their own
+    /// mirror image at the x axis are looked for, from the mean of the droplet and its image.
     ///
     /// # Errors
     /// As [`SteadyState::find`].

@@ -1,5 +1,6 @@
 //! The flow of fluid interfaces: velocities on them from the forces on them, for any viscosity inside and outside.
 
+mod free_body;
 mod rigid;
 
 use std::f64::consts::PI;
@@ -16,6 +17,7 @@ use crate::{
     layer::{Density, Layers},
     single_layer::LayerCurve,
 };
+pub use free_body::RigidMotion;
 use rigid::RigidWalls;
 
 /// The least residual that round-off lets be reached, as part of the right-hand side.
@@ -33,6 +35,18 @@ pub(crate) const LARGEST_RATIO: f64 = 20.0;
 /// Largest ratio of viscosities: velocities are then right to some 1e-8.
 const MOST_CONTRAST: f64 = 1e8;
 
+/// What an interface encloses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Inside {
+    /// Fluid.
+    Fluid {
+        /// Its viscosity (stress times time).
+        viscosity: f64,
+    },
+    /// A rigid body that moves freely: the forces on its surface are all that act on it.
+    Rigid,
+}
+
 /// An interface as points of equally spaced parameters: point k of n belongs to the parameter 2 pi k/n.
 #[derive(Debug, Clone, Copy)]
 pub struct Interface<'a> {
@@ -43,16 +57,25 @@ pub struct Interface<'a> {
     pub period: Vec2,
     /// Force on the fluid at each point (force): the force per length times the length that belongs to the point.
     pub forces: &'a [Vec2],
-    /// Viscosities inside and outside (stress times time); outside is another fluid than the exterior where the
-    /// interface lies inside another one.
-    pub viscosities: [f64; 2],
+    /// What is inside.
+    pub inside: Inside,
+    /// Viscosity outside (stress times time), of another fluid than the exterior where the interface lies inside
+    /// another one.
+    pub viscosity_outside: f64,
 }
 
 impl<'a> Interface<'a> {
-    /// A closed interface.
+    /// A closed interface between fluids of these viscosities inside and outside (stress times time).
     #[must_use]
-    pub fn closed(positions: &'a [Vec2], forces: &'a [Vec2], viscosities: [f64; 2]) -> Self {
-        Self { positions, period: Vec2::ZERO, forces, viscosities }
+    pub fn closed(positions: &'a [Vec2], forces: &'a [Vec2], [inside, outside]: [f64; 2]) -> Self {
+        let inside = Inside::Fluid { viscosity: inside };
+        Self { positions, period: Vec2::ZERO, forces, inside, viscosity_outside: outside }
+    }
+
+    /// The surface of a rigid body in fluid of that viscosity (stress times time).
+    #[must_use]
+    pub fn rigid(positions: &'a [Vec2], forces: &'a [Vec2], viscosity_outside: f64) -> Self {
+        Self { positions, period: Vec2::ZERO, forces, inside: Inside::Rigid, viscosity_outside }
     }
 }
 
@@ -109,6 +132,17 @@ pub struct WarmStart {
 /// is solved by GMRES. Nodes close to another interface get a quadrature of their own, so that gaps are limited by what
 /// the film between them needs, not by the kernel.
 ///
+/// A rigid body is the limit of eta_in to infinity, in which `v = U + Om x (x - x_c) + w/eta_in`: with the rigid motion
+/// P w/eta_out for the first two terms, P the mean motion of a density w,
+///
+/// ```text
+/// P w(x) + w(x)/2 = 1/(4 pi) INT G(x, y) F(y) ds - 1/(4 pi) INT w(y) T(x, y) n ds
+/// ```
+///
+/// the completed double layer of Power and Miranda (SIAM J. Appl. Math. 47, 1987) with the forces on the surface F as
+/// its completion: where they have neither resultant nor torque the body is free of both. The double layer of a rigid
+/// motion is nothing outside, so that w acts on all else as `eta_in v` would.
+///
 /// [`InterfaceFlow::load`], [`InterfaceFlow::solve`], then [`InterfaceFlow::velocities`] on the interfaces and
 /// [`InterfaceFlow::sample`] anywhere. While the numbers of interfaces and points stay the same nothing is allocated.
 #[derive(Debug, Clone)]
@@ -133,6 +167,9 @@ pub struct InterfaceFlow {
     deflation: Vec<f64>,
     /// The product of the last solution.
     image: Vec<f64>,
+    /// Which interfaces are those of rigid bodies, and the motion of one at the nodes.
+    bodies: Vec<bool>,
+    motion: Vec<f64>,
     rigid: Option<Box<RigidWalls>>,
     /// Whether the interfaces are known to lie between the walls.
     placed: bool,
@@ -166,6 +203,8 @@ impl InterfaceFlow {
             normals: Vec::new(),
             deflation: Vec::new(),
             image: Vec::new(),
+            bodies: Vec::new(),
+            motion: Vec::new(),
             rigid: None,
             placed: true,
         })
@@ -259,16 +298,23 @@ impl InterfaceFlow {
         self.viscosities.clear();
         self.contrasts.clear();
         self.scales.clear();
-        for Interface { viscosities: [inside, outside], .. } in interfaces.clone() {
-            positive("the viscosity inside an interface", inside)?;
+        self.bodies.clear();
+        for Interface { inside, viscosity_outside: outside, .. } in interfaces.clone() {
+            self.bodies.push(inside == Inside::Rigid);
+            let inside = match inside {
+                Inside::Fluid { viscosity } => positive("the viscosity inside an interface", viscosity)?,
+                Inside::Rigid => outside,
+            };
             positive("the viscosity outside an interface", outside)?;
             for viscosity in [inside, outside] {
                 let ratio = viscosity / self.viscosity;
                 within("the ratio of viscosities to the exterior one", ratio, 1.0 / MOST_CONTRAST, MOST_CONTRAST)?;
             }
             self.viscosities.push(inside);
-            self.contrasts.push(inside - outside);
-            self.scales.push(2.0 / (inside + outside));
+            // The density of a rigid body is w/eta_out.
+            let density = self.bodies.last().is_some_and(|rigid| *rigid);
+            self.contrasts.push(if density { outside } else { inside - outside });
+            self.scales.push(2.0 / if density { outside } else { inside + outside });
         }
         let nodes = self.settings.nodes;
         let given =
@@ -376,6 +422,12 @@ impl InterfaceFlow {
         self.right.extend(nodes.flat_map(|(flow, scale)| flow.iter().map(move |value| value * scale)));
         let Outcome { iterations, residual } = self.solve_right(true)?;
         velocities.copy_from_slice(&self.velocities);
+        let interfaces = velocities.chunks_exact_mut(2 * self.settings.nodes).zip(&self.layers.curves);
+        for (values, curve) in interfaces.zip(&self.bodies).filter_map(|(pair, rigid)| rigid.then_some(pair)) {
+            let motion = RigidMotion::of(curve, values);
+            values.fill(0.0);
+            motion.add(curve, 1.0, values);
+        }
         Ok(Solution { iterations, residual, pressure_gradient: 0.0 })
     }
 
@@ -401,10 +453,11 @@ impl InterfaceFlow {
         self.normals.clear();
         self.deflation.clear();
         let mut goal = tolerance;
-        for ((curve, viscosity), scale) in self.layers.curves.iter().zip(&self.viscosities).zip(&self.scales) {
+        let interfaces = self.layers.curves.iter().zip(&self.viscosities).zip(&self.scales).zip(&self.bodies);
+        for (((curve, viscosity), scale), rigid) in interfaces {
             // A rigid motion is multiplied by eta_out alone, or with what is around by the exterior viscosity, so a
             // residual in it counts that much more.
-            let outside = 2.0 / scale - viscosity;
+            let outside = if *rigid { *viscosity } else { 2.0 / scale - viscosity };
             goal = goal.min(tolerance * outside.min(self.viscosity) * scale);
             // A uniform expansion is multiplied by eta_in alone. The velocity has none, so the operator may do with it
             // as it likes: what is added makes the factor that of the rest.
@@ -414,8 +467,9 @@ impl InterfaceFlow {
             self.normals.extend(curve.nodes.tangent.iter().map(|t| -t.re / t.norm_sqr().sqrt()));
         }
         goal = goal.max(ATTAINABLE);
-        let Self { gmres, layers, rigid, contrasts, scales, right, solution, normals, deflation, image, .. } = self;
-        let operator = Operator { contrasts, scales, normals, deflation };
+        let Self { gmres, layers, rigid, contrasts, scales, bodies, .. } = self;
+        let Self { right, solution, normals, deflation, image, .. } = self;
+        let operator = Operator { contrasts, scales, bodies, normals, deflation };
         let mut product = |v: &[f64], out: &mut [f64], accuracy: f64| {
             operator.apply(layers, rigid.as_deref_mut(), v, accuracy.max(tolerance), out);
         };
@@ -462,14 +516,29 @@ impl InterfaceFlow {
         let expected = self.layers.curves[..self.len()].get(interface).map_or(0, |curve| curve.points);
         same_length("the velocities of an interface", expected, out.len())?;
         same_length("the solution", 2 * nodes * self.len(), self.velocities.len())?;
-        self.layers
-            .plan(interface)
-            .transforms
-            .at_points(&self.velocities[2 * nodes * interface..][..2 * nodes], out)?;
+        let mut values = &self.velocities[2 * nodes * interface..][..2 * nodes];
+        if self.bodies[interface] {
+            let curve = &self.layers.curves[interface];
+            self.motion.clear();
+            self.motion.resize(2 * nodes, 0.0);
+            RigidMotion::of(curve, values).add(curve, 1.0, &mut self.motion);
+            values = &self.motion;
+        }
+        self.layers.plan(interface).transforms.at_points(values, out)?;
         finite_vectors("the velocity", interface, out)
     }
 
-    /// Takes over velocities at the points of an interface, as if they were the solution.
+    /// The motion of a rigid body from the last solution; none where there is no rigid body of that number or no
+    /// solution.
+    #[must_use]
+    pub fn rigid_motion(&self, interface: usize) -> Option<RigidMotion> {
+        let nodes = self.settings.nodes;
+        let curve = self.layers.curves.get(interface).filter(|_| self.bodies.get(interface) == Some(&true))?;
+        Some(RigidMotion::of(curve, self.velocities.get(2 * nodes * interface..2 * nodes * (interface + 1))?))
+    }
+
+    /// Takes over velocities at the points of an interface, as if they were the solution. They are none for a rigid
+    /// body, whose flow follows from a solution alone.
     ///
     /// # Errors
     /// No such interface, another number of points, velocities that are not finite.
@@ -503,6 +572,7 @@ impl InterfaceFlow {
             }
             self.settle_walls();
         }
+        let motions: Vec<_> = (0..self.len()).map(|interface| self.rigid_motion(interface)).collect();
         let Self { layers, rigid, viscosities, contrasts, velocities, .. } = self;
         if let Some(rigid) = rigid {
             layers.set_kept(rigid.forces.as_slice(), true);
@@ -510,7 +580,7 @@ impl InterfaceFlow {
         }
         let density = Density { values: velocities, contrasts };
         let viscosity = |inside: Option<usize>| inside.map_or(self.viscosity, |interface| viscosities[interface]);
-        flow_samples(layers, density, points, out, viscosity);
+        flow_samples(layers, density, points, out, viscosity, &motions);
         if rigid.is_some() {
             layers.set_gradient(0.0);
         }
@@ -535,12 +605,13 @@ impl InterfaceFlow {
 struct Operator<'a> {
     contrasts: &'a [f64],
     scales: &'a [f64],
+    bodies: &'a [bool],
     normals: &'a [f64],
     deflation: &'a [f64],
 }
 
 impl Operator<'_> {
-    /// `out = v + scale/(4 pi) double layer + deflation`.
+    /// `out = v + scale/(4 pi) double layer + deflation`, and twice the mean motion of a rigid body.
     fn apply(&self, layers: &mut Layers, rigid: Option<&mut RigidWalls>, v: &[f64], accuracy: f64, out: &mut [f64]) {
         let density = Density { values: v, contrasts: self.contrasts };
         let nodes = density.nodes();
@@ -563,6 +634,10 @@ impl Operator<'_> {
                 x[i] = vx[i] + factor * sum.x[i] + growth * nx[i];
                 y[i] = vy[i] + factor * sum.y[i] + growth * ny[i];
             }
+            if self.bodies[index] {
+                let range = 2 * nodes * index..2 * nodes * (index + 1);
+                RigidMotion::of(curve, &v[range.clone()]).add(curve, 2.0, &mut out[range]);
+            }
         }
         if let Some(rigid) = rigid {
             rigid.respond(layers, layers.dipole_moment(density), false);
@@ -582,19 +657,27 @@ pub(crate) fn finite_vectors(what: &'static str, curve: usize, values: &[Vec2]) 
     }
 }
 
-/// The flow at points, for the viscosity that fluid inside a curve or none has.
+/// The flow at points, for the viscosity that fluid inside a curve or none has, and the motions of the curves that
+/// have rigid bodies inside.
 pub(crate) fn flow_samples(
     layers: &mut Layers,
     density: Density<'_>,
     points: &[Vec2],
     out: &mut [FlowSample],
     viscosity: impl Fn(Option<usize>) -> f64,
+    motions: &[Option<RigidMotion>],
 ) {
     let points = points.iter().map(|point| Complex64::new(point.x, point.y));
     layers.prepare_points(density, points.clone());
     let exterior = viscosity(None);
     for (index, (point, out)) in points.zip(out).enumerate() {
         let (flow, inside) = layers.flow_at(index, point, density);
+        if let Some(motion) = inside.and_then(|curve| *motions.get(curve)?) {
+            let centre = Complex64::new(motion.centre.x, motion.centre.y);
+            let arm = layers.geometry.images().wrap(point - centre);
+            *out = motion.sample(motion.centre + Vec2::new(arm.re, arm.im));
+            continue;
+        }
         let viscosity = viscosity(inside);
         *out = flow_sample(&flow, viscosity);
         // The forced flow is a parabola, so this difference is its slope.

@@ -80,6 +80,6 @@ pub use geometry::{Forcing, Geometry};
 /// A position, force or velocity.
 pub use glam::DVec2 as Vec2;
 pub use input_checks::InputError;
-pub use interface_flow::{FlowSample, Interface, InterfaceFlow, Solution, WarmStart};
+pub use interface_flow::{FlowSample, Inside, Interface, InterfaceFlow, RigidMotion, Solution, WarmStart};
 pub use settings::Settings;
 pub use single_layer::{LayerCurve, Reciprocity, SingleLayer};

@@ -167,7 +167,7 @@ impl SingleLayer {
         finite_vectors("the position", 0, points)?;
         positive("the viscosity", viscosity)?;
         self.layers.refine_kept();
-        flow_samples(&mut self.layers, Density { values: &[], contrasts: &[] }, points, out, |_| viscosity);
+        flow_samples(&mut self.layers, Density { values: &[], contrasts: &[] }, points, out, |_| viscosity, &[]);
         Ok(())
     }
 

@@ -209,7 +209,7 @@ impl Job {
         let lower = walls[0].on_mesh(shape.lower_wall(-top, &walls[0].mesher(grid)?)?, &setup.region)?;
         let upper = walls[1].on_mesh(shape.upper_wall(top, &walls[1].mesher(grid)?)?, &setup.region)?;
         let solids = vec![scene.add(lower), scene.add(upper)];
-        Ok(Built { scene, droplets, solids })
+        Ok(Built { scene, droplets, solids, rigid_bodies: Vec::new(), shells: Vec::new() })
     }
 
     /// How much work it is, roughly.
@@ -259,7 +259,7 @@ impl Job {
 
     fn with_solids(&self) -> Result<Summary> {
         let setup = Setup { solids: self.walls()?, ..self.setup() };
-        let Built { mut scene, droplets, solids: walls } = self.build(&setup)?;
+        let Built { mut scene, droplets, solids: walls, .. } = self.build(&setup)?;
         let droplet = droplets[0];
         let mut recorder = TrajectoryRecorder::new(droplet);
         let mut gap = SolidGap::new(OVERLAP * self.spacing);

@@ -8,7 +8,7 @@ use crate::{Body, Vec2};
 pub(crate) struct Outline {
     boundary: Boundary,
     points: Vec<Vec2>,
-    is_interface: bool,
+    holds_fluid: bool,
 }
 
 impl Outline {
@@ -19,14 +19,14 @@ impl Outline {
             points.resize(body.marker_count(), Vec2::ZERO);
             body.write_markers(&mut points);
         }
-        Self { boundary, points, is_interface: body.kind().is_interface() }
+        Self { boundary, points, holds_fluid: body.kind().holds_fluid() }
     }
 
     /// The smallest signed distance of the points of another body from the boundary (length), positive for most of
     /// those inside an interface: what lies in it is measured from within.
     fn smallest(&self, other: &Self, periods: [Option<f64>; 2]) -> Option<f64> {
         let distances = || other.points.iter().map(|&point| self.boundary.distance(point, periods));
-        let within = self.is_interface && 2 * distances().filter(|d| *d < 0.0).count() > other.points.len();
+        let within = self.holds_fluid && 2 * distances().filter(|d| *d < 0.0).count() > other.points.len();
         let smallest = distances().map(|distance| if within { -distance } else { distance }).reduce(f64::min);
         smallest.filter(|_| !self.boundary.is_empty())
     }

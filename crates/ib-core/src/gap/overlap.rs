@@ -93,7 +93,7 @@ impl Gaps {
         }
         let deepest = |places: &mut dyn Iterator<Item = (Vec2, f64)>| places.max_by(|a, b| a.1.total_cmp(&b.1));
         for (outer, inner, kind) in [(first, second, self.kinds[a]), (second, first, self.kinds[b])] {
-            if kind.is_interface() && inner.lies_in(outer, periods, film) {
+            if kind.holds_fluid() && inner.lies_in(outer, periods, film) {
                 return deepest(&mut inner.corners().map(|corner| (corner, outer.distance(corner, periods))));
             }
         }

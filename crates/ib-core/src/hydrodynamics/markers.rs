@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use input_checks::{InputError, positive, within};
-use stokes_layers::Vec2;
+use stokes_layers::{Interface, Vec2};
 
 /// What a group of markers is, as far as the flow is concerned.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +19,8 @@ pub enum MarkerKind {
         /// Viscosity of the fluid inside (stress times time); `None` where it is that of the fluid outside.
         viscosity_inside: Option<f64>,
     },
+    /// The closed outline of a rigid body that moves freely, markers in counter-clockwise order.
+    Rigid,
     /// Points in no particular order, such as those of an elastic solid.
     Points,
 }
@@ -35,8 +37,14 @@ impl MarkerKind {
     pub fn viscosity_inside(&self) -> Option<f64> {
         match self {
             Self::Interface { viscosity_inside } | Self::UnevenInterface { viscosity_inside } => *viscosity_inside,
-            Self::Points => None,
+            Self::Rigid | Self::Points => None,
         }
+    }
+
+    /// Whether the markers are those of a closed curve with fluid inside, in which other bodies may lie.
+    #[must_use]
+    pub fn holds_fluid(&self) -> bool {
+        matches!(self, Self::Interface { .. } | Self::UnevenInterface { .. })
     }
 }
 
@@ -66,6 +74,17 @@ pub struct MarkerGroup {
 }
 
 impl MarkerGroup {
+    /// It as an interface of layers, where the viscosity of the exterior fluid is `exterior`.
+    #[must_use]
+    pub fn interface<'a>(&self, positions: &'a [Vec2], forces: &'a [Vec2], exterior: f64) -> Interface<'a> {
+        let (positions, forces) = (&positions[self.range.clone()], &forces[self.range.clone()]);
+        let viscosities = self.viscosities(exterior);
+        match self.kind {
+            MarkerKind::Rigid => Interface::rigid(positions, forces, viscosities[1]),
+            _ => Interface::closed(positions, forces, viscosities),
+        }
+    }
+
     /// Viscosities of the fluid inside and right outside of an interface (stress times time), where that of the
     /// exterior fluid is `exterior`.
     #[must_use]

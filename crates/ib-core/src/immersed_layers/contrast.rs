@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use fourier::{PeriodicSeries, spectrum::largest_wave};
 use num_complex::Complex64;
 use stokes_layers::gmres::{Gmres, Outcome};
-use stokes_layers::{Geometry, Interface, InterfaceFlow, Settings, SingleLayer, Solution, WarmStart};
+use stokes_layers::{Geometry, InterfaceFlow, Settings, SingleLayer, Solution, WarmStart};
 
 use crate::{FlowError, FlowSample, Markers, Vec2, checkpoint::SavedState};
 
@@ -68,10 +68,7 @@ impl LayerContrast {
     pub(super) fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         let exterior = self.flow.viscosity();
         let interfaces = markers.groups().iter().filter(|group| group.kind.is_interface());
-        Ok(self.flow.load(interfaces.map(|group| {
-            let [positions, forces] = [&markers.positions, &markers.forces].map(|list| &list[group.range.clone()]);
-            Interface::closed(positions, forces, group.viscosities(exterior))
-        }))?)
+        Ok(self.flow.load(interfaces.map(|group| group.interface(&markers.positions, &markers.forces, exterior)))?)
     }
 
     /// Finds velocities at the nodes of interfaces for viscosity times velocity `flow` of all forces in fluid of one

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use active_interface::{ActiveDroplet, Curve, Exchange, InitialConcentration, Motion};
 use boundary_integral::{BoundaryIntegral, Settings};
-use elastic_solids::Solid;
+use elastic_solids::{RigidBody, Shell, Solid};
 use ib_core::{Handle, Hydrodynamics, ImmersedBoundary, ImmersedLayers, Scene, SmearedContrast, Vec2};
 use stokes_grid::{ChannelStokes, Grid, PeriodicStokes, StokesSolver};
 
@@ -26,6 +26,10 @@ pub struct Built {
     pub droplets: Vec<Handle<ActiveDroplet>>,
     /// The solids.
     pub solids: Vec<Handle<Solid>>,
+    /// The rigid bodies.
+    pub rigid_bodies: Vec<Handle<RigidBody>>,
+    /// The shells.
+    pub shells: Vec<Handle<Shell>>,
 }
 
 /// Accuracy of layers beside solids, whose inner points see them through a grid.
@@ -52,13 +56,19 @@ impl Setup {
         let solids = || self.solids.iter().zip(self.droplets.len()..);
         let regions = solids().map(|(solid, k)| solid.enclosed(&self.region).map_err(keyed(k)));
         let (regions, flow) = (regions.collect::<Result<Vec<_>, _>>()?, self.flow()?);
-        self.check_places(&droplets, &regions, &flow.discretisation())?;
-        for (k, droplet) in droplets.iter().enumerate() {
-            self.check_walls(&self.key(k), droplet.markers(), &flow)?;
-        }
+        let first = self.droplets.len() + self.solids.len();
+        let bodies = self.rigid_bodies.iter().enumerate().map(|(k, body)| body.build(self).map_err(keyed(first + k)));
+        let bodies = bodies.collect::<Result<Vec<_>, _>>()?;
+        let first = first + bodies.len();
+        let shells = self.shells.iter().enumerate().map(|(k, shell)| shell.build(self).map_err(keyed(first + k)));
+        let shells = shells.collect::<Result<Vec<_>, _>>()?;
+        self.check_places(&droplets, &regions, &bodies, &shells, &flow)?;
         let solids = solids().map(|(solid, k)| solid.build(self).map_err(keyed(k))).collect::<Result<Vec<_>, _>>()?;
         let points = droplets.iter().map(ActiveDroplet::markers);
-        let points: Vec<&[Vec2]> = points.chain(solids.iter().map(Solid::positions)).collect();
+        let points = points.chain(solids.iter().map(Solid::positions));
+        let outlines: Vec<Vec<Vec2>> = bodies.iter().map(|body| body.markers().collect()).collect();
+        let points = points.chain(outlines.iter().map(Vec::as_slice)).chain(shells.iter().map(Shell::positions));
+        let points: Vec<&[Vec2]> = points.collect();
         self.check_filled(&points)?;
         let mut scene = Scene::new(flow).with_step_size(self.step);
         if let Some(super::RepulsionSetup { strength, range }) = self.repulsion {
@@ -69,6 +79,8 @@ impl Setup {
         }
         let droplets: Vec<_> = droplets.into_iter().map(|droplet| scene.add(droplet)).collect();
         let solids = solids.into_iter().map(|solid| scene.add(solid)).collect();
+        let rigid_bodies = bodies.into_iter().map(|body| scene.add(body)).collect();
+        let shells = shells.into_iter().map(|shell| scene.add(shell)).collect();
         for (k, (setup, &host)) in self.droplets.iter().zip(&droplets).enumerate() {
             if let Ok(droplet) = scene.body(host)
                 && let Some(gel) = self.gel(setup, droplet, host).map_err(keyed(k))?
@@ -76,7 +88,7 @@ impl Setup {
                 scene.add(gel);
             }
         }
-        Ok(Built { scene, droplets, solids })
+        Ok(Built { scene, droplets, solids, rigid_bodies, shells })
     }
 
     /// A droplet of this scene, for scenes that are put together by hand.
@@ -91,23 +103,7 @@ impl Setup {
             if turned { curve.rotated(droplet.angle).translated(centre) } else { curve.translated(centre) }
         };
         let curve = placed(curve, turned);
-        let count = match &self.method {
-            Method::Grid(GridMethod { layers: IntegralMethod { nodes, cells }, .. }) if self.has_layers() => {
-                *(cells.max(nodes))
-            }
-            Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
-            Method::Grid(grid) => {
-                let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
-                let wanted = curve.perimeter() / spacing;
-                if wanted.is_nan() || wanted > MOST_MARKERS {
-                    let remedy = format!("{} would have {wanted:.1e} markers: give more than that", droplet.name);
-                    let (key, value) = ("method.grid.marker-spacing".to_owned(), spacing.to_string());
-                    return Err(SetupError::Value { key, value, remedy });
-                }
-                fast_count(wanted)
-            }
-        };
-        let markers = curve.markers(count)?;
+        let markers = curve.markers(self.marker_count(&curve, &droplet.name)?)?;
         let made = match &droplet.particles {
             None => ActiveDroplet::passive(&markers, droplet.tension)?,
             Some(particles) => {
@@ -152,6 +148,26 @@ impl Setup {
         })
     }
 
+    /// How many markers the outline of a body has.
+    pub(super) fn marker_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
+        Ok(match &self.method {
+            Method::Grid(GridMethod { layers: IntegralMethod { nodes, cells }, .. }) if self.has_layers() => {
+                *(cells.max(nodes))
+            }
+            Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
+            Method::Grid(grid) => {
+                let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
+                let wanted = curve.perimeter() / spacing;
+                if wanted.is_nan() || wanted > MOST_MARKERS {
+                    let remedy = format!("{name} would have {wanted:.1e} markers: give more than that");
+                    let (key, value) = ("method.grid.marker-spacing".to_owned(), spacing.to_string());
+                    return Err(SetupError::Value { key, value, remedy });
+                }
+                fast_count(wanted)
+            }
+        })
+    }
+
     /// The flow of this scene, for scenes that are put together by hand.
     ///
     /// # Errors
@@ -185,7 +201,8 @@ impl Setup {
         if !self.rigid.is_empty() {
             flow = flow.with_walls(&self.rigid_walls()?)?;
         }
-        let perimeters = self.droplets.iter().map(|droplet| match &droplet.shape {
+        let shapes = self.droplets.iter().map(|droplet| &droplet.shape).chain(self.shells.iter().map(|s| &s.shape));
+        let perimeters = shapes.map(|shape| match shape {
             &DropletShape::Round { radius } | &DropletShape::Squeezed { radius, .. } => Ok(TAU * radius),
             shape => Ok(shape.curve()?.0.perimeter()),
         });
@@ -196,14 +213,21 @@ impl Setup {
         }))
     }
 
-    /// Whether the surfaces of solids are layers.
+    /// Whether interfaces and the surfaces of solids are layers, as they are beside rigid bodies.
     pub(super) fn has_layers(&self) -> bool {
-        self.solids.iter().any(|solid| solid.surface == Surface::Layer)
+        !self.rigid_bodies.is_empty() || self.solids.iter().any(|solid| solid.surface == Surface::Layer)
+    }
+
+    /// Whether there is fluid of another viscosity than the exterior one.
+    pub(super) fn has_contrast(&self) -> bool {
+        let inside = self.droplets.iter().map(|droplet| droplet.viscosity);
+        let mut inside = inside.chain(self.shells.iter().map(|shell| shell.viscosity));
+        inside.any(|viscosity| viscosity.is_some_and(|inside| inside != self.viscosity))
     }
 
     /// Takes a boxed solver, for which the method is compiled once, not once for each kind.
     fn coupled(&self, grid: &GridMethod, solver: Box<dyn StokesSolver>) -> Result<AnyFlow, SetupError> {
-        let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
+        let differs = self.has_contrast();
         Ok(if self.has_layers() {
             Box::new(ImmersedLayers::new(solver, grid.kernel, grid.layers.nodes, LAYER_TOLERANCE)?)
         } else if differs && grid.contrast == Contrast::Arithmetic {

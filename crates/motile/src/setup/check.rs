@@ -5,7 +5,8 @@ use stokes_grid::Drive;
 
 use super::{
     Contrast, DropletSetup, DropletShape, ExchangeSetup, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
-    MarkerMotion, Method, Region, RigidSetup, Setup, SolidOutline, SolidSetup, Start, Surface,
+    MarkerMotion, Method, Region, RigidBodySetup, RigidSetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,
+    Surface,
 };
 use crate::SetupError;
 
@@ -101,6 +102,13 @@ impl Setup {
         for (number, solid) in self.solids.iter().enumerate() {
             solid.check(&format!("solids[{number}]"), self)?;
         }
+        for (number, body) in self.rigid_bodies.iter().enumerate() {
+            let (place, held) = (format!("rigid-bodies[{number}]"), self.region != Region::Plane);
+            body.check(&Checked { place: &place }, held)?;
+        }
+        for (number, shell) in self.shells.iter().enumerate() {
+            shell.check(&Checked { place: &format!("shells[{number}]") })?;
+        }
         for (number, wall) in self.rigid.iter().enumerate() {
             wall.check(&format!("rigid[{number}]"), self)?;
         }
@@ -139,8 +147,7 @@ impl Setup {
                 }
             }
         }
-        let differs = self.droplets.iter().any(|d| d.viscosity.is_some_and(|inside| inside != self.viscosity));
-        if differs && grid.corrected && grid.contrast == Contrast::Arithmetic {
+        if self.has_contrast() && grid.corrected && grid.contrast == Contrast::Arithmetic {
             let remedy = "an arithmetic contrast has no mobility correction: give false, or a sharp contrast";
             checked.refuse("corrected", &true, remedy)?;
         }
@@ -247,6 +254,36 @@ impl DropletShape {
                 checked.all_finite("shape.points", points.as_flattened())
             }
         }
+    }
+}
+
+impl RigidBodySetup {
+    fn check(&self, checked: &Checked<'_>, held: bool) -> Result<(), SetupError> {
+        checked.all_finite("centre", &self.centre)?;
+        checked.finite("angle", self.angle)?;
+        checked.all_finite("force", &self.force)?;
+        checked.finite("torque", self.torque)?;
+        for &force in self.force.iter().filter(|_| !held) {
+            let remedy = "in the plane nothing holds a fluid that is pushed: give 0, or a box or a channel";
+            checked.require(force == 0.0, "force", force, remedy)?;
+        }
+        self.shape.check(checked)
+    }
+}
+
+impl ShellSetup {
+    fn check(&self, checked: &Checked<'_>) -> Result<(), SetupError> {
+        checked.all_finite("centre", &self.centre)?;
+        checked.finite("angle", self.angle)?;
+        if let Some(viscosity) = self.viscosity {
+            checked.positive("viscosity", viscosity)?;
+        }
+        checked.not_negative("stretching", self.stretching)?;
+        checked.not_negative("bending", self.bending)?;
+        if let Some(curvature) = self.reference_curvature {
+            checked.finite("reference-curvature", curvature)?;
+        }
+        self.shape.check(checked)
     }
 }
 

@@ -11,6 +11,8 @@ mod particles_entry;
 mod places;
 mod region;
 mod rigid;
+mod rigid_body;
+mod shell;
 mod solid;
 
 pub use build::{AnyFlow, Built};
@@ -19,6 +21,8 @@ pub use gel::GelSetup;
 pub use method::{Contrast, GridMethod, IntegralMethod, Method, MethodKind};
 pub use region::Region;
 pub use rigid::RigidSetup;
+pub use rigid_body::RigidBodySetup;
+pub use shell::ShellSetup;
 pub use solid::{Axis, Grading, Hold, Material, MeshKind, SolidOutline, SolidSetup, Surface};
 
 use ib_core::StepSize;
@@ -76,6 +80,12 @@ pub struct Setup {
     /// The elastic solids: walls, islands, nuclei.
     #[serde(default)]
     pub solids: Vec<SolidSetup>,
+    /// Rigid bodies that the fluid carries along: nuclei, particles. On a grid interfaces are then layers.
+    #[serde(default)]
+    pub rigid_bodies: Vec<RigidBodySetup>,
+    /// Elastic membranes around fluid: shells of nuclei, capsules.
+    #[serde(default)]
+    pub shells: Vec<ShellSetup>,
     /// Rigid walls and obstacles in a channel, besides its straight walls; by boundary integrals only.
     #[serde(default)]
     pub rigid: Vec<RigidSetup>,
@@ -103,6 +113,8 @@ impl Default for Setup {
             least_gap: None,
             droplets: vec![DropletSetup::default()],
             solids: Vec::new(),
+            rigid_bodies: Vec::new(),
+            shells: Vec::new(),
             rigid: Vec::new(),
         }
     }

@@ -1,11 +1,11 @@
 //! Where the bodies of a description lie, looked at before anything is meshed.
 
 use active_interface::ActiveDroplet;
-use elastic_solids::Interior;
+use elastic_solids::{Interior, RigidBody, Shell};
 use ib_core::gap::{Boundary, Gaps, Overlap};
-use ib_core::{Body, Discretisation, MarkerKind, Vec2};
+use ib_core::{Body, Hydrodynamics, MarkerKind, Vec2};
 
-use super::{DropletSetup, Region, Setup, SolidSetup};
+use super::{AnyFlow, DropletSetup, Region, RigidBodySetup, Setup, ShellSetup, SolidSetup};
 use crate::SetupError;
 
 impl Setup {
@@ -15,12 +15,21 @@ impl Setup {
         &self,
         droplets: &[ActiveDroplet],
         solids: &[Interior],
-        discretisation: &Discretisation,
+        rigid_bodies: &[RigidBody],
+        shells: &[Shell],
+        flow: &AnyFlow,
     ) -> Result<(), SetupError> {
+        let discretisation = &flow.discretisation();
+        let curve = |number: usize, body: &dyn Body| {
+            let (key, mut markers) = (self.key(number), vec![Vec2::ZERO; body.marker_count()]);
+            body.write_markers(&mut markers);
+            self.fits(&key, markers.iter().copied(), markers.len())?;
+            self.check_walls(&key, &markers, flow)?;
+            Ok::<_, SetupError>((Boundary::of(body), body.kind()))
+        };
         let mut bodies = Vec::new();
         for (number, droplet) in droplets.iter().enumerate() {
-            self.fits(&self.key(number), droplet.markers().iter().copied(), droplet.markers().len())?;
-            bodies.push((Boundary::of(droplet), droplet.kind()));
+            bodies.push(curve(number, droplet)?);
         }
         for (number, (region, solid)) in solids.iter().zip(&self.solids).enumerate() {
             let key = self.key(droplets.len() + number);
@@ -31,6 +40,11 @@ impl Setup {
                 self.fits(&key, boundary.corners(), boundary.corners().count())?;
             }
             bodies.push((boundary, MarkerKind::Points));
+        }
+        let others =
+            rigid_bodies.iter().map(|body| -> &dyn Body { body }).chain(shells.iter().map(|s| -> &dyn Body { s }));
+        for (number, body) in others.enumerate() {
+            bodies.push(curve(droplets.len() + solids.len() + number, body)?);
         }
         let gaps = Gaps::of(bodies);
         match gaps.first_overlap(discretisation) {
@@ -47,12 +61,18 @@ impl Setup {
 
     /// Where a body stands in the description, droplets first, with its name if it has one of its own.
     pub(super) fn key(&self, body: usize) -> String {
-        let solid = body.wrapping_sub(self.droplets.len());
-        let (key, name, usual) = match self.droplets.get(body) {
-            Some(droplet) => (format!("droplets[{body}]"), &droplet.name, DropletSetup::NAME),
-            None => (format!("solids[{solid}]"), &self.solids[solid].name, SolidSetup::NAME),
-        };
-        if name == usual { key } else { format!("{key} ({name})") }
+        let droplets = self.droplets.iter().map(|droplet| (&droplet.name, DropletSetup::NAME)).enumerate();
+        let solids = self.solids.iter().map(|solid| (&solid.name, SolidSetup::NAME)).enumerate();
+        let rigid = self.rigid_bodies.iter().map(|body| (&body.name, RigidBodySetup::NAME)).enumerate();
+        let shells = self.shells.iter().map(|shell| (&shell.name, ShellSetup::NAME)).enumerate();
+        let all = droplets.map(|entry| ("droplets", entry)).chain(solids.map(|entry| ("solids", entry)));
+        let mut all =
+            all.chain(rigid.map(|entry| ("rigid-bodies", entry))).chain(shells.map(|entry| ("shells", entry)));
+        match all.nth(body) {
+            Some((list, (number, (name, usual)))) if name == usual => format!("{list}[{number}]"),
+            Some((list, (number, (name, _)))) => format!("{list}[{number}] ({name})"),
+            None => format!("body {body}"),
+        }
     }
 
     /// Refuses a body that reaches beyond the region or overlaps its own images, by the corners of its boundary.

@@ -1,5 +1,5 @@
 use active_interface::curve::polygon_moments;
-use ib_core::{Body, StepSize, Vec2};
+use ib_core::{Body, Handle, StepSize, Vec2};
 use stokes_grid::Drive;
 
 use interior_fields::{Anchoring, DirectorStart, GelMaterial};
@@ -392,12 +392,48 @@ fn bodies_stand_in_the_order_of_the_description() {
     };
     let mut setup = Setup { droplets: droplets.to_vec(), ..elastic(3.0, Surface::Layer) };
     setup.solids.push(core);
-    let Built { mut scene, droplets, solids } = setup.build().unwrap();
+    let Built { mut scene, droplets, solids, .. } = setup.build().unwrap();
     let names: Vec<&str> = droplets.iter().map(|&handle| scene.body(handle).unwrap().name()).collect();
     assert_eq!(names, ["a", "b"]);
     let names: Vec<&str> = solids.iter().map(|&handle| scene.body(handle).unwrap().name()).collect();
     assert_eq!(names, ["lower wall", "upper wall", "core"]);
     scene.step(1e-3).unwrap();
+}
+
+#[test]
+fn cores_lie_inside_droplets_and_nothing_inside_rigid_ones() {
+    let inside = |method: Method, radius: f64, centre: [f64; 2]| Setup {
+        method,
+        rigid_bodies: vec![RigidBodySetup { centre, ..RigidBodySetup::disc(radius) }],
+        shells: vec![ShellSetup {
+            centre: [0.5, 0.0],
+            shape: DropletShape::Round { radius: 0.2 },
+            ..ShellSetup::default()
+        }],
+        ..Setup::default()
+    };
+    let integral = Method::Integral(IntegralMethod { nodes: 32, cells: 64 });
+    let grid = GridMethod { layers: IntegralMethod { nodes: 32, cells: 64 }, ..GridMethod::of_spacing(0.2) };
+    for method in [integral, Method::Grid(grid)] {
+        let Built { mut scene, droplets, rigid_bodies, shells, .. } = inside(method, 0.3, [-0.4, 0.1]).build().unwrap();
+        scene.step(1e-3).unwrap();
+        let gap = |body: Handle<dyn Body>| scene.system().gap(droplets[0], body).unwrap().unwrap();
+        assert!(gap(rigid_bodies[0].into()) > 0.1 && gap(shells[0].into()) > 0.1);
+    }
+    let said = refused(&inside(integral, 0.3, [0.5, 0.1]));
+    assert!(said.starts_with("shells[0] overlaps rigid-bodies[0] by"), "{said}");
+    let said = refused(&inside(integral, 0.3, [0.9, 0.1]));
+    assert!(said.contains("rigid-bodies[0] overlaps droplets[0]"), "{said}");
+    let mut pulled = Setup { region: Region::Plane, ..inside(integral, 0.3, [-0.4, 0.1]) };
+    pulled.rigid_bodies[0].force = [1.0, 0.0];
+    assert!(
+        refused(&pulled).starts_with("rigid-bodies[0].force = 1: in the plane nothing holds"),
+        "{}",
+        refused(&pulled)
+    );
+    pulled.shells[0].bending = -1.0;
+    pulled.rigid_bodies.clear();
+    assert!(refused(&pulled).starts_with("shells[0].bending = -1"), "{}", refused(&pulled));
 }
 
 #[test]
@@ -457,6 +493,8 @@ mod file {
                 Material::SaintVenantKirchhoff { shear: 10.0, bulk: 30.0 },
             )
         });
+        let shape = DropletShape::Ellipse { half_axes: [0.3, 0.2] };
+        setup.shells.push(ShellSetup { centre: [16.0, 0.1], shape, viscosity: Some(2.0), ..ShellSetup::default() });
         setup
     }
 
@@ -465,6 +503,7 @@ mod file {
         let passive = Setup { droplets: vec![DropletSetup::passive(3.0)], ..Setup::default() };
         let mut layers = varied();
         layers.droplets.iter_mut().for_each(|droplet| droplet.viscosity = None);
+        layers.rigid_bodies.push(RigidBodySetup { torque: 0.1, ..RigidBodySetup::disc(0.2) });
         layers.solids.iter_mut().for_each(|solid| (solid.mesh_spacing, solid.surface) = (None, Surface::Layer));
         for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, Surface::Plain), varied(), layers] {
             let text = setup.to_toml().unwrap();

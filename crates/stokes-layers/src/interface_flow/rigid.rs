@@ -184,7 +184,7 @@ fn flux_behind(layers: &mut Layers, viscosity: f64, half: f64, unit: &DVector<f6
         let at = |k: usize, s: f64| Vec2::new(place.re, place.im + step * (k as f64 + 0.5 + 0.5 * s));
         let points: Vec<Vec2> = (0..INTERVALS).flat_map(|k| GAUSS.map(|(s, _)| at(k, s))).collect();
         let mut samples = vec![FlowSample::default(); points.len()];
-        flow_samples(layers, Density { values: &[], contrasts: &[] }, &points, &mut samples, |_| viscosity);
+        flow_samples(layers, Density { values: &[], contrasts: &[] }, &points, &mut samples, |_| viscosity, &[]);
         let weights = GAUSS.iter().map(|(_, weight)| 0.5 * step.abs() * weight).cycle();
         flux += samples.iter().zip(weights).map(|(sample, weight)| sample.velocity.x * weight).sum::<f64>();
     }

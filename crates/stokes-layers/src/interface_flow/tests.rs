@@ -20,7 +20,7 @@ fn errors(geometry: Geometry, second: Complex64, viscosities: [f64; 2]) -> [f64;
     let InterfaceFlow { layers, contrasts, scales, .. } = &mut flow;
     layers.single_layer(true);
     let normals = vec![0.0; 4 * NODES];
-    let operator = Operator { contrasts, scales, normals: &normals, deflation: &[0.0; 2] };
+    let operator = Operator { contrasts, scales, bodies: &[false; 2], normals: &normals, deflation: &[0.0; 2] };
     let mut apply = |v: &[f64]| {
         let mut out = vec![0.0; 4 * NODES];
         operator.apply(layers, None, v, 1e-15, &mut out);
@@ -92,7 +92,7 @@ fn growth_of_a_circle_has_the_eigenvalue_one() {
         flow.load(std::iter::once(Interface::closed(&circle, &circle, [viscosity, 1.0]))).unwrap();
         flow.solve().unwrap();
         let InterfaceFlow { layers, contrasts, scales, normals, deflation, .. } = &mut flow;
-        let operator = Operator { contrasts, scales, normals, deflation };
+        let operator = Operator { contrasts, scales, bodies: &[false], normals, deflation };
         let mut out = vec![0.0; 2 * NODES];
         operator.apply(layers, None, normals, 1e-14, &mut out);
         for (out, normal) in out.iter().zip(normals.iter()) {
@@ -111,8 +111,7 @@ fn two_fluids(shape: impl Fn(f64) -> Vec2, direction: f64, inside: f64, nodes: u
     let positions: Vec<Vec2> = (0..nodes).map(|k| shape(direction * angle(k))).collect();
     let forces = vec![Vec2::ZERO; nodes];
     let period = Vec2::new(direction * 3.0, 0.0);
-    flow.load([Interface { positions: &positions, period, forces: &forces, viscosities: [inside, 1.0] }].into_iter())
-        .unwrap();
+    flow.load([Interface { period, ..Interface::closed(&positions, &forces, [inside, 1.0]) }].into_iter()).unwrap();
     flow.solve().unwrap();
     flow
 }

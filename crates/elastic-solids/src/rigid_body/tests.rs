@@ -1,0 +1,58 @@
+use super::*;
+
+fn body() -> RigidBody {
+    // Markers crowd on one side, so that their mean is not the centroid.
+    let at = |k: usize| {
+        let angle = std::f64::consts::TAU * k as f64 / 200.0;
+        Vec2::new(2.0, -1.0) + Vec2::new(1.5, 0.7) * Vec2::from_angle(angle + 0.4 * angle.sin())
+    };
+    RigidBody::new(&(0..200).rev().map(at).collect::<Vec<_>>()).unwrap()
+}
+
+fn medium() -> Discretisation {
+    let domain = ib_core::Domain { origin: [0.0; 2], periods: [None; 2], walls: None };
+    Discretisation { domain, viscosity: 1.0, spacing: None, shape_modes: None, interface_stiffness: 1.0 }
+}
+
+#[test]
+fn its_centre_is_that_of_its_area() {
+    let body = body();
+    assert!((body.centre() - Vec2::new(2.0, -1.0)).length() < 1e-4, "{:?}", body.centre());
+    assert!((body.area() / (std::f64::consts::PI * 1.5 * 0.7) - 1.0).abs() < 1e-3);
+    assert!((body.mean).length() > 0.1);
+}
+
+#[test]
+fn rates_are_those_of_the_rigid_motion_at_its_markers() {
+    let mut body = body();
+    body.read_state(&[3.0, 4.0, 0.7]).unwrap();
+    let velocities: Vec<Vec2> =
+        body.markers().map(|x| Vec2::new(0.3, -0.2) + 1.7 * (x - Vec2::new(3.0, 4.0)).perp()).collect();
+    let mut rate = [0.0; 3];
+    body.rate(&velocities, &mut rate);
+    for (rate, exact) in rate.into_iter().zip([0.3, -0.2, 1.7]) {
+        assert!((rate - exact).abs() < 1e-13, "{rate} {exact}");
+    }
+}
+
+#[test]
+fn its_forces_have_the_resultant_and_torque_of_its_load() {
+    let mut body = body().with_load(Vec2::new(0.4, -1.3), 2.1).unwrap();
+    body.read_state(&[3.0, 4.0, 0.7]).unwrap();
+    let mut forces = vec![Vec2::ZERO; body.marker_count()];
+    body.write_forces(&medium(), &mut forces).unwrap();
+    let total: Vec2 = forces.iter().sum();
+    let torque: f64 = body.markers().zip(&forces).map(|(x, f)| (x - body.centre()).perp_dot(*f)).sum();
+    assert!((total - Vec2::new(0.4, -1.3)).length() < 1e-13 && (torque - 2.1).abs() < 1e-12, "{total} {torque}");
+}
+
+#[test]
+fn what_is_no_body_is_refused() {
+    let error = RigidBody::new(&[Vec2::ZERO; 7]).unwrap_err().to_string();
+    assert!(error.contains('7'), "{error}");
+    let error = RigidBody::new(&[Vec2::ZERO; 9]).unwrap_err().to_string();
+    assert!(error.contains("area"), "{error}");
+    assert!(RigidBody::new(&[Vec2::splat(f64::NAN); 9]).is_err());
+    assert!(body().with_load(Vec2::ZERO, f64::INFINITY).is_err());
+    assert!(body().read_state(&[0.0, f64::NAN, 0.0]).is_err());
+}

@@ -1,0 +1,337 @@
+//! Elastic membranes around fluid: shells and capsules.
+
+use std::f64::consts::{PI, TAU};
+
+use fourier::PeriodicSeries;
+use ib_core::{
+    Body, BodyError, Discretisation, MarkerKind, Vec2,
+    body::StepLimit,
+    input::{InputError, all_points_finite, not_negative, positive, same_length},
+};
+use num_complex::Complex64;
+use serde::{Deserialize, Serialize};
+
+use crate::{SolidError, rigid_body::closed_outline};
+
+/// What the bending of a membrane is measured by. They differ where it is stretched too.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BendingMeasure {
+    /// The curvature kappa, the angle by which the tangent turns per length now.
+    #[default]
+    Curvature,
+    /// The angle by which the tangent turns per reference length, kappa times the stretch: that of beams that are
+    /// chains of rigid links.
+    TurningAngle,
+}
+
+/// A closed elastic membrane around fluid of its own viscosity, that moves with the fluid: a shell inside a droplet, or
+/// a capsule.
+///
+/// With the stretch lambda, the ratio of present and reference length, and the bending measure k
+///
+/// ```text
+/// energy = INT E_s/2 (lambda - 1)^2 + B/2 (k - k0)^2 dS          over the reference length S
+/// ```
+///
+/// Derivatives along the curve are those of the Fourier series through the markers, and the forces are minus the
+/// gradient of this energy by the markers exactly, so that they have neither resultant nor torque.
+///
+/// ```
+/// use elastic_solids::{Shell, SolidError};
+/// use ib_core::Vec2;
+///
+/// let circle = |radius: f64| (0..64).map(move |k| radius * Vec2::from_angle(std::f64::consts::TAU * f64::from(k) / 64.0));
+/// let shell = Shell::new(&circle(1.0).collect::<Vec<_>>(), 10.0, 0.5)?.deformed(&circle(1.2).collect::<Vec<_>>())?;
+/// let exact = std::f64::consts::TAU * (0.5 * 10.0 * 0.2_f64.powi(2) + 0.5 * 0.5 * (1.0 / 1.2_f64 - 1.0).powi(2));
+/// println!("energy {:.6}", shell.energy());
+/// assert!((shell.energy() / exact - 1.0).abs() < 1e-12);
+/// # Ok::<(), SolidError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Shell {
+    name: String,
+    positions: Vec<Vec2>,
+    stretching: f64,
+    bending: f64,
+    measure: BendingMeasure,
+    viscosity_inside: Option<f64>,
+    /// Reference length per parameter, and bending measure at rest, at the markers.
+    lengths: Vec<f64>,
+    curvatures: Vec<f64>,
+    area: f64,
+    series: PeriodicSeries,
+    /// First and second derivative by the parameter.
+    slopes: [Vec<Complex64>; 2],
+    /// Changes of the energy with both.
+    pulls: [Vec<Complex64>; 2],
+    /// Truncation of the motion where the flow resolves fewer modes than there are markers.
+    modes: Option<usize>,
+    motions: Vec<Vec2>,
+}
+
+impl Shell {
+    /// A membrane through points (length) of equally spaced values of some parameter, in either direction, that is at
+    /// rest where it is, with its moduli of stretching E_s (force) and bending B (force times length squared).
+    ///
+    /// # Errors
+    /// Fewer than 8 points, points that are not finite or coincide, no area, moduli that are negative or not finite.
+    pub fn new(points: &[Vec2], stretching: f64, bending: f64) -> Result<Self, SolidError> {
+        not_negative("the stretching modulus", stretching)?;
+        not_negative("the bending modulus", bending)?;
+        let (positions, area, _) = closed_outline(points)?;
+        let count = positions.len();
+        let zeros = vec![Complex64::ZERO; count];
+        let mut shell = Self {
+            name: "shell".to_owned(),
+            positions,
+            stretching,
+            bending,
+            measure: BendingMeasure::default(),
+            viscosity_inside: None,
+            lengths: Vec::new(),
+            curvatures: Vec::new(),
+            area,
+            series: PeriodicSeries::new(count)?,
+            slopes: [zeros.clone(), zeros.clone()],
+            pulls: [zeros.clone(), zeros],
+            modes: None,
+            motions: vec![Vec2::ZERO; count],
+        };
+        shell.differentiate()?;
+        shell.lengths = shell.slopes[0].iter().map(|slope| slope.norm()).collect();
+        for &length in &shell.lengths {
+            positive("the distance of neighbouring points", length)?;
+        }
+        let [first, second] = &shell.slopes;
+        shell.curvatures = first.iter().zip(second).map(|(d, dd)| (d.conj() * dd).im / d.norm().powi(3)).collect();
+        Ok(shell)
+    }
+
+    /// The same shell with a name for messages.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self { name: name.into(), ..self }
+    }
+
+    /// The same shell with another measure of bending.
+    #[must_use]
+    pub fn with_measure(self, measure: BendingMeasure) -> Self {
+        Self { measure, ..self }
+    }
+
+    /// The same shell whose bending is at rest at one curvature everywhere (1/length), positive inwards, whatever its
+    /// shape.
+    ///
+    /// # Errors
+    /// A curvature that is not finite.
+    pub fn with_reference_curvature(mut self, curvature: f64) -> Result<Self, SolidError> {
+        all_points_finite("the reference curvature", &[Vec2::splat(curvature)])?;
+        self.curvatures.fill(curvature);
+        Ok(self)
+    }
+
+    /// The same shell filled with a fluid of another viscosity (stress times time) than that around it.
+    ///
+    /// # Errors
+    /// A viscosity that is not positive and finite.
+    pub fn with_viscosity_inside(self, viscosity: f64) -> Result<Self, SolidError> {
+        Ok(Self { viscosity_inside: Some(positive("the viscosity inside", viscosity)?), ..self })
+    }
+
+    /// The same shell with its points elsewhere (length), at rest where it was.
+    ///
+    /// # Errors
+    /// Another number of points, points that are not finite or coincide.
+    pub fn deformed(mut self, points: &[Vec2]) -> Result<Self, SolidError> {
+        same_length("the points of a shell", self.positions.len(), points.len())?;
+        all_points_finite("the points of a shell", points)?;
+        self.positions.copy_from_slice(points);
+        self.differentiate()?;
+        for slope in &self.slopes[0] {
+            positive("the distance of neighbouring points", slope.norm())?;
+        }
+        Ok(self)
+    }
+
+    /// Its points where they are now (length), counter-clockwise.
+    #[must_use]
+    pub fn positions(&self) -> &[Vec2] {
+        &self.positions
+    }
+
+    /// Viscosity of the fluid inside (stress times time), `None` where it is that of the fluid around it.
+    #[must_use]
+    pub fn viscosity_inside(&self) -> Option<f64> {
+        self.viscosity_inside
+    }
+
+    /// The elastic energy (force times length).
+    #[must_use]
+    pub fn energy(&self) -> f64 {
+        let sum: f64 = self
+            .strains()
+            .zip(&self.lengths)
+            .map(|([stretch, bend, _], length)| {
+                length * (self.stretching * (stretch - 1.0).powi(2) + self.bending * bend * bend)
+            })
+            .sum();
+        0.5 * sum * TAU / self.positions.len() as f64
+    }
+
+    /// Stretches, changes of the bending measure, and the measure, at the points.
+    fn strains(&self) -> impl Iterator<Item = [f64; 3]> {
+        let [first, second] = &self.slopes;
+        let rest = self.lengths.iter().zip(&self.curvatures);
+        first.iter().zip(second).zip(rest).map(|((d, dd), (length, curvature))| {
+            let stretch = d.norm() / length;
+            let mut bend = (d.conj() * dd).im / d.norm().powi(3);
+            if self.measure == BendingMeasure::TurningAngle {
+                bend *= stretch;
+            }
+            [stretch, bend - curvature, bend]
+        })
+    }
+
+    /// Brings the derivatives up to date.
+    fn differentiate(&mut self) -> Result<(), InputError> {
+        self.series.analyse_vectors(&self.positions)?;
+        for slope in &mut self.slopes {
+            self.series.differentiate();
+            slope.copy_from_slice(self.series.values());
+        }
+        Ok(())
+    }
+
+    /// Minus the gradient of the energy (force).
+    fn forces(&mut self, forces: &mut [Vec2]) -> Result<(), InputError> {
+        let turns = Complex64::I;
+        // The energy changes by P d(slope) + Q d(second derivative).
+        let power = match self.measure {
+            BendingMeasure::Curvature => 3.0,
+            BendingMeasure::TurningAngle => 2.0,
+        };
+        let mut pulls = std::mem::take(&mut self.pulls);
+        let [first, second] = &mut pulls;
+        for (index, [stretch, change, measure]) in self.strains().enumerate() {
+            let [d, dd] = [self.slopes[0][index], self.slopes[1][index]];
+            let (speed, length) = (d.norm(), self.lengths[index]);
+            let moment = self.bending * change * length;
+            let by_product = match self.measure {
+                BendingMeasure::Curvature => moment / speed.powi(3),
+                BendingMeasure::TurningAngle => moment / (speed * speed * length),
+            };
+            let along = self.stretching * (stretch - 1.0) - power * moment * measure / speed;
+            first[index] = along * d / speed - by_product * turns * dd;
+            second[index] = by_product * turns * d;
+        }
+        self.series.analyse(second.iter().copied())?;
+        self.series.differentiate();
+        first.iter_mut().zip(self.series.values()).for_each(|(first, value)| *first -= value);
+        self.series.analyse(first.iter().copied())?;
+        self.pulls = pulls;
+        self.series.differentiate();
+        let weight = TAU / self.positions.len() as f64;
+        for (force, value) in forces.iter_mut().zip(self.series.values()) {
+            *force = weight * Vec2::new(value.re, value.im);
+        }
+        Ok(())
+    }
+}
+
+impl Body for Shell {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn kind(&self) -> MarkerKind {
+        MarkerKind::UnevenInterface { viscosity_inside: self.viscosity_inside }
+    }
+
+    fn marker_count(&self) -> usize {
+        self.positions.len()
+    }
+
+    fn write_markers(&self, positions: &mut [Vec2]) {
+        positions.copy_from_slice(&self.positions);
+    }
+
+    fn write_forces(&mut self, medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
+        self.modes = medium.shape_modes.filter(|&modes| modes < self.positions.len());
+        self.differentiate()?;
+        Ok(self.forces(forces)?)
+    }
+
+    fn state_len(&self) -> usize {
+        2 * self.positions.len()
+    }
+
+    fn write_state(&self, state: &mut [f64]) {
+        for (pair, position) in state.chunks_exact_mut(2).zip(&self.positions) {
+            pair.copy_from_slice(&position.to_array());
+        }
+    }
+
+    fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
+        if let Some(index) = state.iter().position(|value| !value.is_finite()) {
+            return Err(BodyError::NonFinite { what: "marker coordinate", index, value: state[index] });
+        }
+        for (position, pair) in self.positions.iter_mut().zip(state.chunks_exact(2)) {
+            *position = Vec2::new(pair[0], pair[1]);
+        }
+        Ok(())
+    }
+
+    fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
+        self.motions.copy_from_slice(velocities);
+        if let Some(modes) = self.modes {
+            // As long as the series, so that the call cannot fail.
+            let _ = self.series.truncate_vectors(&mut self.motions, modes);
+        }
+        for (pair, velocity) in rate.chunks_exact_mut(2).zip(&self.motions) {
+            pair.copy_from_slice(&velocity.to_array());
+        }
+    }
+
+    /// That of the shortest wave of the largest wave number q that moves, on a flat membrane between the two fluids:
+    /// `q (E_s + |T| + B q^2)/(2 (eta_in + eta_out))` with the largest tension T, both moduli at the largest stretch.
+    fn step_limits(&self, medium: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
+        let count = self.positions.len();
+        let next = self.positions.iter().cycle().skip(1);
+        let shortest = self.positions.iter().zip(next).map(|(a, b)| a.distance(*b)).fold(f64::INFINITY, f64::min);
+        let wave = match medium.shape_modes {
+            Some(modes) => PI * modes.min(count) as f64 / (count as f64 * shortest),
+            None => 4.0 * medium.interface_stiffness,
+        };
+        let (mut stretched, mut tension) = (1.0_f64, 0.0_f64);
+        for [stretch, ..] in self.strains() {
+            stretched = stretched.max(stretch).max(1.0 / stretch);
+            tension = tension.max(self.stretching * (stretch - 1.0).abs());
+        }
+        let viscosities = medium.viscosity + self.viscosity_inside.unwrap_or(medium.viscosity);
+        let modulus = stretched * (self.stretching + self.bending * wave * wave) + tension;
+        limits(StepLimit::decay(4.0 * viscosities / (wave * modulus), "the elastic membrane"));
+    }
+
+    fn write_scales(&self, scales: &mut [f64]) {
+        scales.fill((self.area / PI).sqrt());
+    }
+
+    /// Its moduli and its shape at rest.
+    fn properties(&self) -> Vec<(String, f64)> {
+        let count = self.positions.len() as f64;
+        let mut properties = vec![
+            ("the number of markers", count),
+            ("the stretching modulus", self.stretching),
+            ("the bending modulus", self.bending),
+            ("the power of the stretch in the measure of bending", f64::from(self.measure as u8)),
+            ("the length at rest", self.lengths.iter().sum::<f64>() * TAU / count),
+            ("the mean curvature at rest", self.curvatures.iter().sum::<f64>() / count),
+        ];
+        properties.extend(self.viscosity_inside.map(|viscosity| ("the viscosity inside", viscosity)));
+        properties.into_iter().map(|(name, value)| (name.to_owned(), value)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,63 @@
+//! Descriptions of rigid bodies that move.
+
+use elastic_solids::RigidBody;
+use ib_core::Vec2;
+use serde::{Deserialize, Serialize};
+
+use super::{DropletShape, Setup};
+use crate::SetupError;
+
+/// A rigid body that the fluid carries along, alone or inside a droplet: a nucleus.
+///
+/// ```
+/// use motile::prelude::*;
+///
+/// // A droplet with a rigid nucleus off its centre.
+/// let nucleus = RigidBodySetup { centre: [0.1, 0.2], ..RigidBodySetup::disc(0.4) };
+/// let setup = Setup { rigid_bodies: vec![nucleus], ..Setup::default() };
+/// let Built { mut scene, rigid_bodies, .. } = setup.build()?;
+/// let seen = scene.observe(rigid_bodies[0])?;
+/// println!("the nucleus moves with {:.3} and turns with {:.3}", seen.velocity.length(), seen.spin);
+/// assert!(seen.velocity.x > 0.0 && seen.spin > 0.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RigidBodySetup {
+    /// Name for messages.
+    pub name: String,
+    /// Position of the centre (length).
+    pub centre: [f64; 2],
+    /// By how much the shape is turned (radians).
+    pub angle: f64,
+    /// Its shape; corners are rounded to what the nodes of an interface resolve.
+    pub shape: DropletShape,
+    /// A force that acts on it in its centroid (force), and a torque (force times length).
+    pub force: [f64; 2],
+    /// See force.
+    pub torque: f64,
+}
+
+impl Default for RigidBodySetup {
+    /// A disc of radius 0.5 in the origin.
+    fn default() -> Self {
+        let shape = DropletShape::Round { radius: 0.5 };
+        Self { name: Self::NAME.to_owned(), centre: [0.0; 2], angle: 0.0, shape, force: [0.0; 2], torque: 0.0 }
+    }
+}
+
+impl RigidBodySetup {
+    /// Its name unless it has one of its own.
+    pub(super) const NAME: &str = "rigid body";
+
+    /// A disc of that radius (length) in the origin.
+    #[must_use]
+    pub fn disc(radius: f64) -> Self {
+        Self { shape: DropletShape::Round { radius }, ..Self::default() }
+    }
+
+    pub(super) fn build(&self, setup: &Setup) -> Result<RigidBody, SetupError> {
+        let markers = setup.outline(&self.shape, self.centre, self.angle, &self.name)?;
+        Ok(RigidBody::new(&markers)?.named(&self.name).with_load(Vec2::from(self.force), self.torque)?)
+    }
+}

@@ -1,0 +1,81 @@
+//! Descriptions of elastic membranes around fluid.
+
+use elastic_solids::{BendingMeasure, Shell};
+use ib_core::Vec2;
+use serde::{Deserialize, Serialize};
+
+use super::{DropletShape, Setup};
+use crate::SetupError;
+
+/// A closed elastic membrane around fluid: the shell of a nucleus in a droplet, or a capsule. It is at rest in the
+/// shape that it starts in.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ShellSetup {
+    /// Name for messages.
+    pub name: String,
+    /// Position of the centre (length).
+    pub centre: [f64; 2],
+    /// By how much the shape is turned (radians).
+    pub angle: f64,
+    /// Viscosity of the fluid inside (stress times time); `None` for that of the fluid around it.
+    pub viscosity: Option<f64>,
+    /// Its shape.
+    pub shape: DropletShape,
+    /// Modulus of stretching (force).
+    pub stretching: f64,
+    /// Modulus of bending (force times length squared).
+    pub bending: f64,
+    /// What bending is measured by.
+    pub measure: BendingMeasure,
+    /// Curvature at which bending is at rest everywhere (1/length); `None` for that of its shape.
+    pub reference_curvature: Option<f64>,
+}
+
+impl Default for ShellSetup {
+    /// A circle of radius 0.5 in the origin.
+    fn default() -> Self {
+        Self {
+            name: Self::NAME.to_owned(),
+            centre: [0.0; 2],
+            angle: 0.0,
+            viscosity: None,
+            shape: DropletShape::Round { radius: 0.5 },
+            stretching: 10.0,
+            bending: 0.1,
+            measure: BendingMeasure::default(),
+            reference_curvature: None,
+        }
+    }
+}
+
+impl ShellSetup {
+    /// Its name unless it has one of its own.
+    pub(super) const NAME: &str = "shell";
+
+    pub(super) fn build(&self, setup: &Setup) -> Result<Shell, SetupError> {
+        let markers = setup.outline(&self.shape, self.centre, self.angle, &self.name)?;
+        let mut shell = Shell::new(&markers, self.stretching, self.bending)?.named(&self.name);
+        if let Some(curvature) = self.reference_curvature {
+            shell = shell.with_reference_curvature(curvature)?;
+        }
+        if let Some(viscosity) = self.viscosity {
+            shell = shell.with_viscosity_inside(viscosity)?;
+        }
+        Ok(shell.with_measure(self.measure))
+    }
+}
+
+impl Setup {
+    /// Markers of a body's outline (length).
+    pub(super) fn outline(
+        &self,
+        shape: &DropletShape,
+        centre: [f64; 2],
+        angle: f64,
+        name: &str,
+    ) -> Result<Vec<Vec2>, SetupError> {
+        let curve = shape.curve()?.0.rotated(angle).translated(Vec2::from(centre));
+        Ok(curve.markers(self.marker_count(&curve, name)?)?)
+    }
+}
