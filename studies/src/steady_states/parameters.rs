@@ -1,10 +1,10 @@
 //! Steady swimmers over the length of a channel and over viscosities.
 
-use anyhow::Result;
+use anyhow::{Context, Result, bail};
 use motile::stokes_grid::Drive;
-use motile::{Built, DropletSetup, Method, Region, Setup};
+use motile::{DropletSetup, Region, Setup};
 use motile_tests::validation::Table;
-use steady_states::{Continuation, Eigenmode, Parameter, Profile, SteadyState};
+use steady_states::{Continuation, Eigenmode, Parameter, SteadyState};
 
 use super::{channel, nodes};
 
@@ -12,10 +12,8 @@ use super::{channel, nodes};
 const LENGTHS: [f64; 13] = [8.0, 10.0, 12.0, 16.0, 24.0, 36.0, 48.0, 72.0, 96.0, 120.0, 144.0, 180.0, 240.0];
 const FACTOR: f64 = 1.15;
 const LONGEST: f64 = 400.0;
-/// Time of a run without a net flux at which its swings have nearly gone.
-const TILTED_AT: f64 = 1000.0;
-/// Distance from the centre line of a swimmer that is straight.
-const STRAIGHT: f64 = 1e-4;
+/// The branch point is at a greater length.
+const TILTS_AT: f64 = 73.0;
 /// Last modes of a state that is worth a place among the data of a law.
 const SOUND: f64 = 1e-3;
 
@@ -54,19 +52,17 @@ pub(super) fn length(count: usize) -> Result<Vec<Table>> {
     let header = ["length", "speed", "film", "last modes", "growth rate"];
     let mut speeds = Table::new("Straight swimmers, width 2, activity -2, A = 10", &header);
     let points = tabulated(&mut speeds, &open, width)?;
-    let without_flux = tilted(count)?;
-    let region = Region::Channel { length: LONGEST, width, drive: Drive::ZeroGradient };
-    let setup = Setup { region, ..without_flux.setup().clone() };
-    let first = SteadyState::near(&setup, without_flux.profile(), without_flux.velocity(), false)?;
-    let mut tilts = vec![(LONGEST, first)];
-    for length in LENGTHS.into_iter().rev() {
-        let Ok(next) = stretched(&tilts[tilts.len() - 1].1, length) else { break };
-        // Beyond the end of their branch the straight ones are found.
-        if next.measured()?.centroid.y.abs() < STRAIGHT {
-            break;
-        }
-        tilts.push((length, next));
-    }
+    // Where the straight swimmers lose their stability those branch off that are not their own mirror images.
+    let Some((length, start)) = open.iter().rev().find(|(length, _)| *length < TILTS_AT) else { bail!("no swimmer") };
+    let along = Continuation { largest_step: 0.1, ..Continuation::new(Parameter::Length, *length, LONGEST) };
+    let straight = along.follow(start, |_, special| special.is_empty())?;
+    let point = straight.special.first().context("no branch point of the straight swimmers")?;
+    let branch = along.switch(point, true, |_, _| true)?;
+    let tilts: Vec<_> = branch.points.into_iter().map(|point| (point.value, point.state)).collect();
+    let (_, last) = tilts.last().context("no tilted swimmers")?;
+    let region = Region::Channel { length: LONGEST, width, drive: Drive::ZeroFlux };
+    let setup = Setup { region, ..last.setup().clone() };
+    let without_flux = SteadyState::near(&setup, last.profile(), last.velocity(), false)?;
     let mut tilted = Table::new("Swimmers that are not their own mirror images, and without a net flux", &header);
     let tilted_points = tabulated(&mut tilted, &tilts, width)?;
     tabulated(&mut tilted, &[(f64::INFINITY, without_flux)], width)?;
@@ -95,24 +91,12 @@ fn tabulated(table: &mut Table, states: &[(f64, SteadyState)], width: f64) -> Re
         if state.tail() < SOUND {
             points.push((*length, speed));
         }
-        let name = if length.is_finite() { length.to_string() } else { "any, no net flux".into() };
+        let name = if length.is_finite() { format!("{length:.2}") } else { "any, no net flux".into() };
         let growth = state.spectrum()?.leading().map_or(f64::NAN, |mode| mode.value.re);
         let numbers = [format!("{speed:.8}"), format!("{:.4}", film(state, width)), format!("{:.0e}", state.tail())];
         table.push(std::iter::once(name).chain(numbers).chain([format!("{growth:.5}")]));
     }
     Ok(points)
-}
-
-/// The swimmer without a net flux, which is not its own mirror image, from a run: round-off grows until it is tilted.
-fn tilted(count: usize) -> Result<SteadyState> {
-    let region = Region::Channel { length: 12.0, width: 2.0, drive: Drive::ZeroFlux };
-    let setup = Setup { region, ..channel(12.0, 2.0, -2.0, 10.0, count) };
-    let Built { mut scene, droplets, .. } = Setup { method: Method::default(), ..setup.clone() }.build()?;
-    scene.run(TILTED_AT).go()?;
-    let velocity = scene.observe(droplets[0])?.velocity;
-    let droplet = scene.body(droplets[0])?;
-    let profile = Profile::from_markers(droplet.markers(), droplet.particle_numbers())?;
-    Ok(SteadyState::near(&setup, &profile, velocity, false)?)
 }
 
 /// Straight swimmers in a channel of width 3 at an activity of -4 over its length.
