@@ -157,8 +157,8 @@ impl<'a, H: Hydrodynamics, I: Integrator> Run<'a, H, I> {
         self.check()?;
         self.start = self.scene.time();
         if self.until - self.start > self.negligible() && self.scene.system().is_unmoved() {
-            // What the first bound on the step looks at: how fast particles are carried, for one. Later ones look at the
-            // step before, also of a run that goes on.
+            // What the first bound on the step looks at: how fast particles are carried, for one. Later ones look at
+            // the step before, also of a run that goes on.
             let mut rate = vec![0.0; self.scene.system().state_len()];
             self.scene.system_mut().present_rate(&mut rate)?;
         }
