@@ -156,7 +156,9 @@ impl SteadyState {
         if mirror {
             return Self::from_profile(setup, &profile.symmetrised()?, [velocity.x, 0.0, 0.0], true);
         }
-        Self::from_profile(setup, profile, [velocity.x, velocity.y, 0.0], false)
+        // Across a channel nothing goes on for ever.
+        let across = if matches!(setup.region, Region::Channel { .. }) { 0.0 } else { velocity.y };
+        Self::from_profile(setup, profile, [velocity.x, across, 0.0], false)
     }
 
     fn from_profile(setup: &Setup, profile: &Profile, frame: FrameMotion, mirror: bool) -> Result<Self, SteadyError> {
