@@ -71,6 +71,8 @@ pub(super) fn length(count: usize) -> Result<Vec<Table>> {
     let mut fitted = |name: &str, points: &[(f64, f64)], range: std::ops::Range<i32>, law: fn(f64, f64) -> f64| {
         // Linear in a and b for each c.
         let all = range.map(|k| 0.05 * f64::from(k)).map(|c| (fit(points, |l| law(l, c)), c));
+        // An exponential that has died off at all lengths fits nothing.
+        let all = all.filter(|((a, b, worst), _)| (a + b + worst).is_finite());
         if let Some(((a, b, worst), c)) = all.min_by(|x, y| x.0.2.total_cmp(&y.0.2)) {
             let numbers = [format!("{a:.6}"), format!("{b:.5}"), format!("{c:.2}"), format!("{worst:.1e}")];
             laws.push(std::iter::once(name.to_owned()).chain(numbers));
