@@ -5,6 +5,7 @@
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
+mod book;
 mod channels;
 mod elastic_step;
 mod exchange;
@@ -48,6 +49,8 @@ enum Study {
     SteadyStates(steady_states::Flags),
     Stiffness(stiffness::Flags),
     Sweep(sweep::Flags),
+    Figure(book::FigureFlags),
+    Figures(book::FiguresFlags),
     ViscosityContrast(viscosity_contrast::Flags),
     Channels(channels::Flags),
     HardCases(hard_cases::Flags),
@@ -72,6 +75,8 @@ fn main() -> ExitCode {
         Study::SteadyStates(flags) => steady_states::run(flags),
         Study::Stiffness(flags) => stiffness::run(flags),
         Study::Sweep(flags) => sweep::run(flags),
+        Study::Figure(flags) => book::figure(flags),
+        Study::Figures(flags) => book::figures(flags),
         Study::ViscosityContrast(flags) => viscosity_contrast::run(flags),
         Study::Channels(flags) => channels::run(flags),
         Study::HardCases(flags) => hard_cases::run(flags),

@@ -92,7 +92,7 @@ impl Trial {
         let Line { scene: flags } = Line::try_parse_from(words)?;
         let mut run = WatchedRun::new(self.setup.build()?, &self.setup, &flags, "sweep")?;
         run.go(None)?;
-        let summary = run.summary()?;
+        let summary = run.measured()?;
         run.outcome()?;
         // It may have failed before.
         let _ = fs::remove_file(self.failure());
@@ -100,7 +100,7 @@ impl Trial {
     }
 
     /// Writes the scene file, or makes sure that it is there.
-    fn keep_scene(&self) -> Result<()> {
+    pub(crate) fn keep_scene(&self) -> Result<()> {
         let path = self.folder.join("scene.toml");
         let text = self.setup.to_toml()?;
         if let Ok(found) =
