@@ -24,7 +24,6 @@ mod tables;
 mod threads;
 mod time_steps;
 mod validation;
-mod viscosity_contrast;
 mod warnings;
 mod work_precision;
 
@@ -51,7 +50,6 @@ enum Study {
     Sweep(sweep::Flags),
     Figure(book::FigureFlags),
     Figures(book::FiguresFlags),
-    ViscosityContrast(viscosity_contrast::Flags),
     Channels(channels::Flags),
     HardCases(hard_cases::Flags),
     TimeSteps(time_steps::Flags),
@@ -77,7 +75,6 @@ fn main() -> ExitCode {
         Study::Sweep(flags) => sweep::run(flags),
         Study::Figure(flags) => book::figure(flags),
         Study::Figures(flags) => book::figures(flags),
-        Study::ViscosityContrast(flags) => viscosity_contrast::run(flags),
         Study::Channels(flags) => channels::run(flags),
         Study::HardCases(flags) => hard_cases::run(flags),
         Study::TimeSteps(flags) => time_steps::run(flags),

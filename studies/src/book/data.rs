@@ -14,7 +14,7 @@ use super::Making;
 use super::expression::Row;
 use crate::run_pool::RunPool;
 use crate::sweep::plan::Plan;
-use crate::sweep::trial::Trial;
+use crate::sweep::trial::{State, Trial};
 use crate::tables;
 
 /// Longest text that becomes a name.
@@ -111,13 +111,17 @@ impl Source {
         let wanted = trials.len();
         let folder = making.out.join("data").join(format!("{name}-{}", making.kind()));
         make_directory(&folder)?;
-        // What was made from another plan is not taken for this one.
         for trial in &trials {
+            // What was made from another plan is not taken for this one.
             make_directory(&trial.folder)?;
             trial.keep_scene()?;
+            if let State::Failed(failure) = trial.state() {
+                say(format_args!("{name}: left out: {}: {failure}", trial.label));
+            }
         }
+        let trials = trials.into_iter().filter(|trial| !matches!(trial.state(), State::Failed(_))).collect();
         let pool = RunPool::new(&folder, making.threads, making.quiet)?;
-        let make = |trial: &Trial| if self.steady { steady(trial) } else { trial.run() };
+        let make = |trial: &Trial| if self.steady { trial.keep(steady) } else { trial.run() };
         let (done, failures) = pool.study(trials, |trial| format!("{}/summary", trial.label), make);
         for failure in failures {
             say(format_args!("{name}: left out: {}", explained(&failure)));
@@ -220,7 +224,8 @@ fn of_table(name: &str) -> Result<Vec<Row>> {
     let path = Path::new(tables::root()).join(format!("docs/tables/{name}.csv"));
     let read = || -> Result<Vec<Row>> {
         let mut table = csv::ReaderBuilder::new().comment(Some(b'#')).flexible(true).from_path(&path)?;
-        let header: Vec<String> = table.headers()?.iter().map(|title| format!("t_{}", plain(title))).collect();
+        let name = |title: &str| format!("t_{}", plain(title));
+        let header: Vec<String> = table.headers()?.iter().map(name).collect();
         let mut rows = Vec::new();
         for record in table.records() {
             let mut row = Row::new();
@@ -233,9 +238,8 @@ fn of_table(name: &str) -> Result<Vec<Row>> {
                     Err(_) => flatten(name, &Value::String(cell.to_owned()), &mut row),
                 }
                 // A verdict before its number.
-                if let Some(word) = cell.split([' ', ',']).next().filter(|word| word.starts_with(char::is_alphabetic)) {
-                    row.insert(format!("{name}_{}", plain(word)), 1.0);
-                }
+                let word = cell.split([' ', ',']).next().filter(|word| word.starts_with(char::is_alphabetic));
+                row.extend(word.map(|word| (format!("{name}_{}", plain(word)), 1.0)));
             }
             rows.push(row);
         }

@@ -20,6 +20,12 @@ const CHAPTERS: [(&str, &str); 5] = [
     ("B", "Extinction of a birth-death process"),
 ];
 
+const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.md#bibliography)) with results, beside \
+                     what converged results say. All of it is written by `cargo run --release -p studies -- figures \
+                     --write` from the files in `studies/book`; `figure 3.9` makes one figure, `figures --chapter 3` a \
+                     chapter, `--quick` each with fewer and shorter runs. A figure that was not computed says so; a \
+                     verdict whose numbers came out otherwise than it needs is shown as open, with the number.";
+
 pub(super) fn folder() -> PathBuf {
     Path::new(tables::root()).join("docs/book")
 }
@@ -53,13 +59,7 @@ pub(super) fn write() -> Result<()> {
 /// The names of all pages and their texts.
 pub(super) fn all() -> Result<Vec<(String, String)>> {
     let numbers = numbers()?;
-    let mut front = String::from(
-        "# The book\n\nEvery figure of Cowley's thesis ([bibliography](../theory.md#bibliography)) with results, beside \
-         what converged results\nsay. All of it is written by `cargo run --release -p studies -- figures --write` from \
-         the files in `studies/book`;\n`figure 3.9` makes one figure, `figures --chapter 3` a chapter, `--quick` each \
-         with fewer and shorter runs. A figure that\nwas not computed says so; a verdict whose numbers came out \
-         otherwise than it needs is shown as open, with the number.\n\n",
-    );
+    let mut front = format!("# The book\n\n{}\n", wrapped(FRONT));
     let mut pages = Vec::new();
     let mut counts: Vec<(String, usize)> = Vec::new();
     let mut table = String::from("| figure | statement | verdict | evidence |\n|---|---|---|---|\n");
@@ -143,6 +143,23 @@ fn section(number: &str, figure: &Figure, verdict: &str, [full, quick]: [&Option
     text += "\n";
     text += &wrapped(&(last + "."));
     Ok(text)
+}
+
+/// A picture with one decimal of its numbers, a third smaller.
+pub(super) fn rounded(svg: &str) -> String {
+    let mut out = String::with_capacity(svg.len());
+    let mut decimals = None;
+    for c in svg.chars() {
+        decimals = match (c, decimals) {
+            ('.', _) => Some(0),
+            (c, Some(count)) if c.is_ascii_digit() => Some(count + 1),
+            _ => None,
+        };
+        if decimals.is_none_or(|count| count < 2) {
+            out.push(c);
+        }
+    }
+    out
 }
 
 /// A paragraph in lines that are not too long.

@@ -67,8 +67,16 @@ impl Trial {
     /// # Errors
     /// [`Taken`]; what made the run break off, which is kept in the folder; a folder that has another scene.
     pub(crate) fn run(&self) -> Result<Summary> {
+        self.keep(Self::watched)
+    }
+
+    /// What comes of `make`; what makes it fail is kept in the folder.
+    ///
+    /// # Errors
+    /// Those of `make`.
+    pub(crate) fn keep(&self, make: impl FnOnce(&Self) -> Result<Summary>) -> Result<Summary> {
         make_directory(&self.folder)?;
-        let outcome = self.watched();
+        let outcome = make(self);
         if let Err(error) = &outcome {
             let stopped = matches!(error.downcast_ref(), Some(SceneError::Stopped { .. }));
             if !stopped && !error.is::<Taken>() {
