@@ -219,7 +219,8 @@ fn flatten(path: &str, value: &Value, row: &mut Row) {
     }
 }
 
-/// The rows of a table of `docs/tables`, its columns with `t_` before their names: in each cell the number that it begins with and, as of a text, what it says.
+/// The rows of a table of `docs/tables`, its columns with `t_` before their names: in each cell the number that it
+/// begins with and, as of a text, what it says.
 fn of_table(name: &str) -> Result<Vec<Row>> {
     let path = Path::new(tables::root()).join(format!("docs/tables/{name}.csv"));
     let read = || -> Result<Vec<Row>> {
