@@ -275,7 +275,7 @@ impl Follower {
 
     /// Finds the tangent that agrees with a direction.
     fn turn(&mut self, direction: &DVector<f64>) -> Result<(), SteadyError> {
-        let equations = self.system.equations(&self.point, self.part, 0.0, Some(&self.along(direction)))?;
+        let equations = self.system.equations(&self.point, self.part, Some(&self.along(direction)))?;
         let mut right = DVector::zeros(equations.len());
         right[equations.len() - 1] = 1.0;
         let solution = equations.solve(&right)?;

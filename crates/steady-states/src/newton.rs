@@ -80,7 +80,10 @@ impl System {
             let fresh = equations.is_none();
             let used = match equations.take() {
                 Some(equations) => equations,
-                None => self.equations(point, part, 0.0, along)?,
+                None => {
+                    let jacobian = self.rough_jacobian(point, part, &rates)?;
+                    self.border(point, part, &jacobian, along)?
+                }
             };
             if fresh {
                 self.load(point)?;
@@ -194,7 +197,7 @@ impl System {
         let mut rates = self.residual(point)?;
         let mut last = rates.amax();
         for count in 0..MOST_STEPS {
-            let jacobian = self.jacobian(point, part)?;
+            let jacobian = self.rough_jacobian(point, part, &rates)?;
             loop {
                 let damped = &jacobian - DMatrix::identity(jacobian.nrows(), jacobian.ncols()) / step;
                 let equations = self.border(point, part, &damped, None)?;
