@@ -368,9 +368,12 @@ impl Follower {
         // Special points before the next one, and the end if it is the last.
         let (mut special, mut end) = (Vec::<SpecialPoint>::new(), None);
         loop {
-            let (point, tangent) = (self.point.clone(), self.tangent.clone());
-            if self.rebase().is_err() {
-                (self.point, self.tangent) = (point, tangent);
+            let (point, tangent, outcome) = (self.point.clone(), self.tangent.clone(), self.outcome);
+            // Other nodes where they resolve the droplet better, or it is far from its base.
+            let (far, tail) = (self.system.is_far(&point), self.system.tail(&point)?);
+            let better = self.rebase().and_then(|()| Ok(far || self.system.tail(&self.point)? < tail));
+            if !better.unwrap_or(false) {
+                (self.point, self.tangent, self.outcome) = (point, tangent, outcome);
             }
             let state = self.state()?;
             let spectrum = self.system.spectrum(&self.point, self.part == Part::Even)?;

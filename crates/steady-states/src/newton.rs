@@ -165,7 +165,7 @@ impl System {
     }
 
     /// Size of the last modes over that of all, of shape or concentration.
-    fn tail(&self, point: &Point) -> Result<f64, SteadyError> {
+    pub(crate) fn tail(&self, point: &Point) -> Result<f64, SteadyError> {
         Ok(self.profile(point).tails()?.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest)))
     }
 
