@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::DVector;
 
 use crate::modes::Part;
-use crate::newton::Outcome;
+use crate::newton::{Outcome, RESOLVED};
 use crate::profile::{Fields, Profile};
 use crate::spectrum::{Spectrum, Symmetry, eigenvector};
 use crate::system::{Along, Point, System};
@@ -369,10 +369,10 @@ impl Follower {
         let (mut special, mut end) = (Vec::<SpecialPoint>::new(), None);
         loop {
             let (point, tangent, outcome) = (self.point.clone(), self.tangent.clone(), self.outcome);
-            // Other nodes where they resolve the droplet better, or it is far from its base.
-            let (far, tail) = (self.system.is_far(&point), self.system.tail(&point)?);
-            let better = self.rebase().and_then(|()| Ok(far || self.system.tail(&self.point)? < tail));
-            if !better.unwrap_or(false) {
+            // Nodes that follow a droplet which they hardly resolve follow their own errors more and more.
+            let (far, tail) = (self.system.is_far(&point), self.system.tail(&point)?.max(RESOLVED));
+            let good = self.rebase().and_then(|()| Ok(far || self.system.tail(&self.point)? < tail));
+            if !good.unwrap_or(false) {
                 (self.point, self.tangent, self.outcome) = (point, tangent, outcome);
             }
             let state = self.state()?;

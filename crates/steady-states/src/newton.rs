@@ -27,7 +27,7 @@ const LARGEST: f64 = 0.3;
 /// Largest offset from the base, over the radius, before another base is taken.
 const FARTHEST: f64 = 0.15;
 /// Last modes of this part of all are small enough on the way to a steady state.
-const RESOLVED: f64 = 5e-4;
+pub(crate) const RESOLVED: f64 = 5e-4;
 /// Last modes of this part of all lead nowhere.
 const LOST: f64 = 0.1;
 /// First step in time, in units of R^2/D.
