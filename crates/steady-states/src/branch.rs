@@ -371,7 +371,11 @@ impl Follower {
             let (point, tangent, outcome) = (self.point.clone(), self.tangent.clone(), self.outcome);
             // Nodes that follow a droplet which they hardly resolve follow their own errors more and more.
             let (far, tail) = (self.system.is_far(&point), self.system.tail(&point)?.max(RESOLVED));
-            let good = self.rebase().and_then(|()| Ok(far || self.system.tail(&self.point)? < tail));
+            let forward = tangent.as_slice().last().copied().unwrap_or(0.0);
+            let good = self.rebase().and_then(|()| {
+                let onward = self.tangent[self.size()] * forward >= 0.0;
+                Ok(onward && (far || self.system.tail(&self.point)? < tail))
+            });
             if !good.unwrap_or(false) {
                 (self.point, self.tangent, self.outcome) = (point, tangent, outcome);
             }
