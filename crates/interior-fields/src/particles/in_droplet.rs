@@ -134,6 +134,22 @@ impl ParticlesInDroplet {
         self.numbers.iter().zip(&self.cells.areas).map(|(number, area)| number / area)
     }
 
+    /// What is seen of them at present; it does not depend on the flow.
+    #[must_use]
+    pub fn seen(&self) -> InteriorObservables {
+        let number = self.numbers.iter().sum();
+        let least = self.densities().fold(f64::INFINITY, f64::min);
+        let largest = self.densities().fold(0.0, f64::max);
+        let binding = |segment: usize| {
+            let density = |node: usize| self.numbers[node] / self.cells.areas[node];
+            0.5 * self.lengths[segment] * self.ends(segment).into_iter().map(density).sum::<f64>()
+        };
+        let flux = (0..self.on.len())
+            .map(|k| self.exchange.binding() * binding(k) - self.exchange.unbinding() * self.on[k])
+            .sum();
+        InteriorObservables { number, number_on: self.on.iter().sum(), flux, range: [least, largest] }
+    }
+
     /// The number of particles on the interface and inside at the start.
     #[must_use]
     pub fn initial_number(&self) -> f64 {
@@ -348,16 +364,6 @@ impl Observe for ParticlesInDroplet {
     type Observables = InteriorObservables;
 
     fn observables(&self, _medium: &Discretisation, _flow: &BodyFlow<'_>) -> Result<InteriorObservables, BodyError> {
-        let number = self.numbers.iter().sum();
-        let least = self.densities().fold(f64::INFINITY, f64::min);
-        let largest = self.densities().fold(0.0, f64::max);
-        let binding = |segment: usize| {
-            let density = |node: usize| self.numbers[node] / self.cells.areas[node];
-            0.5 * self.lengths[segment] * self.ends(segment).into_iter().map(density).sum::<f64>()
-        };
-        let flux = (0..self.on.len())
-            .map(|k| self.exchange.binding() * binding(k) - self.exchange.unbinding() * self.on[k])
-            .sum();
-        Ok(InteriorObservables { number, number_on: self.on.iter().sum(), flux, range: [least, largest] })
+        Ok(self.seen())
     }
 }
