@@ -5,7 +5,7 @@ use std::fmt;
 use nalgebra::DVector;
 
 use crate::modes::Part;
-use crate::newton::Outcome;
+use crate::newton::{Outcome, RESOLVED};
 use crate::profile::{Fields, Profile};
 use crate::spectrum::{Spectrum, Symmetry, eigenvector};
 use crate::system::{Along, Point, System};
@@ -275,7 +275,7 @@ impl Follower {
 
     /// Finds the tangent that agrees with a direction.
     fn turn(&mut self, direction: &DVector<f64>) -> Result<(), SteadyError> {
-        let equations = self.system.equations(&self.point, self.part, 0.0, Some(&self.along(direction)))?;
+        let equations = self.system.equations(&self.point, self.part, Some(&self.along(direction)))?;
         let mut right = DVector::zeros(equations.len());
         right[equations.len() - 1] = 1.0;
         let solution = equations.solve(&right)?;
@@ -368,9 +368,16 @@ impl Follower {
         // Special points before the next one, and the end if it is the last.
         let (mut special, mut end) = (Vec::<SpecialPoint>::new(), None);
         loop {
-            let (point, tangent) = (self.point.clone(), self.tangent.clone());
-            if self.rebase().is_err() {
-                (self.point, self.tangent) = (point, tangent);
+            let (point, tangent, outcome) = (self.point.clone(), self.tangent.clone(), self.outcome);
+            // Nodes that follow a droplet which they hardly resolve follow their own errors more and more.
+            let (far, tail) = (self.system.is_far(&point), self.system.tail(&point)?.max(RESOLVED));
+            let forward = tangent.as_slice().last().copied().unwrap_or(0.0);
+            let good = self.rebase().and_then(|()| {
+                let onward = self.tangent[self.size()] * forward >= 0.0;
+                Ok(onward && (far || self.system.tail(&self.point)? < tail))
+            });
+            if !good.unwrap_or(false) {
+                (self.point, self.tangent, self.outcome) = (point, tangent, outcome);
             }
             let state = self.state()?;
             let spectrum = self.system.spectrum(&self.point, self.part == Part::Even)?;

@@ -24,7 +24,7 @@ const LARGEST: f64 = 0.5;
 const LEAST_PART: f64 = 0.01;
 /// Last harmonics in time beyond this part of the first ask for more instants, up to a number.
 const LONGEST_TAIL: f64 = 1e-3;
-const MOST_INSTANTS: usize = 17;
+const MOST_INSTANTS: usize = 33;
 
 /// Growth of a step after one that has converged.
 const LONGER: f64 = 1.3;

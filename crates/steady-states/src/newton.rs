@@ -27,7 +27,7 @@ const LARGEST: f64 = 0.3;
 /// Largest offset from the base, over the radius, before another base is taken.
 const FARTHEST: f64 = 0.15;
 /// Last modes of this part of all are small enough on the way to a steady state.
-const RESOLVED: f64 = 5e-4;
+pub(crate) const RESOLVED: f64 = 5e-4;
 /// Last modes of this part of all lead nowhere.
 const LOST: f64 = 0.1;
 /// First step in time, in units of R^2/D.
@@ -80,7 +80,10 @@ impl System {
             let fresh = equations.is_none();
             let used = match equations.take() {
                 Some(equations) => equations,
-                None => self.equations(point, part, 0.0, along)?,
+                None => {
+                    let jacobian = self.rough_jacobian(point, part, &rates)?;
+                    self.border(point, part, &jacobian, along)?
+                }
             };
             if fresh {
                 self.load(point)?;
@@ -162,7 +165,7 @@ impl System {
     }
 
     /// Size of the last modes over that of all, of shape or concentration.
-    fn tail(&self, point: &Point) -> Result<f64, SteadyError> {
+    pub(crate) fn tail(&self, point: &Point) -> Result<f64, SteadyError> {
         Ok(self.profile(point).tails()?.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest)))
     }
 
@@ -194,7 +197,7 @@ impl System {
         let mut rates = self.residual(point)?;
         let mut last = rates.amax();
         for count in 0..MOST_STEPS {
-            let jacobian = self.jacobian(point, part)?;
+            let jacobian = self.rough_jacobian(point, part, &rates)?;
             loop {
                 let damped = &jacobian - DMatrix::identity(jacobian.nrows(), jacobian.ncols()) / step;
                 let equations = self.border(point, part, &damped, None)?;

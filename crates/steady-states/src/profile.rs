@@ -12,8 +12,10 @@ use crate::SteadyError;
 const MOST_ITERATIONS: usize = 50;
 /// Modes below this part of the mean are not worth resolving.
 const FLAT: f64 = 1e-3;
-/// Waves of the density of nodes that are kept.
+/// Waves of the density of nodes that are kept: that many, or one for this number of nodes where there are few, whose
+/// error it would follow.
 const SMOOTH_WAVES: f64 = 12.0;
+const NODES_PER_WAVE: f64 = 7.0;
 
 /// A closed curve and the particles on it, node k of N at the parameter 2 pi k/N: trigonometric polynomials, so that
 /// everything between the nodes is known to spectral accuracy.
@@ -194,7 +196,8 @@ impl Profile {
             let steep =
                 slopes.iter().zip(&lengths).map(|(slope, g)| (1.0 + (crowding * slope / (g * mean)).powi(2)).sqrt());
             series.analyse(steep.map(|value| Complex64::new(value, 0.0)))?;
-            series.scale(|m| (-(m as f64 / SMOOTH_WAVES).powi(2)).exp());
+            let waves = SMOOTH_WAVES.min(nodes as f64 / NODES_PER_WAVE);
+            series.scale(|m| (-(m as f64 / waves).powi(2)).exp());
             for (weight, smooth) in weights.iter_mut().zip(series.values()) {
                 *weight *= smooth.re;
             }

@@ -102,13 +102,12 @@ impl SteadyState {
 
     /// By steps in time and Newton's method.
     fn settled(setup: &Setup) -> Result<Self, SteadyError> {
-        let wanted = nodes_of(setup)?;
         let start = start(setup)?;
         let mirror = is_mirror(&start);
         let part = if mirror { Part::Even } else { Part::Full };
         let mut failed = None;
         for (most_nodes, steady) in ATTEMPTS {
-            let mut system = System::new(&with_nodes(setup, COARSE.min(wanted)))?;
+            let mut system = System::new(&with_nodes(setup, COARSE))?;
             let profile = centred(start.resampled(system.model.nodes(), 0.0)?)?;
             has_room(setup, &profile)?;
             let mut point = system.point(&profile, [0.0; 3])?;
@@ -143,7 +142,8 @@ impl SteadyState {
         let (radius, mean) = (model.radius, model.concentration);
         let positions = (0..nodes).map(|k| radius * Vec2::from_angle(TAU * k as f64 / nodes as f64)).collect();
         let profile = Profile { positions, density: vec![radius * mean; nodes] };
-        Self::newton(setup, &profile, [0.0; 3], true, 0.0)
+        let (system, point, outcome) = Self::newton(setup, &profile, [0.0; 3], true, 0.0)?;
+        Self::of(&system, point, outcome, true)
     }
 
     /// Newton's method from a droplet that is near a steady state, such as one from a run ([`Profile::from_markers`])
@@ -162,8 +162,10 @@ impl SteadyState {
     }
 
     fn from_profile(setup: &Setup, profile: &Profile, frame: FrameMotion, mirror: bool) -> Result<Self, SteadyError> {
-        let first = Self::newton(setup, profile, frame, mirror, CROWDING)?;
-        Self::newton(setup, &first.profile, first.point.frame, mirror, CROWDING)
+        // The nodes of the first serve the start, those of the second what was found.
+        let (system, point, _) = Self::newton(setup, profile, frame, mirror, CROWDING)?;
+        let (system, point, outcome) = Self::newton(setup, &system.profile(&point), point.frame, mirror, CROWDING)?;
+        Self::of(&system, point, outcome, mirror)
     }
 
     fn newton(
@@ -172,7 +174,7 @@ impl SteadyState {
         frame: FrameMotion,
         mirror: bool,
         crowding: f64,
-    ) -> Result<Self, SteadyError> {
+    ) -> Result<(System, Point, Outcome), SteadyError> {
         let mut system = System::new(setup)?;
         let mut profile = centred(profile.resampled(system.model.nodes(), crowding)?)?;
         if mirror {
@@ -182,7 +184,7 @@ impl SteadyState {
         let mut point = system.point(&profile, frame)?;
         let part = if mirror { Part::Even } else { Part::Full };
         let outcome = system.newton(&mut point, part, None)?;
-        Self::of(&system, point, outcome, mirror)
+        Ok((system, point, outcome))
     }
 
     pub(crate) fn of(system: &System, point: Point, outcome: Outcome, mirror: bool) -> Result<Self, SteadyError> {

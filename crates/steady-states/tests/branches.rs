@@ -1,7 +1,9 @@
 //! Branches and their special points against exact values.
 
 use motile::prelude::*;
-use steady_states::{Branch, BranchEnd, Continuation, Parameter, SpecialKind, SteadyError, SteadyState, Symmetry};
+use steady_states::{
+    Branch, BranchEnd, Continuation, Critical, Parameter, SpecialKind, SteadyError, SteadyState, Symmetry,
+};
 
 fn setup(region: Region, activity: f64, nodes: usize) -> Setup {
     let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
@@ -56,19 +58,56 @@ fn the_branch_of_swimmers_leads_from_the_threshold_to_the_swimmer_that_a_run_fin
 #[test]
 fn swings_across_a_channel_begin_at_a_hopf_point() {
     let region = Region::Channel { length: 12.0, width: 5.0, drive: Drive::ZeroGradient };
-    let state = SteadyState::find(&setup(region, -2.45, 96)).unwrap();
+    let state = SteadyState::find(&setup(region, -2.45, 128)).unwrap();
     let branch = follow(&state, -2.45, -2.7);
     let [hopf] = branch.special.as_slice() else { panic!("{:?}", branch.special.len()) };
     assert_eq!(hopf.kind, SpecialKind::Hopf);
     // The straight line between the growth rates on both sides.
     let growth = |activity: f64| {
-        let state = SteadyState::find(&setup(region, activity, 96)).unwrap();
+        let state = SteadyState::find(&setup(region, activity, 128)).unwrap();
         state.spectrum().unwrap().of(Symmetry::Antisymmetric).find(|z| z.im > 0.0).unwrap().re
     };
     let (a, b) = (growth(-2.55), growth(-2.58));
     let line = -2.55 - 0.03 * a / (a - b);
     let found = Parameter::Activity.get(hopf.critical.state.setup()).unwrap();
-    assert!((found - line).abs() < 2e-3, "{found} {line}");
+    assert!((found - line).abs() < 5e-4, "{found} {line}");
+}
+
+#[test]
+fn a_narrow_channel_has_a_fold_beyond_which_no_swimmer_is() {
+    let region = Region::Channel { length: 12.0, width: 2.05, drive: Drive::ZeroGradient };
+    let start = SteadyState::find(&setup(region, -7.1, 64)).unwrap();
+    let settings = Continuation { largest_step: 0.2, ..Continuation::new(Parameter::Activity, -7.1, -7.6) };
+    // Until it has turned back.
+    let branch = settings.follow(&start, |_, special| special.iter().all(|point| point.kind != SpecialKind::Fold));
+    let branch = branch.unwrap();
+    assert!(matches!(branch.end, BranchEnd::Stopped), "{}", branch.end);
+    let fold = branch.special.iter().find(|point| point.kind == SpecialKind::Fold).unwrap();
+    let at = Parameter::Activity.get(fold.critical.state.setup()).unwrap();
+    // 96 and 128 nodes have it at -7.306, and a mode of the symmetry of the state that does neither grow nor decay.
+    assert!((at + 7.306).abs() < 5e-3, "{at}");
+    let Critical { state, mode } = &fold.critical;
+    assert!(mode.symmetry == Symmetry::Symmetric && mode.value.norm() < 1e-3, "{}", mode.value);
+    // Near a fold the distance of the two branches is the square root of that to the fold.
+    let speed = |k: usize| branch.points[k].state.measured().unwrap().speed;
+    let (last, values) = (branch.points.len() - 1, branch.points.iter().map(|point| point.value));
+    assert!(values.fold(f64::INFINITY, f64::min) > at - 1e-6);
+    assert!((speed(last) - state.measured().unwrap().speed) * (speed(0) - state.measured().unwrap().speed) < 0.0);
+}
+
+#[test]
+fn a_long_step_does_not_pass_over_a_branch_point() {
+    // In width 2 another antisymmetric mode is next to zero growth at both ends of the step; 128 nodes find 74.66.
+    let region = Region::Channel { length: 71.6, width: 2.0, drive: Drive::ZeroGradient };
+    let start = SteadyState::find(&setup(region, -2.0, 64)).unwrap();
+    let settings =
+        Continuation { largest_step: 5.0, most_points: 2, ..Continuation::new(Parameter::Length, 71.6, 80.2) };
+    let branch = settings.follow(&start, |_, _| true).unwrap();
+    let lengths: Vec<f64> = branch.points.iter().map(|point| point.value).collect();
+    assert!(lengths.len() == 2 && lengths[1] > 75.5, "{lengths:?}");
+    let [point] = branch.special.as_slice() else { panic!("{:?}", branch.special.len()) };
+    let at = Parameter::Length.get(point.critical.state.setup()).unwrap();
+    assert!(point.kind == SpecialKind::BranchPoint && (at - 74.66).abs() < 0.05, "{at}");
 }
 
 #[test]

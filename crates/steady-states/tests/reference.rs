@@ -93,6 +93,26 @@ fn what_is_no_steady_state_of_one_droplet_is_refused() {
 }
 
 #[test]
+fn least_curvatures_are_those_of_the_shape() {
+    // A circle of twice the radius, and a swimmer with a flat back: markers between the nodes see the same.
+    let mut large = Setup { method: nodes(48), region: Region::Plane, ..Setup::default() };
+    large.droplets = vec![DropletSetup { shape: DropletShape::Round { radius: 2.0 }, ..DropletSetup::active(-0.1) }];
+    let circle = SteadyState::uniform(&large).unwrap().measured().unwrap();
+    assert!((circle.least_curvature - 0.5).abs() < 1e-10, "{}", circle.least_curvature);
+    let row = rows("channel_steady_swimmer.csv").into_iter().find(|row| row["w"] == "5").unwrap();
+    let swimmer = SteadyState::find(&channel_swimmer(&row, 10.0, 96)).unwrap();
+    let points = &swimmer.profile().positions;
+    let count = points.len();
+    let circles = (0..count).map(|k| {
+        let [a, b, c] = [points[(k + count - 1) % count], points[k], points[(k + 1) % count]];
+        2.0 * (b - a).perp_dot(c - b) / ((b - a).length() * (c - b).length() * (c - a).length())
+    });
+    let seen = circles.fold(f64::INFINITY, f64::min);
+    let least = swimmer.measured().unwrap().least_curvature;
+    assert!(least < 0.97 && (least - seen).abs() < 5e-3, "{least} {seen}");
+}
+
+#[test]
 fn a_start_from_a_run_that_is_not_quite_straight_leads_to_the_straight_swimmer() {
     let row = rows("channel_steady_swimmer.csv").into_iter().find(|row| row["w"] == "3").unwrap();
     let setup = channel_swimmer(&row, 10.0, 64);

@@ -156,6 +156,8 @@ fn intervals(points: &[(f64, bool)]) -> String {
 const INSTANTS: usize = 9;
 /// First amplitude of a cycle (R0).
 const AMPLITUDE: f64 = 0.2;
+/// Largest error of the multipliers of shifts with which the others are told.
+const RESOLVED: f64 = 0.2;
 /// Activity at which the reference has a cycle.
 const GOAL: f64 = -5.0;
 
@@ -187,11 +189,12 @@ pub(super) fn cycle(count: usize) -> Result<Vec<Table>> {
     let mut show = |cycle: &LimitCycle| -> Result<[f64; 2]> {
         let (at, amplitude) = (cycle.value(parameter), cycle.amplitude()?);
         let multipliers = cycle.multipliers()?;
-        let largest = multipliers.values.first().map_or(f64::NAN, |value| value.norm());
+        // Those that the nodes do not resolve are left out.
+        let resolved = multipliers.values.first().filter(|_| multipliers.neutral < RESOLVED);
         let told = [
             cycle.instants().to_string(),
             format!("{:.0e}", cycle.tail()),
-            format!("{largest:.4}"),
+            resolved.map_or_else(String::new, |value| format!("{:.4}", value.norm())),
             format!("{:.0e}", multipliers.neutral),
         ];
         push(at, amplitude, cycle.period(), cycle.mean_speed(), told);
