@@ -78,7 +78,8 @@ fn series(n: u32, ratio: f64) -> Result<f64> {
         term *= (2.0 * k + n + 1.0) * (2.0 * k + n) / ((k + 1.0) * (k + 1.0 + n)) * factor;
         // At equal rates terms fall as k^(-3/2) only: what is left is twice k times the next one.
         let left = if ratio == 1.0 { 2.0 * k * term } else { term / (1.0 - 4.0 * factor) };
-        if left < 1e-12 || (ratio == 1.0 && k > 1e6) {
+        // Before some n^2/6 births terms may still grow.
+        if k >= n * n && (left < 1e-12 || (ratio == 1.0 && k > 5e6)) {
             return Ok(sum + left);
         }
     }
