@@ -5,6 +5,7 @@
 //! Equations, sections and figures of Cowley are those of Natasha Cowley, "Effects of mechanical properties of the
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
+mod book;
 mod channels;
 mod elastic_step;
 mod exchange;
@@ -23,7 +24,6 @@ mod tables;
 mod threads;
 mod time_steps;
 mod validation;
-mod viscosity_contrast;
 mod warnings;
 mod work_precision;
 
@@ -48,7 +48,8 @@ enum Study {
     SteadyStates(steady_states::Flags),
     Stiffness(stiffness::Flags),
     Sweep(sweep::Flags),
-    ViscosityContrast(viscosity_contrast::Flags),
+    Figure(book::FigureFlags),
+    Figures(book::FiguresFlags),
     Channels(channels::Flags),
     HardCases(hard_cases::Flags),
     TimeSteps(time_steps::Flags),
@@ -72,7 +73,8 @@ fn main() -> ExitCode {
         Study::SteadyStates(flags) => steady_states::run(flags),
         Study::Stiffness(flags) => stiffness::run(flags),
         Study::Sweep(flags) => sweep::run(flags),
-        Study::ViscosityContrast(flags) => viscosity_contrast::run(flags),
+        Study::Figure(flags) => book::figure(flags),
+        Study::Figures(flags) => book::figures(flags),
         Study::Channels(flags) => channels::run(flags),
         Study::HardCases(flags) => hard_cases::run(flags),
         Study::TimeSteps(flags) => time_steps::run(flags),

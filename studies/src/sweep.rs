@@ -7,8 +7,8 @@
 //! shares. `sweep plan.toml collect` makes one table of the results, the same bytes whoever made the runs in whatever
 //! order; `sweep plan.toml status` tells what is left.
 
-mod plan;
-mod trial;
+pub(crate) mod plan;
+pub(crate) mod trial;
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,8 +1,9 @@
 //! What is said of a run with a droplet.
 
 use anyhow::{Context, Result};
-use motile::active_interface::Observables;
+use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::trajectory::{Evidence, RegimeCriteria};
+use motile::active_interface::{Convention, Observables, observe};
 use motile::ib_core::Hydrodynamics as _;
 use motile_output::SolidMeter;
 
@@ -22,6 +23,9 @@ const SOLIDS: [&str; 8] = [
     "deformed over reference area of a triangle",
 ];
 
+/// Observables that depend on the convention.
+const CONVENTIONAL: [&str; 8] = ["stresslet_xx", "s_xxx", "s_xyy", "n_xyy", "n_yxy", "n_yyx", "f_yxy", "f_yyx"];
+
 impl WatchedRun {
     /// The results that all scenes with a droplet have: its state in the end compared with the start, and what the run
     /// took.
@@ -40,6 +44,38 @@ impl WatchedRun {
             }
             let least = self.gap.smallest().map(|(gap, _)| gap);
             summary.put("minimum_gap", least, "between droplet and walls, over the run (R0)");
+        }
+        Ok(summary)
+    }
+
+    /// The same with all observables, in the convention of Cowley's print too (`..._printed`), the growth rate of the
+    /// speed over the last quarter, and what the droplet does across its channel: what plans may ask for.
+    ///
+    /// # Errors
+    /// A run that has not been.
+    pub fn measured(&self) -> Result<Summary> {
+        let mut summary = self.summary()?;
+        let table = self.recorder.table();
+        let speeds = table.curve("time", "speed")?;
+        let end = self.scene.time();
+        if let Some((time, speed)) = speeds.iter().find(|(time, _)| *time >= 0.75 * end) {
+            let (_, last) = speeds[speeds.len() - 1];
+            summary.put("speed_rate", (last / speed).ln() / (end - time), "growth rate of the speed, late");
+        }
+        for (name, value) in self.last()?.observables.entries() {
+            if !summary.values().contains_key(name) {
+                summary.put(name, value, "");
+            }
+        }
+        let printed = InterfaceState::of(self.scene.system(), self.droplet)
+            .ok()
+            .and_then(|state| observe(&state, Convention::AsPrinted).ok());
+        let entries = printed.map(|printed| printed.entries()).unwrap_or_default();
+        for (name, value) in entries.into_iter().filter(|(name, _)| CONVENTIONAL.contains(name)) {
+            summary.put(&format!("{name}_printed"), value, "");
+        }
+        if let Ok(evidence) = self.put_regime(&mut summary) {
+            summary.put("period", evidence.period.map(|period| period.value), "");
         }
         Ok(summary)
     }

@@ -92,8 +92,7 @@ impl Plan {
     /// A file that cannot be read or is no plan.
     pub(crate) fn read(path: &Path) -> Result<Self> {
         let read = || -> Result<Self> {
-            let mut plan: Self = toml::from_str(&text_of(path)?)?;
-            ensure!(plan.time.is_finite() && plan.time > 0.0, "time = {}: give a time above 0", plan.time);
+            let mut plan = Self::of(toml::from_str(&text_of(path)?)?)?;
             if let SceneEntry::File(file) = &plan.scene {
                 let file = path.parent().unwrap_or(Path::new("")).join(file);
                 let text = text_of(&file).with_context(|| format!("scene {}", file.display()))?;
@@ -102,6 +101,16 @@ impl Plan {
             Ok(plan)
         };
         read().with_context(|| format!("plan {}", path.display()))
+    }
+
+    /// The plan of a table.
+    ///
+    /// # Errors
+    /// A table that is no plan.
+    pub(crate) fn of(table: Table) -> Result<Self> {
+        let plan: Self = table.try_into()?;
+        ensure!(plan.time.is_finite() && plan.time > 0.0, "time = {}: give a time above 0", plan.time);
+        Ok(plan)
     }
 
     /// All runs, in the order of the lists, the zipped ones, the grid (the last entry fastest) and the seeds.

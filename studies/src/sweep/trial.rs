@@ -67,8 +67,16 @@ impl Trial {
     /// # Errors
     /// [`Taken`]; what made the run break off, which is kept in the folder; a folder that has another scene.
     pub(crate) fn run(&self) -> Result<Summary> {
+        self.keep(Self::watched)
+    }
+
+    /// What comes of `make`; what makes it fail is kept in the folder.
+    ///
+    /// # Errors
+    /// Those of `make`.
+    pub(crate) fn keep(&self, make: impl FnOnce(&Self) -> Result<Summary>) -> Result<Summary> {
         make_directory(&self.folder)?;
-        let outcome = self.watched();
+        let outcome = make(self);
         if let Err(error) = &outcome {
             let stopped = matches!(error.downcast_ref(), Some(SceneError::Stopped { .. }));
             if !stopped && !error.is::<Taken>() {
@@ -92,7 +100,7 @@ impl Trial {
         let Line { scene: flags } = Line::try_parse_from(words)?;
         let mut run = WatchedRun::new(self.setup.build()?, &self.setup, &flags, "sweep")?;
         run.go(None)?;
-        let summary = run.summary()?;
+        let summary = run.measured()?;
         run.outcome()?;
         // It may have failed before.
         let _ = fs::remove_file(self.failure());
@@ -100,7 +108,7 @@ impl Trial {
     }
 
     /// Writes the scene file, or makes sure that it is there.
-    fn keep_scene(&self) -> Result<()> {
+    pub(crate) fn keep_scene(&self) -> Result<()> {
         let path = self.folder.join("scene.toml");
         let text = self.setup.to_toml()?;
         if let Ok(found) =

@@ -1,0 +1,237 @@
+//! The book: every figure of Cowley's thesis beside what converged results say.
+//!
+//! `cargo run --release -p studies -- figure 3.9` makes the figure from what `studies/book/3.9.toml` says: its data
+//! (`studies/book/data`: runs of a plan, steady states of a plan, tables of `docs/tables`; what is there is not made
+//! again), the curves and the numbers that its verdict rests on, as expressions of the columns. It prints them and
+//! writes CSV, SVG and PNG to `out/book/`. `--quick` has fewer and shorter runs. `figures --chapter 3` makes those of a
+//! chapter. `--write` keeps what `docs/book/` shows, of which the pages are written anew.
+
+mod data;
+mod expression;
+mod figure;
+mod pages;
+mod statistics;
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail, ensure};
+use clap::Args;
+use motile_examples::{explained, say};
+use motile_output::Figure as Picture;
+use serde::{Deserialize, Serialize};
+
+use crate::tables;
+use data::{Data, Source};
+use expression::Definitions;
+use figure::{Checked, Figure};
+
+/// Makes a figure of the book.
+#[derive(Debug, Args)]
+pub(crate) struct FigureFlags {
+    /// Its number, such as 3.9 or B.1
+    number: String,
+    #[command(flatten)]
+    common: Common,
+}
+
+/// Makes the figures of a chapter of the book, or of all.
+#[derive(Debug, Args)]
+pub(crate) struct FiguresFlags {
+    /// The chapter, 2 to 5 or B; without it all of them
+    #[arg(long)]
+    chapter: Option<String>,
+    #[command(flatten)]
+    common: Common,
+}
+
+#[derive(Debug, Args)]
+struct Common {
+    /// Fewer, shorter and coarser runs
+    #[arg(long)]
+    quick: bool,
+    /// Keep numbers and picture in docs/book and write its pages anew
+    #[arg(long)]
+    write: bool,
+    /// Runs at a time; without it as many as there are processors
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Show no progress
+    #[arg(long)]
+    quiet: bool,
+    /// Directory of the runs and figures
+    #[arg(long, value_name = "DIRECTORY", default_value = "out/book")]
+    out: PathBuf,
+}
+
+/// How data are made.
+#[derive(Debug, Clone)]
+struct Making {
+    quick: bool,
+    threads: usize,
+    quiet: bool,
+    out: PathBuf,
+}
+
+impl Making {
+    fn kind(&self) -> &'static str {
+        if self.quick { "quick" } else { "full" }
+    }
+}
+
+/// What is kept of a figure that was made, in `docs/book/figures`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Kept {
+    quick: bool,
+    commit: String,
+    runs: usize,
+    left_out: usize,
+    seconds: f64,
+    data: Vec<String>,
+    checks: Vec<Checked>,
+}
+
+/// Where the files of the figures are.
+fn directory() -> PathBuf {
+    Path::new(tables::root()).join("studies/book")
+}
+
+pub(crate) fn figure(flags: &FigureFlags) -> Result<()> {
+    make(std::slice::from_ref(&flags.number), &flags.common)
+}
+
+pub(crate) fn figures(flags: &FiguresFlags) -> Result<()> {
+    let mut numbers = numbers()?;
+    if let Some(chapter) = &flags.chapter {
+        let all: Vec<String> = numbers.iter().map(|number| chapter_of(number).to_owned()).collect();
+        numbers.retain(|number| chapter_of(number) == chapter);
+        ensure!(!numbers.is_empty(), "there is no chapter {chapter}: give one of {}", different(all).join(", "));
+    }
+    make(&numbers, &flags.common)
+}
+
+fn different(mut list: Vec<String>) -> Vec<String> {
+    list.dedup();
+    list
+}
+
+fn chapter_of(number: &str) -> &str {
+    number.split('.').next().unwrap_or(number)
+}
+
+/// The numbers of all figures, in order.
+fn numbers() -> Result<Vec<String>> {
+    let entries = fs::read_dir(directory())?.map(|entry| Ok(entry?.path()));
+    let paths = entries.collect::<Result<Vec<_>>>()?;
+    let named = paths.iter().filter(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    let stem = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    let mut numbers: Vec<String> = named.filter_map(stem).filter(|name| name.contains('.')).collect();
+    numbers.sort_by_key(|number| {
+        let (chapter, place) = number.split_once('.').unwrap_or((number, ""));
+        (chapter.to_owned(), place.parse::<u32>().unwrap_or(0))
+    });
+    Ok(numbers)
+}
+
+fn read(number: &str) -> Result<Figure> {
+    let path = directory().join(format!("{number}.toml"));
+    if !numbers()?.iter().any(|known| known == number) {
+        bail!("there is no figure {number}: give one of {}", numbers()?.join(", "));
+    }
+    let read = || -> Result<Figure> { Ok(toml::from_str(&fs::read_to_string(&path)?)?) };
+    read().with_context(|| path.display().to_string())
+}
+
+/// What names stand for in all figures.
+fn definitions() -> Result<Definitions> {
+    let path = directory().join("definitions.toml");
+    let read = || -> Result<Definitions> { Ok(toml::from_str(&fs::read_to_string(&path)?)?) };
+    read().with_context(|| path.display().to_string())
+}
+
+fn make(numbers: &[String], common: &Common) -> Result<()> {
+    let processors = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = common.threads.map_or_else(processors, usize::from);
+    let making = Making { quick: common.quick, threads, quiet: common.quiet, out: common.out.clone() };
+    let mut made = BTreeMap::new();
+    let mut failures = Vec::new();
+    for number in numbers {
+        // One that fails does not keep the others from being made.
+        if let Err(failure) = one(number, &making, &mut made, common.write) {
+            failures.push(format!("figure {number}: {}", explained(&failure)));
+        }
+    }
+    if common.write {
+        pages::write()?;
+    }
+    ensure!(failures.is_empty(), "{}", failures.join("\n"));
+    Ok(())
+}
+
+fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: bool) -> Result<()> {
+    let (figure, definitions) = (read(number)?, definitions()?);
+    say(format_args!("\nFigure {number}: {}\nCowley: {}", figure.title, figure.says));
+    for name in &figure.data {
+        if !made.contains_key(name) {
+            made.insert(name.clone(), Source::read(name)?.rows(name, making)?);
+        }
+    }
+    if figure.data.is_empty() {
+        let command = figure.command.as_deref().unwrap_or("not computed yet");
+        say(format_args!("No data of its own: {command}"));
+        return Ok(());
+    }
+    let (plots, points) = figure.panels(&definitions, made)?;
+    let checks = figure.checks(&definitions, made)?;
+    let columns = plots.len().min(2);
+    let picture = plots.into_iter().fold(Picture::new(columns), Picture::panel);
+    if columns > 0 {
+        picture.write(&making.out, number)?;
+        fs::write(making.out.join(format!("{number}.csv")), &points)?;
+    }
+    for check in &checks {
+        let fails = if check.stands { "" } else { "   NOT as the verdict has it" };
+        say(format_args!("  {}: {}{fails}", check.name, check.text));
+    }
+    let own = || figure.data.iter().filter_map(|name| made.get(name));
+    let kept = Kept {
+        quick: making.quick,
+        commit: String::new(),
+        runs: own().map(|data| data.wanted).sum(),
+        left_out: own().map(|data| data.wanted.saturating_sub(data.rows.len())).sum(),
+        seconds: own().map(|data| data.seconds).sum(),
+        data: own().map(|data| data.about.clone()).collect(),
+        checks,
+    };
+    let verdict = verdict(&figure, Some(&kept));
+    say(format_args!("Verdict: {verdict}. {}", figure.why));
+    say(format_args!("{} runs, {:.0} s of computation; {}", kept.runs, kept.seconds, making.out.display()));
+    if write {
+        let inputs = [&tables::RUNS[..], &["crates/steady-states/src"]].concat();
+        let kept = Kept { commit: tables::commit(&inputs)?, ..kept };
+        let folder = pages::folder().join("figures");
+        fs::create_dir_all(&folder)?;
+        if columns > 0 {
+            fs::write(folder.join(format!("{number}.svg")), pages::rounded(&picture.svg()?))?;
+            fs::write(folder.join(format!("{number}.csv")), points)?;
+        }
+        fs::write(pages::kept_file(number, making.quick), serde_json::to_string_pretty(&kept)? + "\n")?;
+    }
+    Ok(())
+}
+
+/// The verdict as it stands after what was found.
+fn verdict(figure: &Figure, kept: Option<&Kept>) -> String {
+    let needs = figure.number_of_data() > 0;
+    let fails = kept.and_then(|kept| kept.checks.iter().find(|check| !check.stands));
+    match (figure.verdict, kept, fails) {
+        (None, ..) => "not computed yet".to_owned(),
+        (_, None, _) if needs => "not computed yet".to_owned(),
+        (Some(_), _, Some(check)) => format!("open: {} is {}", check.name, check.text),
+        (Some(verdict), ..) => verdict.name().to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

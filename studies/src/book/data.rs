@@ -1,0 +1,253 @@
+//! What the figures of the book are made from: runs of a plan, steady states of a plan, tables of `docs/tables`.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, ensure};
+use motile::Setup;
+use motile_examples::{Summary, explained, make_directory, say};
+use serde::Deserialize;
+use serde_json::Value;
+use steady_states::SteadyState;
+use toml::Table;
+
+use super::Making;
+use super::expression::Row;
+use crate::run_pool::RunPool;
+use crate::sweep::plan::Plan;
+use crate::sweep::trial::{State, Trial};
+use crate::tables;
+
+/// Longest text that becomes a name.
+const LONGEST: usize = 40;
+
+/// A file of `studies/book/data`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct Source {
+    /// What it is, in words.
+    about: String,
+    /// A plan as those of `studies sweep`, its scene in it.
+    #[serde(default)]
+    plan: Option<Table>,
+    /// What is other with `--quick`.
+    #[serde(default)]
+    quick: Table,
+    /// Steady states of the plan's points rather than runs.
+    #[serde(default)]
+    steady: bool,
+    /// A scheme that the plan's scene starts from.
+    #[serde(default)]
+    preset: Option<Preset>,
+    /// Or a table of `docs/tables`.
+    #[serde(default)]
+    table: Option<String>,
+    /// Or lists of numbers.
+    #[serde(default)]
+    numbers: std::collections::BTreeMap<String, Vec<f64>>,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Preset {
+    Thesis,
+}
+
+/// Rows of one source, and what they took.
+#[derive(Debug, Clone)]
+pub(super) struct Data {
+    pub(super) about: String,
+    pub(super) rows: Vec<Row>,
+    /// Runs that were wanted; 0 of a table.
+    pub(super) wanted: usize,
+    /// Seconds of computation.
+    pub(super) seconds: f64,
+}
+
+impl Source {
+    pub(super) fn read(name: &str) -> Result<Self> {
+        let path = super::directory().join("data").join(format!("{name}.toml"));
+        let read = || -> Result<Self> { Ok(toml::from_str(&std::fs::read_to_string(&path)?)?) };
+        let source = read().with_context(|| path.display().to_string())?;
+        let kinds = [source.plan.is_some(), source.table.is_some(), !source.numbers.is_empty()];
+        let one = kinds.into_iter().filter(|given| *given).count() == 1;
+        ensure!(one, "{}: give a plan, a table or numbers", path.display());
+        Ok(source)
+    }
+
+    /// The runs of its plan.
+    pub(super) fn trials(&self, name: &str, making: &Making) -> Result<Vec<Trial>> {
+        let Some(plan) = &self.plan else { return Ok(Vec::new()) };
+        let mut plan = plan.clone();
+        if let Some(Preset::Thesis) = self.preset {
+            let scene: Table = toml::from_str(&Setup::thesis().to_toml()?)?;
+            let mut whole = Table::from_iter([("scene".to_owned(), scene.into())]);
+            merge(&mut whole, &plan);
+            plan = whole;
+        }
+        if making.quick {
+            merge(&mut plan, &self.quick);
+        }
+        if self.steady {
+            plan.entry("time").or_insert(toml::Value::Float(1.0));
+        }
+        let folder = making.out.join("data").join(format!("{name}-{}", making.kind()));
+        Plan::of(plan).and_then(|plan| plan.trials(&folder)).with_context(|| format!("data {name}"))
+    }
+
+    /// Its rows; runs that are not there are made. Failures are told and leave rows out.
+    pub(super) fn rows(&self, name: &str, making: &Making) -> Result<Data> {
+        let about = self.about.clone();
+        if let Some(table) = &self.table {
+            return Ok(Data { about, rows: of_table(table)?, wanted: 0, seconds: 0.0 });
+        }
+        if self.plan.is_none() {
+            let count = self.numbers.values().map(Vec::len).max().unwrap_or(0);
+            let row = |k: usize| -> Row {
+                self.numbers.iter().filter_map(|(name, list)| Some((name.clone(), *list.get(k)?))).collect()
+            };
+            return Ok(Data { about, rows: (0..count).map(row).collect(), wanted: 0, seconds: 0.0 });
+        }
+        let trials = self.trials(name, making)?;
+        let wanted = trials.len();
+        let folder = making.out.join("data").join(format!("{name}-{}", making.kind()));
+        make_directory(&folder)?;
+        for trial in &trials {
+            // What was made from another plan is not taken for this one.
+            make_directory(&trial.folder)?;
+            trial.keep_scene()?;
+            if let State::Failed(failure) = trial.state() {
+                say(format_args!("{name}: left out: {}: {failure}", trial.label));
+            }
+        }
+        let trials = trials.into_iter().filter(|trial| !matches!(trial.state(), State::Failed(_))).collect();
+        let pool = RunPool::new(&folder, making.threads, making.quiet)?;
+        let make = |trial: &Trial| if self.steady { trial.keep(steady) } else { trial.run() };
+        let (done, failures) = pool.study(trials, |trial| format!("{}/summary", trial.label), make);
+        for failure in failures {
+            say(format_args!("{name}: left out: {}", explained(&failure)));
+        }
+        let seconds = done.iter().map(|(_, summary)| summary.number("seconds")).filter(|s| s.is_finite()).sum();
+        let row = |(trial, summary): &(Trial, Summary)| -> Result<Row> {
+            let mut row = Row::new();
+            flatten("", &serde_json::to_value(&trial.setup)?, &mut row);
+            flatten("", &Value::Object(summary.values().clone()), &mut row);
+            Ok(row)
+        };
+        Ok(Data { about, rows: done.iter().map(row).collect::<Result<_>>()?, wanted, seconds })
+    }
+}
+
+/// The steady swimmer of a run's scene and all that is known of it.
+fn steady(trial: &Trial) -> Result<Summary> {
+    let started = std::time::Instant::now();
+    let state = SteadyState::find(&trial.setup)?;
+    let mut summary = Summary::default();
+    for (name, value) in state.observables()?.entries() {
+        summary.put(name, value, "");
+    }
+    let seen = state.measured()?;
+    let leading = state.spectrum()?.leading().map(|mode| mode.value).unwrap_or_default();
+    for (name, value) in [
+        ("speed", seen.speed),
+        ("velocity_x", state.velocity().x),
+        ("stresslet_xx", seen.stresslet),
+        ("aspect_ratio_moments", seen.aspect_ratio),
+        ("least_curvature", seen.least_curvature),
+        ("growth_rate", leading.re),
+        ("frequency", leading.im),
+        ("last_modes", state.tail()),
+    ] {
+        summary.put(name, value, "");
+    }
+    let (x, y): (Vec<f64>, Vec<f64>) =
+        state.profile().positions.iter().map(|x| *x - seen.centroid).map(|x| (x.x, x.y)).unzip();
+    let (arc, concentration) = state.profile().concentrations()?;
+    for (name, list) in [("outline_x", x), ("outline_y", y), ("arc", arc), ("concentration", concentration)] {
+        summary.put(name, list, "");
+    }
+    summary.put("seconds", started.elapsed().as_secs_f64(), "");
+    Ok(summary)
+}
+
+/// Puts entries in place of those of a table, in tables within tables and, by their places, in lists of tables; a
+/// `list` of points is another one.
+fn merge(table: &mut Table, other: &Table) {
+    for (key, value) in other {
+        match (table.get_mut(key), value) {
+            (Some(toml::Value::Table(inner)), toml::Value::Table(more)) => merge(inner, more),
+            (Some(toml::Value::Array(list)), toml::Value::Array(more))
+                if key != "list" && list.iter().all(toml::Value::is_table) =>
+            {
+                for (k, value) in more.iter().enumerate() {
+                    match (list.get_mut(k), value) {
+                        (Some(toml::Value::Table(inner)), toml::Value::Table(more)) => merge(inner, more),
+                        _ => list.push(value.clone()),
+                    }
+                }
+            }
+            _ => {
+                table.insert(key.clone(), value.clone());
+            }
+        }
+    }
+}
+
+/// A name of letters, digits and underscores.
+fn plain(text: &str) -> String {
+    let kept = text.replace(|c: char| !c.is_alphanumeric(), "_");
+    kept.split('_').filter(|part| !part.is_empty()).collect::<Vec<_>>().join("_")
+}
+
+/// The numbers of a value by their paths, `.` being `_`; a text `b` at `a` is 1 at `a_b`.
+fn flatten(path: &str, value: &Value, row: &mut Row) {
+    let below = |key: &str| if path.is_empty() { plain(key) } else { format!("{path}_{}", plain(key)) };
+    match value {
+        Value::Object(map) => map.iter().for_each(|(key, value)| flatten(&below(key), value, row)),
+        Value::Array(list) => {
+            list.iter().enumerate().for_each(|(k, value)| flatten(&below(&k.to_string()), value, row));
+        }
+        Value::Number(number) => {
+            row.insert(path.to_owned(), number.as_f64().unwrap_or(f64::NAN));
+        }
+        Value::Bool(flag) => {
+            row.insert(path.to_owned(), f64::from(u8::from(*flag)));
+        }
+        Value::String(text) if text.len() <= LONGEST => {
+            row.insert(below(text), 1.0);
+        }
+        Value::String(_) | Value::Null => {}
+    }
+}
+
+/// The rows of a table of `docs/tables`, its columns with `t_` before their names: in each cell the number that it
+/// begins with and, as of a text, what it says.
+fn of_table(name: &str) -> Result<Vec<Row>> {
+    let path = Path::new(tables::root()).join(format!("docs/tables/{name}.csv"));
+    let read = || -> Result<Vec<Row>> {
+        let mut table = csv::ReaderBuilder::new().comment(Some(b'#')).flexible(true).from_path(&path)?;
+        let name = |title: &str| format!("t_{}", plain(title));
+        let header: Vec<String> = table.headers()?.iter().map(name).collect();
+        let mut rows = Vec::new();
+        for record in table.records() {
+            let mut row = Row::new();
+            for (name, cell) in header.iter().zip(record?.iter()) {
+                let end = cell.find(|c: char| !(c.is_ascii_digit() || "+-.e".contains(c))).unwrap_or(cell.len());
+                match cell[..end].parse() {
+                    Ok(number) => {
+                        row.entry(name.clone()).or_insert(number);
+                    }
+                    Err(_) => flatten(name, &Value::String(cell.to_owned()), &mut row),
+                }
+                // A verdict before its number.
+                let word = cell.split([' ', ',']).next().filter(|word| word.starts_with(char::is_alphabetic));
+                row.extend(word.map(|word| (format!("{name}_{}", plain(word)), 1.0)));
+            }
+            rows.push(row);
+        }
+        Ok(rows)
+    };
+    read().with_context(|| path.display().to_string())
+}
+
+#[cfg(test)]
+mod tests;

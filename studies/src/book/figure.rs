@@ -1,0 +1,277 @@
+//! A figure of the book: what its file says, and what comes of its data.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use anyhow::{Context, Result, bail, ensure};
+use motile_output::{AxisScale, Marker, Plot, SERIES_COLOURS, Series};
+use serde::{Deserialize, Serialize};
+
+use super::data::Data;
+use super::expression::{Definitions, Expression, Row};
+use super::statistics::{Measure, mean, same, shown};
+
+/// Longest list `name_*`.
+const MOST_POINTS: usize = 20_000;
+
+/// What the converged results say to a statement of the thesis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+pub(super) enum Verdict {
+    #[serde(rename = "confirmed")]
+    Confirmed,
+    #[serde(rename = "confirmed in part")]
+    ConfirmedInPart,
+    #[serde(rename = "discretisation")]
+    Discretisation,
+    #[serde(rename = "refuted")]
+    Refuted,
+    #[serde(rename = "cannot tell")]
+    CannotTell,
+}
+
+impl Verdict {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Confirmed => "confirmed",
+            Self::ConfirmedInPart => "confirmed in part",
+            Self::Discretisation => "discretisation",
+            Self::Refuted => "refuted",
+            Self::CannotTell => "cannot tell",
+        }
+    }
+}
+
+/// A file of `studies/book`.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(super) struct Figure {
+    pub(super) title: String,
+    /// What the thesis says, in its words or close to them.
+    pub(super) says: String,
+    pub(super) verdict: Option<Verdict>,
+    pub(super) why: String,
+    /// Names of files of `studies/book/data`.
+    #[serde(default)]
+    pub(super) data: Vec<String>,
+    /// A command that makes it, where that is not `figure`.
+    pub(super) command: Option<String>,
+    /// A picture under docs, and pages with more.
+    pub(super) picture: Option<String>,
+    #[serde(default)]
+    pub(super) see: Vec<String>,
+    /// Names of expressions.
+    #[serde(default)]
+    define: Definitions,
+    #[serde(default)]
+    panel: Vec<Panel>,
+    #[serde(default)]
+    check: Vec<Check>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Panel {
+    #[serde(default)]
+    title: String,
+    x: String,
+    y: String,
+    #[serde(default)]
+    logarithmic: bool,
+    curve: Vec<Curve>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Curve {
+    #[serde(flatten)]
+    points: Points,
+    /// With `{}` for the value of the group.
+    #[serde(default)]
+    label: String,
+    #[serde(default)]
+    line: bool,
+    #[serde(default)]
+    dashed: bool,
+}
+
+/// Points of one or several groups.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+struct Points {
+    /// Which data; the first if nothing is said.
+    data: Option<String>,
+    /// Expressions: one, or several points of each row; `name_*` is `name_0`, `name_1` ...
+    x: Several,
+    y: Several,
+    by: Option<String>,
+    #[serde(rename = "where")]
+    wanted: Option<String>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+enum Several {
+    One(String),
+    List(Vec<String>),
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct Check {
+    name: String,
+    measure: Measure,
+    #[serde(flatten)]
+    points: Points,
+    /// Where the number is for the verdict to stand.
+    within: Option<[f64; 2]>,
+}
+
+/// A number that was found, as it is kept.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(super) struct Checked {
+    pub(super) name: String,
+    pub(super) text: String,
+    /// Whether the verdict can stand.
+    pub(super) stands: bool,
+}
+
+/// Points of a group in the order of x, with the standard deviations of those that are means.
+type Group = (f64, Vec<(f64, f64, f64)>);
+
+impl Figure {
+    pub(super) fn number_of_data(&self) -> usize {
+        self.data.len()
+    }
+
+    /// All that is found, or a sentence about what is wrong in its file.
+    pub(super) fn checks(&self, common: &Definitions, data: &BTreeMap<String, Data>) -> Result<Vec<Checked>> {
+        let definitions = self.definitions(common);
+        self.check.iter().map(|check| self.checked(check, &definitions, data).context(check.name.clone())).collect()
+    }
+
+    fn checked(&self, check: &Check, definitions: &Definitions, data: &BTreeMap<String, Data>) -> Result<Checked> {
+        let mut stands = true;
+        let mut texts = Vec::new();
+        for (group, points) in self.groups(&check.points, definitions, data)? {
+            // Every point for itself: scatter is part of what is found.
+            let pairs: Vec<(f64, f64)> = points.iter().map(|(x, y, _)| (*x, *y)).collect();
+            let (value, beside) = check.measure.of(&pairs);
+            stands &= check.within.is_none_or(|[low, high]| (low..=high).contains(&value));
+            let of = if group.is_nan() { String::new() } else { format!("{}: ", shown(group)) };
+            let beside = if beside.is_empty() { beside } else { format!(" ({beside})") };
+            texts.push(format!("{of}{}{beside}", shown(value)));
+        }
+        // Nothing to measure is no confirmation.
+        stands &= !texts.is_empty();
+        Ok(Checked { name: check.name.clone(), text: texts.join("; "), stands })
+    }
+
+    fn definitions(&self, common: &Definitions) -> Definitions {
+        common.iter().chain(&self.define).map(|(name, text)| (name.clone(), text.clone())).collect()
+    }
+
+    /// Panels and, as text, the points in them.
+    pub(super) fn panels(&self, common: &Definitions, data: &BTreeMap<String, Data>) -> Result<(Vec<Plot>, String)> {
+        let definitions = self.definitions(common);
+        let mut table = String::from("panel,curve,group,x,y,deviation\n");
+        let mut plots = Vec::new();
+        for (k, panel) in self.panel.iter().enumerate() {
+            let scale = |log| if log { AxisScale::Logarithmic } else { AxisScale::Linear };
+            let mut plot =
+                Plot::new(&panel.title).x_axis(&panel.x, scale(panel.logarithmic)).y_axis(&panel.y, AxisScale::Linear);
+            let mut colours: Vec<f64> = Vec::new();
+            for curve in &panel.curve {
+                let groups = self.groups(&curve.points, &definitions, data).with_context(|| panel.title.clone())?;
+                for (group, points) in groups {
+                    // The same groups of another curve of a panel have the same colour.
+                    let known = colours.iter().position(|other| same(*other, group));
+                    let own = known.unwrap_or(colours.len());
+                    colours.extend(known.is_none().then_some(group));
+                    let label = curve.label.replace("{}", &shown(group).replace('-', "−"));
+                    let colour = SERIES_COLOURS[own % SERIES_COLOURS.len()];
+                    let points = means(&points);
+                    for (x, y, deviation) in &points {
+                        table += &format!("{},{},{},{x},{y},{deviation}\n", k + 1, curve.label, shown(group));
+                    }
+                    let line = points.iter().map(|(x, y, _)| (*x, *y));
+                    let series = match (curve.line, curve.dashed) {
+                        (_, true) => Series::line(&label, line).dashed(),
+                        (true, false) => Series::line(&label, line),
+                        (false, false) => Series::points(&label, line).marker(Marker::Disc),
+                    };
+                    plot = plot.series(series.colour(colour));
+                    let bars = points.iter().filter(|(.., deviation)| *deviation > 0.0);
+                    let bars: Vec<_> =
+                        bars.flat_map(|(x, y, d)| [(*x, y - d), (*x, y + d), (f64::NAN, f64::NAN)]).collect();
+                    if !bars.is_empty() {
+                        plot = plot.series(Series::line("", bars).colour(colour));
+                    }
+                }
+            }
+            ensure!(!colours.is_empty(), "panel '{}': no points", panel.title);
+            plots.push(plot);
+        }
+        Ok((plots, table))
+    }
+
+    fn groups(&self, points: &Points, definitions: &Definitions, data: &BTreeMap<String, Data>) -> Result<Vec<Group>> {
+        let name = points.data.as_ref().or(self.data.first()).context("a figure without data")?;
+        ensure!(self.data.contains(name), "data {name} is not among those of the figure: {}", self.data.join(", "));
+        let rows = &data.get(name).with_context(|| format!("no data {name}"))?.rows;
+        let known: BTreeSet<&str> = rows.iter().flat_map(|row| row.keys().map(String::as_str)).collect();
+        let parse = |text: &str| -> Result<Expression> {
+            let found = Expression::parse(text, definitions)?;
+            // Without rows nothing is known; a word in a table's column need not be there.
+            let word = |name: &str| {
+                let stem = name.rsplit_once('_').filter(|_| name.starts_with("t_"));
+                stem.is_some_and(|(stem, _)| known.iter().any(|n| n.starts_with(&format!("{stem}_"))))
+            };
+            let missing = found.names().into_iter().find(|n| !known.contains(n) && !word(n));
+            if let (Some(name), false) = (missing, rows.is_empty()) {
+                let near: Vec<&str> = known.iter().copied().filter(|n| n.contains(name)).take(8).collect();
+                bail!("expression '{text}': no column {name}, of {}; near: {}", known.len(), near.join(", "));
+            }
+            Ok(found)
+        };
+        let several = |which: &Several| -> Result<Vec<Expression>> {
+            let texts = match which {
+                Several::List(list) => list.clone(),
+                Several::One(text) => match text.strip_suffix('*') {
+                    Some(stem) => {
+                        let names = (0..MOST_POINTS).map(|k| format!("{stem}{k}"));
+                        names.take_while(|name| known.contains(name.as_str())).collect()
+                    }
+                    None => vec![text.clone()],
+                },
+            };
+            texts.iter().map(|text| parse(text)).collect()
+        };
+        let (x, y) = (several(&points.x)?, several(&points.y)?);
+        ensure!(x.len() == y.len(), "{} places and {} values: give equally many", x.len(), y.len());
+        let is_list = matches!(&points.x, Several::One(text) if text.ends_with('*'));
+        let by = points.by.as_deref().map(&parse).transpose()?;
+        let wanted = points.wanted.as_deref().map(&parse).transpose()?;
+        let mut groups: Vec<Group> = Vec::new();
+        let is_wanted = |row: &&Row| wanted.as_ref().is_none_or(|wanted| wanted.value(row) == 1.0);
+        for row in rows.iter().filter(is_wanted) {
+            let group = by.as_ref().map_or(f64::NAN, |by| by.value(row));
+            let values = x.iter().zip(&y).map(|(x, y)| (x.value(row), y.value(row), 0.0));
+            let values: Vec<_> = values.filter(|(x, y, _)| x.is_finite() && y.is_finite()).collect();
+            match groups.iter_mut().find(|(other, _)| same(*other, group) || other.is_nan() && group.is_nan()) {
+                Some((_, points)) => points.extend(values),
+                None => groups.push((group, values)),
+            }
+        }
+        groups.retain(|(_, points)| !points.is_empty());
+        groups.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if !is_list {
+            groups.iter_mut().for_each(|(_, points)| points.sort_by(|a, b| a.0.total_cmp(&b.0)));
+        }
+        Ok(groups)
+    }
+}
+
+/// Points that follow each other at the same x as one, with its standard deviation.
+fn means(points: &[(f64, f64, f64)]) -> Vec<(f64, f64, f64)> {
+    let groups = points.chunk_by(|a, b| same(a.0, b.0));
+    groups.map(|group| (group, mean(group.iter().map(|p| p.1)))).map(|(group, (y, d))| (group[0].0, y, d)).collect()
+}

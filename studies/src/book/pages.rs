@@ -1,0 +1,182 @@
+//! The pages of the book, written from the files of the figures and from what was kept of those that were made.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result};
+
+use super::figure::Figure;
+use super::{Kept, chapter_of, different, numbers, read, verdict};
+use crate::tables;
+
+/// Widest line of prose.
+const WIDEST: usize = 120;
+const CHAPTERS: [(&str, &str); 5] = [
+    ("2", "Active droplets and contrasts of viscosity"),
+    ("3", "Rigid channels"),
+    ("4", "Deformable walls"),
+    ("5", "Geometries and nuclei"),
+    ("B", "Extinction of a birth-death process"),
+];
+
+const FRONT: &str = "Every figure of Cowley's thesis ([bibliography](../theory.md#bibliography)) with results, beside \
+                     what converged results say. All of it is written by `cargo run --release -p studies -- figures \
+                     --write` from the files in `studies/book`; `figure 3.9` makes one figure, `figures --chapter 3` a \
+                     chapter, `--quick` each with fewer and shorter runs. A figure that was not computed says so; a \
+                     verdict whose numbers came out otherwise than it needs is shown as open, with the number.";
+
+pub(super) fn folder() -> PathBuf {
+    Path::new(tables::root()).join("docs/book")
+}
+
+pub(super) fn kept_file(number: &str, quick: bool) -> PathBuf {
+    let kind = if quick { "quick" } else { "full" };
+    folder().join(format!("figures/{number}-{kind}.json"))
+}
+
+/// What was kept, of the full figure before the quick one.
+fn kept(number: &str) -> Result<[Option<Kept>; 2]> {
+    let read = |quick| -> Result<Option<Kept>> {
+        let path = kept_file(number, quick);
+        if !path.exists() {
+            return Ok(None);
+        }
+        serde_json::from_str(&fs::read_to_string(&path)?).with_context(|| path.display().to_string())
+    };
+    Ok([read(false)?, read(true)?])
+}
+
+/// Writes all pages.
+pub(super) fn write() -> Result<()> {
+    fs::create_dir_all(folder())?;
+    for (name, text) in all()? {
+        fs::write(folder().join(name), text)?;
+    }
+    Ok(())
+}
+
+/// The names of all pages and their texts.
+pub(super) fn all() -> Result<Vec<(String, String)>> {
+    let numbers = numbers()?;
+    let mut front = format!("# The book\n\n{}\n", wrapped(FRONT));
+    let mut pages = Vec::new();
+    let mut counts: Vec<(String, usize)> = Vec::new();
+    let mut table = String::from("| figure | statement | verdict | evidence |\n|---|---|---|---|\n");
+    for chapter in different(numbers.iter().map(|number| chapter_of(number).to_owned()).collect()) {
+        let title = CHAPTERS.iter().find(|(number, _)| *number == chapter).map_or("", |(_, title)| title);
+        let name = format!("chapter-{chapter}.md");
+        let mut page = format!(
+            "# Chapter {chapter}: {title}\n\nWritten by `studies -- figures --write`: [the book](README.md).\n"
+        );
+        for number in numbers.iter().filter(|number| chapter_of(number) == chapter) {
+            let figure = read(number)?;
+            let [full, quick] = kept(number)?;
+            let found = full.as_ref().or(quick.as_ref());
+            let verdict = verdict(&figure, found);
+            let first = found.and_then(|kept| kept.checks.first());
+            let evidence = first.map_or_else(String::new, |check| format!("{}: {}", check.name, check.text));
+            let anchor = format!("figure-{}", number.to_lowercase().replace('.', ""));
+            let cell = |text: &str| text.replace('|', "\\|");
+            let _ = writeln!(
+                table,
+                "| [{number}]({name}#{anchor}) | {} | {} | {} |",
+                cell(&figure.title),
+                cell(&verdict),
+                cell(&evidence)
+            );
+            let kind = if verdict.starts_with("open") { "open" } else { &verdict };
+            match counts.iter_mut().find(|(name, _)| name == kind) {
+                Some((_, count)) => *count += 1,
+                None => counts.push((kind.to_owned(), 1)),
+            }
+            page += &section(number, &figure, &verdict, [&full, &quick])?;
+        }
+        pages.push((name, page));
+    }
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    let words: Vec<String> = counts.iter().map(|(name, count)| format!("{count} {name}")).collect();
+    front += &wrapped(&format!("{} figures: {}.", numbers.len(), words.join(", ")));
+    front += "\n";
+    front += &table;
+    pages.insert(0, ("README.md".to_owned(), front));
+    Ok(pages)
+}
+
+fn section(number: &str, figure: &Figure, verdict: &str, [full, quick]: [&Option<Kept>; 2]) -> Result<String> {
+    let mut text = format!("\n## Figure {number}\n\n{}", wrapped(&figure.title));
+    text += "\n";
+    text += &wrapped(&format!("**Cowley:** {}", figure.says));
+    if let Some(kept) = full.as_ref().or(quick.as_ref()) {
+        text += "\n";
+        let kind = if kept.quick { " (quick)" } else { "" };
+        text += &wrapped(&format!("**Found{kind}**, at {}: {}", kept.commit, kept.data.join("; ")));
+        if !kept.checks.is_empty() {
+            text += "\n";
+        }
+        for check in &kept.checks {
+            let _ = writeln!(text, "* {}: {}", check.name, check.text);
+        }
+        if kept.left_out > 0 {
+            let _ = writeln!(text, "\n{} of {} runs failed and are left out.", kept.left_out, kept.runs);
+        }
+    }
+    text += "\n";
+    text += &wrapped(&format!("**Verdict: {verdict}.** {}", figure.why));
+    if folder().join(format!("figures/{number}.svg")).exists() {
+        let _ = write!(text, "\n![Figure {number}](figures/{number}.svg)\n");
+    }
+    if let Some(picture) = &figure.picture {
+        let _ = write!(text, "\n![Figure {number}](../{picture})\n");
+    }
+    let own = format!("figure {number}");
+    let command = figure.command.clone().unwrap_or_else(|| format!("cargo run --release -p studies -- {own}"));
+    let seconds =
+        |kept: &Option<Kept>| kept.as_ref().map_or("not made".to_owned(), |kept| format!("{:.0} s", kept.seconds));
+    let mut last = format!("`{command}`");
+    if figure.number_of_data() > 0 {
+        last += &format!(" (computation: full {}, quick {})", seconds(full), seconds(quick));
+    }
+    for page in &figure.see {
+        last += &format!(", [{page}](../{page})");
+    }
+    text += "\n";
+    text += &wrapped(&(last + "."));
+    Ok(text)
+}
+
+/// A picture with one decimal of its numbers, a third smaller.
+pub(super) fn rounded(svg: &str) -> String {
+    let mut out = String::with_capacity(svg.len());
+    let mut decimals = None;
+    for c in svg.chars() {
+        decimals = match (c, decimals) {
+            ('.', _) => Some(0),
+            (c, Some(count)) if c.is_ascii_digit() => Some(count + 1),
+            _ => None,
+        };
+        if decimals.is_none_or(|count| count < 2) {
+            out.push(c);
+        }
+    }
+    out
+}
+
+/// A paragraph in lines that are not too long.
+fn wrapped(text: &str) -> String {
+    let mut out = String::new();
+    let mut width = 0;
+    for word in text.split_whitespace() {
+        let length = word.chars().count();
+        if width > 0 && width + 1 + length > WIDEST {
+            out.push('\n');
+            width = 0;
+        } else if width > 0 {
+            out.push(' ');
+            width += 1;
+        }
+        out += word;
+        width += length;
+    }
+    out + "\n"
+}

@@ -1,0 +1,147 @@
+//! Numbers that are found from points (x, y).
+
+use serde::Deserialize;
+
+/// What is found of the points of a check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Measure {
+    /// Mean of y and its standard deviation.
+    Mean,
+    Least,
+    Greatest,
+    /// How many points y is not 0 of, and of how many.
+    Count,
+    /// Correlation coefficient of x and y.
+    Correlation,
+    /// Slope of a line through the origin, the mean of y/x, and its standard deviation relative to that.
+    Slope,
+    /// Least squares of a + b x: b, with its standard error.
+    Line,
+    /// Least squares of a exp(-x/b) + c: b, with the largest residual relative to the range of y.
+    Exponential,
+    /// Largest less least y over their mean, of points with the same x, the mean over all x (of one x: 0).
+    Spread,
+    /// Where y changes its sign, by linear interpolation; the last of these places.
+    Zero,
+    /// Where y is greatest.
+    Peak,
+}
+
+/// A number, and what is said beside it.
+pub(super) type Found = (f64, String);
+
+impl Measure {
+    /// Of points in the order of x.
+    pub(super) fn of(self, points: &[(f64, f64)]) -> Found {
+        let n = points.len() as f64;
+        let alone = |value: f64| (value, String::new());
+        let ys = || points.iter().map(|(_, y)| *y);
+        match self {
+            Self::Mean => {
+                let (mean, deviation) = mean(ys());
+                (mean, if deviation > 0.0 { format!("standard deviation {}", shown(deviation)) } else { String::new() })
+            }
+            Self::Least => alone(ys().fold(f64::NAN, f64::min)),
+            Self::Greatest => alone(ys().fold(f64::NAN, f64::max)),
+            Self::Count => (ys().filter(|y| *y != 0.0).count() as f64, format!("of {}", points.len())),
+            Self::Correlation => {
+                let (xx, xy, yy) = moments(points);
+                (xy / (xx * yy).sqrt(), format!("of {n} points"))
+            }
+            Self::Slope => {
+                let (slope, deviation) = mean(points.iter().map(|(x, y)| y / x));
+                (slope, format!("scatter {:.2} %", 100.0 * deviation / slope.abs()))
+            }
+            Self::Line => {
+                let (_, b, _) = line(points, |x| x);
+                let (xx, xy, yy) = moments(points);
+                let error = ((yy - xy * xy / xx).max(0.0) / (n - 2.0) / xx).sqrt();
+                (b, format!("standard error {}", shown(error)))
+            }
+            Self::Exponential => {
+                let (_, b, _, worst) = exponential(points);
+                let range = ys().fold(f64::NAN, f64::max) - ys().fold(f64::NAN, f64::min);
+                (b, format!("largest residual {:.1} % of the range", 100.0 * worst / range))
+            }
+            Self::Spread => alone(spread(points)),
+            Self::Zero => {
+                let crossing = |pair: &[(f64, f64)]| {
+                    let [(x, y), (next, other)] = [pair[0], pair[1]];
+                    (y * other < 0.0).then(|| x - y * (next - x) / (other - y))
+                };
+                alone(points.windows(2).rev().find_map(crossing).unwrap_or(f64::NAN))
+            }
+            Self::Peak => alone(points.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(f64::NAN, |(x, _)| *x)),
+        }
+    }
+}
+
+/// Mean and standard deviation (of the sample; 0 of one).
+pub(super) fn mean(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    let n = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / n;
+    let squares: f64 = values.map(|v| (v - mean).powi(2)).sum();
+    (mean, (squares / (n - 1.0).max(1.0)).sqrt())
+}
+
+/// Sums of squares and of products about the means.
+fn moments(points: &[(f64, f64)]) -> (f64, f64, f64) {
+    let n = points.len() as f64;
+    let (mx, my) = points.iter().fold((0.0, 0.0), |(a, b), (x, y)| (a + x / n, b + y / n));
+    points.iter().fold((0.0, 0.0, 0.0), |(xx, xy, yy), (x, y)| {
+        (xx + (x - mx).powi(2), xy + (x - mx) * (y - my), yy + (y - my).powi(2))
+    })
+}
+
+/// Least squares of y = a + b f(x): a, b, largest residual.
+pub(super) fn line(points: &[(f64, f64)], f: impl Fn(f64) -> f64) -> (f64, f64, f64) {
+    let mapped: Vec<(f64, f64)> = points.iter().map(|(x, y)| (f(*x), *y)).collect();
+    let (xx, xy, _) = moments(&mapped);
+    let b = xy / xx;
+    let a = mapped.iter().map(|(x, y)| y - b * x).sum::<f64>() / mapped.len() as f64;
+    (a, b, mapped.iter().map(|(x, y)| (y - a - b * x).abs()).fold(0.0, f64::max))
+}
+
+/// Least squares of a exp(-x/b) + c, of the b that leaves the least residual: a, b, c, largest residual.
+pub(super) fn exponential(points: &[(f64, f64)]) -> (f64, f64, f64, f64) {
+    let range = points.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), (x, _)| (a.min(*x), b.max(*x)));
+    let width = range.1 - range.0;
+    let fits = (0..400).map(|k| {
+        let b = 0.02 * width * 500_f64.powf(f64::from(k) / 399.0);
+        let (c, a, worst) = line(points, |x| (-(x - range.0) / b).exp());
+        (a * (range.0 / b).exp(), b, c, worst)
+    });
+    let found = fits.filter(|fit| fit.3.is_finite()).min_by(|a, b| a.3.total_cmp(&b.3));
+    found.unwrap_or((f64::NAN, f64::NAN, f64::NAN, f64::NAN))
+}
+
+fn spread(points: &[(f64, f64)]) -> f64 {
+    let groups = points.chunk_by(|a, b| same(a.0, b.0)).filter(|group| group.len() > 1);
+    let relative = |group: &[(f64, f64)]| {
+        let ys = || group.iter().map(|(_, y)| *y);
+        (ys().fold(f64::NAN, f64::max) - ys().fold(f64::NAN, f64::min)) / mean(ys()).0.abs()
+    };
+    mean(groups.map(relative)).0
+}
+
+/// Whether two abscissas are one.
+pub(super) fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= 1e-9 * a.abs().max(b.abs())
+}
+
+/// A number to four significant figures.
+pub(super) fn shown(value: f64) -> String {
+    let magnitude = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    match magnitude {
+        _ if !value.is_finite() => "none".to_owned(),
+        -3..=5 => {
+            let text = format!("{value:.*}", (3 - magnitude).max(0) as usize);
+            if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        }
+        _ => format!("{value:.3e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests;

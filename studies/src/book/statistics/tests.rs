@@ -1,0 +1,31 @@
+use super::{Measure, shown};
+
+#[test]
+fn measures_find_what_points_are_made_of() {
+    let made = |f: fn(f64) -> f64| (0..9).map(|k| 2.0 + f64::from(k)).map(|x| (x, f(x))).collect::<Vec<_>>();
+    let decay = made(|x| 0.4 * (-x / 3.0).exp() + 0.1);
+    for (measure, points, expected, tolerance) in [
+        (Measure::Exponential, &decay, 3.0, 0.05),
+        (Measure::Line, &made(|x| 5.0 - 0.25 * x), -0.25, 1e-12),
+        (Measure::Correlation, &made(|x| 5.0 - 0.25 * x), -1.0, 1e-12),
+        (Measure::Slope, &made(|x| 3.0 * x), 3.0, 1e-12),
+        (Measure::Zero, &made(|x| x - 4.3), 4.3, 1e-12),
+        (Measure::Peak, &made(|x| -(x - 7.0).powi(2)), 7.0, 0.0),
+        (Measure::Count, &made(|x| f64::from(x > 4.0)), 6.0, 0.0),
+        (Measure::Mean, &made(|x| x), 6.0, 1e-12),
+        (Measure::Spread, &vec![(1.0, 0.9), (1.0, 1.1), (2.0, 5.0)], 0.2, 1e-12),
+    ] {
+        let (found, beside) = measure.of(points);
+        assert!((found - expected).abs() <= tolerance, "{measure:?}: {found} ({beside}), expected {expected}");
+    }
+    // An exponential fits a line through points of 1/x worse than their range times 1 %.
+    assert!(Measure::Exponential.of(&made(|x| 1.0 / x)).1 > Measure::Exponential.of(&decay).1);
+    assert!(Measure::Zero.of(&decay).0.is_nan());
+}
+
+#[test]
+fn numbers_have_four_figures() {
+    for (value, text) in [(0.123_456, "0.1235"), (-12.0, "-12"), (0.0, "0"), (f64::NAN, "none"), (2.5e-7, "2.500e-7")] {
+        assert_eq!(shown(value), text);
+    }
+}

@@ -1,0 +1,98 @@
+use std::collections::BTreeMap;
+
+use super::*;
+
+fn making(quick: bool, name: &str) -> Making {
+    let out = std::env::temp_dir().join(format!("motile-book-{name}-{}", std::process::id()));
+    Making { quick, threads: 1, quiet: true, out }
+}
+
+#[test]
+fn every_figure_has_its_file_and_every_plan_its_scenes() {
+    let numbers = numbers().expect("figures");
+    assert!(numbers.len() > 60, "{numbers:?}");
+    let mut data = BTreeMap::new();
+    for number in &numbers {
+        let figure = read(number).expect(number);
+        assert!(figure.data.is_empty() || figure.verdict.is_none() || !figure.why.is_empty(), "{number}");
+        figure.data.iter().for_each(|name| {
+            data.insert(name.clone(), number.clone());
+        });
+        // Expressions are read even where there are no rows.
+        let empty =
+            |name: &String| (name.clone(), Data { about: String::new(), rows: vec![], wanted: 0, seconds: 0.0 });
+        let none: BTreeMap<String, Data> = figure.data.iter().map(empty).collect();
+        figure.checks(&definitions().expect("definitions"), &none).expect(number);
+    }
+    for (name, number) in data {
+        let source = Source::read(&name).expect(&number);
+        for quick in [false, true] {
+            let trials = source.trials(&name, &making(quick, "none")).expect(&name);
+            for trial in trials.iter().take(2) {
+                trial.setup.build().map(|_| ()).expect(&trial.label);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_figure_is_made_from_its_file() {
+    let (making, mut made) = (making(true, "one"), BTreeMap::new());
+    one("3.1", &making, &mut made, false).expect("figure 3.1");
+    let points = fs::read_to_string(making.out.join("3.1.csv")).expect("points");
+    assert!(points.starts_with("panel,curve,group,x,y,deviation\n") && points.lines().count() > 4, "{points}");
+    assert!(making.out.join("3.1.svg").exists() && making.out.join("3.1.png").exists());
+    // Every steady state was made once: again it takes no computation.
+    let first = made.clone();
+    let mut again = BTreeMap::new();
+    one("3.1", &making, &mut again, false).expect("figure 3.1 again");
+    for (name, data) in first {
+        let same = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs();
+        assert!(same(data.seconds, again[&name].seconds), "{name}");
+        let speeds = |data: &Data| data.rows.iter().filter_map(|row| row.get("speed").copied()).collect::<Vec<_>>();
+        let (first, second) = (speeds(&data), speeds(&again[&name]));
+        assert!(first.len() == second.len() && first.iter().zip(&second).all(|(a, b)| same(*a, *b)), "{name}");
+    }
+    fs::remove_dir_all(&making.out).expect("a directory of its own");
+}
+
+#[test]
+fn what_is_wrong_is_told_in_a_sentence() {
+    let told = format!("{:#}", read("9.9").expect_err("no such figure"));
+    assert!(told.contains("there is no figure 9.9") && told.contains("2.8"), "{told}");
+    let text = "title = \"t\"\nsays = \"s\"\nwhy = \"w\"\ndata = [\"rows\"]\n[[check]]\nname = \"n\"\n\
+                measure = \"mean\"\nx = \"1\"\n";
+    let rows = vec![[("speed".to_owned(), 1.0)].into()];
+    let data: BTreeMap<String, Data> =
+        [("rows".to_owned(), Data { about: String::new(), rows, wanted: 1, seconds: 0.0 })].into();
+    for (y, expected) in [("spede", "no column spede"), ("speed +", "is missing before"), ("(speed", "')' is missing")]
+    {
+        let figure: Figure = toml::from_str(&format!("{text}y = \"{y}\"\n")).expect(y);
+        let told = format!("{:#}", figure.checks(&Definitions::new(), &data).expect_err(y));
+        assert!(told.contains(expected), "{y}: {told}");
+    }
+}
+
+#[test]
+fn a_verdict_falls_with_its_numbers() {
+    let text = "title = \"t\"\nsays = \"s\"\nwhy = \"w\"\nverdict = \"confirmed\"\ndata = [\"rows\"]\n[[check]]\n\
+                name = \"speed\"\nmeasure = \"mean\"\nx = \"1\"\ny = \"speed\"\nwithin = [0.9, 1.1]\n";
+    let figure: Figure = toml::from_str(text).expect("a figure");
+    assert_eq!(verdict(&figure, None), "not computed yet");
+    for (speed, expected) in [(1.0, "confirmed"), (2.0, "open: speed is 2")] {
+        let rows = vec![[("speed".to_owned(), speed)].into()];
+        let data = [("rows".to_owned(), Data { about: String::new(), rows, wanted: 1, seconds: 0.0 })].into();
+        let checks = figure.checks(&Definitions::new(), &data).expect("numbers");
+        let kept =
+            Kept { quick: true, commit: String::new(), runs: 1, left_out: 0, seconds: 0.0, data: vec![], checks };
+        assert!(verdict(&figure, Some(&kept)).starts_with(expected), "{}", verdict(&figure, Some(&kept)));
+    }
+}
+
+#[test]
+fn the_pages_are_those_that_would_be_written() {
+    for (name, text) in pages::all().expect("pages") {
+        let kept = fs::read_to_string(pages::folder().join(&name)).expect(&name);
+        assert!(kept == text, "docs/book/{name}: run studies -- figures --write");
+    }
+}
