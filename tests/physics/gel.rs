@@ -97,3 +97,21 @@ fn gels_between_elastic_walls_need_plain_surfaces() {
     let [coarse, fine] = [0.15, 0.1].map(|spacing| run(spacing, Surface::Plain).unwrap());
     assert!((coarse - fine).abs() < 0.025 && (fine - 0.908).abs() < 0.01, "{coarse} {fine}");
 }
+
+/// The droplet and what fills it together have neither resultant nor torque.
+#[test]
+fn forces_of_the_gel_are_among_the_moments() {
+    let material = GelMaterial { frank: 2.0, alignment: 0.5, activity: -200.0, ..GelMaterial::default() };
+    let start = DirectorStart::Uniform { angle: 0.2, noise: 0.1, seed: 1 };
+    for viscosity in [None, Some(1000.0)] {
+        let mut setup = filled(GelSetup { material, start, ..GelSetup::default() });
+        setup.droplets[0].viscosity = viscosity;
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        scene.run(0.2).go().unwrap();
+        let moments = scene.observe(droplets[0]).unwrap().moments;
+        let [[xx, xy], [yx, yy]] = moments.dipole;
+        let size = xx.abs().max(yy.abs());
+        assert!(moments.force.iter().all(|force| force.abs() < 1e-10 * size), "{moments:?}");
+        assert!((xy - yx).abs() < 1e-10 * size, "{moments:?}");
+    }
+}
