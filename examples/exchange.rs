@@ -2,9 +2,9 @@
 //!
 //! `cargo run --release --example exchange` simulates it with a well-mixed inside, or with `--bulk-diffusion` one where
 //! particles diffuse and are carried along, prints what was measured, and writes to `out/exchange/` what the example
-//! `swimming_droplet` writes; with a well-mixed inside the trajectory also has the number of particles inside and the
-//! exchange flux. Particles bind to the interface at the rate `--k-on` times their concentration inside
-//! and unbind at the rate `--k-off`. `--help` lists the flags.
+//! `swimming_droplet` writes; the trajectory also has the number of particles inside and the exchange flux, and
+//! pictures show in colour what diffuses inside. Particles bind to the interface at the rate `--k-on` times their
+//! concentration inside and unbind at the rate `--k-off`. `--help` lists the flags.
 
 use std::f64::consts::{PI, TAU};
 use std::process::ExitCode;
@@ -76,13 +76,11 @@ fn swim(all: &Flags) -> Result<()> {
 
     // The results, also of a run that broke off.
     let mut summary = run.summary()?;
-    let last = run.last()?.observables.clone();
-    let seen = run.particles_inside()?;
-    let (inside, flux) = seen.map(|(seen, _)| (seen.number, seen.flux)).or(last.inside).unwrap_or_default();
-    summary.put("number_on", last.particle_number, "on the interface");
+    let on = run.last()?.observables.particle_number;
+    let [inside, flux] = ["number_inside", "exchange_flux"].map(|column| run.last_of(column).unwrap_or_default());
+    summary.put("number_on", on, "on the interface");
     summary.put("number_inside", inside, "");
     summary.put("exchange_flux", flux, "binding less unbinding (1/time)");
-    let start = seen.map_or_else(|| run.totals(), |(_, start)| Ok(start))?;
-    summary.put("number_relative_change", (last.particle_number + inside) / start - 1.0, "of all since the start");
+    summary.put("number_relative_change", (on + inside) / run.totals()? - 1.0, "of all since the start");
     run.finish(&summary)
 }

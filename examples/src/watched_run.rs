@@ -6,7 +6,6 @@ use anyhow::{Context, Result, bail};
 use motile::active_interface::observables::{ConcentrationProfile, Frame, concentration_profile};
 use motile::active_interface::{ActiveDroplet, trajectory::TrajectoryRecord};
 use motile::ib_core::{Every, Handle, Observer, Scene, SceneError, Vec2, gap::SolidGap};
-use motile::interior_fields::{InteriorObservables, ParticlesInDroplet};
 use motile::{AnyFlow, Built, DropletSetup, Exclusion, MethodKind, Particles, Region, Setup};
 use motile_output::{
     Film, Look, ParaView, Raster, Snapshot, SolidColour, TrajectoryCsv, concentration_plot, time_series,
@@ -146,17 +145,10 @@ impl WatchedRun {
         Ok(first("particle_number")? + first("number_inside").unwrap_or(0.0))
     }
 
-    /// What is seen of the particles that diffuse inside the droplet, if any do, and the number of particles at the
-    /// start, on the interface and inside.
-    ///
-    /// # Errors
-    /// A state whose flow cannot be computed.
-    pub fn particles_inside(&mut self) -> Result<Option<(InteriorObservables, f64)>> {
-        let all = self.scene.system().bodies::<ParticlesInDroplet>();
-        let mut own = all.filter(|(_, body)| body.droplet() == self.droplet);
-        let found = own.next().map(|(inside, body)| (inside, body.initial_number()));
-        drop(own);
-        found.map(|(inside, start)| Ok((self.scene.observe(inside)?, start))).transpose()
+    /// The last value in a column of the trajectory; `None` if it has no such column.
+    #[must_use]
+    pub fn last_of(&self, column: &str) -> Option<f64> {
+        Some(self.recorder.table().curve("time", column).ok()?.last()?.1)
     }
 
     /// The last of what was measured of the droplet.

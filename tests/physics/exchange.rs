@@ -64,6 +64,32 @@ fn modes_of_the_circle_grow_slower_by_the_rate_of_unbinding() {
     }
 }
 
+/// The activities at which the rates of modes 1 to 3 are zero: rates are linear in the activity.
+#[test]
+fn the_exchange_raises_the_threshold_by_the_rate_of_unbinding() {
+    let at = [-1.0, -2.0];
+    let errors = [96, 192].map(|cells| {
+        let rates = at.map(|activity| {
+            let method = without_grid(cells / 4, cells).method;
+            let start = Start::Perturbed { amplitude: 1e-5, seed: 3 };
+            let perturbed = Setup { method, ..setup(start, None, activity) };
+            let [(before, _), (after, _)] = amplitudes(&perturbed, 0.00625, 0.1);
+            [0, 1, 2].map(|k: usize| (after[k] / before[k]).ln() / 0.1)
+        });
+        [0, 1, 2].map(|k: usize| {
+            let slope = (rates[1][k] - rates[0][k]) / (at[1] - at[0]);
+            let found = at[0] - rates[0][k] / slope;
+            let wave = k as f64 + 1.0;
+            // -(2 Sigma R/(k c0)) (D k^2/R^2 + k_off)
+            let exact = -4.0 / wave * (0.1 * wave * wave + UNBINDING);
+            (found / exact - 1.0).abs()
+        })
+    });
+    for (mode, (coarse, fine)) in errors[0].into_iter().zip(errors[1]).enumerate() {
+        assert!(fine < 1e-3 && fine < 0.3 * coarse, "mode {}: {coarse:.1e} {fine:.1e}", mode + 1);
+    }
+}
+
 #[test]
 fn numbers_on_and_inside_come_to_rest_at_the_exact_rate() {
     let (on, area) = (TAU * 100.0, PI);

@@ -164,6 +164,24 @@ fn active_modes_grow_at_the_exact_rates() {
     }
 }
 
+/// The activities at which modes neither grow nor decay, their densities inside being r^k cos k theta: rates are linear
+/// in the activity.
+#[test]
+fn what_diffuses_inside_sets_the_thresholds() {
+    for (k, bulk) in [(1.0, 0.3), (2.0, 1.0), (3.0, 0.1)] {
+        // Almost at rest: I_k(q r) differs from r^k by q^2/(4 k + 4).
+        let mode = Mode { k, q: 0.05, modified: true, bulk };
+        let exact = -4.0 / k * (DIFFUSION * k * k + UNBINDING / (1.0 + BINDING / (k * bulk)));
+        let errors = [(32, 0.24), (64, 0.12), (128, 0.06)].map(|(markers, spacing)| {
+            let at = [0.5 * exact, 1.5 * exact];
+            let [low, high] = at.map(|activity| quotient(mode, activity, markers, spacing));
+            let found = at[0] - low * (at[1] - at[0]) / (high - low);
+            (found / exact - 1.0).abs()
+        });
+        assert!(errors[2] < 5e-3 && (errors[1] / errors[2]).log2() > 1.8, "mode {k}: {errors:?} of {exact}");
+    }
+}
+
 /// A swimmer with particles inside.
 fn swimmer(method: Setup, region: Region, exchange: ExchangeSetup) -> Built {
     let particles = Particles {

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use fourier::PeriodicSeries;
 use ib_core::{
     Body, BodyError, Discretisation, MarkerKind, Vec2,
-    body::StepLimit,
+    body::{StepLimit, read_points, write_points},
     input::{InputError, all_points_finite, not_negative, positive, same_length},
 };
 use num_complex::Complex64;
@@ -268,19 +268,11 @@ impl Body for Shell {
     }
 
     fn write_state(&self, state: &mut [f64]) {
-        for (pair, position) in state.chunks_exact_mut(2).zip(&self.positions) {
-            pair.copy_from_slice(&position.to_array());
-        }
+        write_points(&self.positions, state);
     }
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
-        if let Some(index) = state.iter().position(|value| !value.is_finite()) {
-            return Err(BodyError::NonFinite { what: "marker coordinate", index, value: state[index] });
-        }
-        for (position, pair) in self.positions.iter_mut().zip(state.chunks_exact(2)) {
-            *position = Vec2::new(pair[0], pair[1]);
-        }
-        Ok(())
+        read_points(state, &mut self.positions)
     }
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
@@ -289,9 +281,7 @@ impl Body for Shell {
             // As long as the series, so that the call cannot fail.
             let _ = self.series.truncate_vectors(&mut self.motions, modes);
         }
-        for (pair, velocity) in rate.chunks_exact_mut(2).zip(&self.motions) {
-            pair.copy_from_slice(&velocity.to_array());
-        }
+        write_points(&self.motions, rate);
     }
 
     /// That of the shortest wave of the largest wave number q that moves, on a flat membrane between the two fluids:

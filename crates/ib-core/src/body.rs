@@ -2,10 +2,12 @@
 
 mod guest;
 mod marker_body;
+mod points;
 mod step_limit;
 
 pub use guest::Guest;
 pub use marker_body::MarkerBody;
+pub use points::{read_points, write_points};
 pub use step_limit::{StepCause, StepLimit};
 
 use std::any::Any;

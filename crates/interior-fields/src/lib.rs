@@ -31,6 +31,7 @@
 //! migration", PhD thesis, University of Sheffield.
 
 mod error;
+mod filling;
 pub mod gel;
 mod mesh;
 pub mod particles;

@@ -18,11 +18,11 @@ fn scene(cells: usize, length: f64, viscosity: f64) -> Outcome<Scene<ImmersedBou
 }
 
 /// The rate of a wave with that wave vector on a director of that angle.
-fn wave_rate(cells: usize, angle: f64, wave: Vec2) -> Outcome<f64> {
+fn wave_rate(gel: GelMaterial, cells: usize, angle: f64, wave: Vec2) -> Outcome<f64> {
     let mut scene = scene(cells, TAU, VISCOSITY)?;
     let size = 1e-5;
     let director = |node: Vec2| angle + size * node.dot(wave).cos();
-    let gel = scene.add(GelInBox::new(GEL, [TAU; 2], [cells; 2], director)?);
+    let gel = scene.add(GelInBox::new(gel, [TAU; 2], [cells; 2], director)?);
     let mut rate = vec![0.0; cells * cells];
     scene.system_mut().present_rate(&mut rate)?;
     let nodes = scene.body(gel)?.nodes();
@@ -47,7 +47,7 @@ fn waves_on_a_uniform_director_grow_as_they_should() {
         let coupling = 1.0 - GEL.alignment * cos;
         let diffusion = 1.0 / GEL.rotational_viscosity + coupling * coupling / (4.0 * VISCOSITY);
         let exact = -GEL.frank * q * q * diffusion + GEL.activity * cos * coupling / (2.0 * VISCOSITY);
-        let errors = [32, 64].map(|cells| (wave_rate(cells, angle, wave).unwrap() - exact).abs());
+        let errors = [32, 64].map(|cells| (wave_rate(GEL, cells, angle, wave).unwrap() - exact).abs());
         assert!(errors[1] < 0.005 * q * q * (1.0 + exact.abs()), "{errors:?} of {exact}");
         assert!((errors[0] / errors[1]).log2() > 1.9, "{errors:?}");
     }
@@ -62,7 +62,7 @@ fn bessel(x: f64) -> f64 {
 
 /// The rate of the mode J_0(zero r) around the centre of an aster or a vortex in a unit disc, the director along the
 /// normal or the tangent at its boundary, in exterior fluid of that viscosity.
-fn disc_rate(cells: usize, zero: f64, anchoring: Anchoring, exterior: f64) -> Outcome<f64> {
+fn disc_rate(gel: GelMaterial, cells: usize, zero: f64, anchoring: Anchoring, exterior: f64) -> Outcome<f64> {
     let mut scene = scene(cells, 4.0, exterior)?;
     let spacing = 4.0 / cells as f64;
     let markers = (TAU / (0.5 * spacing)).round() as usize;
@@ -70,7 +70,7 @@ fn disc_rate(cells: usize, zero: f64, anchoring: Anchoring, exterior: f64) -> Ou
     let droplet = droplet.with_viscosity_inside(VISCOSITY)?;
     let host = scene.add(droplet.clone());
     let start = if anchoring == Anchoring::Planar { DirectorStart::Vortex } else { DirectorStart::Aster };
-    let gel = GelInDroplet::new(&droplet, host, GEL, anchoring, &start, spacing)?;
+    let gel = GelInDroplet::new(&droplet, host, gel, anchoring, &start, spacing)?;
     let mode: Vec<f64> = gel.nodes()[markers..].iter().map(|node| bessel(zero * node.length())).collect();
     let mut areas = vec![0.0; gel.nodes().len()];
     for &[a, b, c] in gel.triangles() {
@@ -116,9 +116,44 @@ fn asters_and_vortices_turn_as_they_should() {
             let diffusion = 1.0 / GEL.rotational_viscosity + coupling * coupling / (4.0 * VISCOSITY);
             let exact = -GEL.frank * zero * zero * diffusion + sign * coupling * GEL.activity / (2.0 * VISCOSITY);
             // The core, where the director turns within a cell, makes the order less than two.
-            let errors = [40, 80].map(|cells| (disc_rate(cells, zero, anchoring, exterior).unwrap() - exact).abs());
+            let errors =
+                [40, 80].map(|cells| (disc_rate(GEL, cells, zero, anchoring, exterior).unwrap() - exact).abs());
             assert!(errors[1] < 0.08 * exact.abs(), "{errors:?} of {exact}");
             assert!(errors[1] < 0.5 * errors[0] || errors[1] < 0.01 * exact.abs(), "{errors:?} of {exact}");
         }
+    }
+}
+
+/// The activity at which a rate that is linear in it is zero.
+fn threshold(rate: impl Fn(GelMaterial) -> Outcome<f64>) -> Outcome<f64> {
+    let [low, high] = [-4.0, 4.0].map(|activity| rate(GelMaterial { activity, ..GEL }));
+    let (low, high) = (low?, high?);
+    Ok(-4.0 - 8.0 * low / (high - low))
+}
+
+#[test]
+fn activity_overcomes_the_elasticity_of_the_director_where_it_should() {
+    let diffusion = |coupling: f64| 1.0 / GEL.rotational_viscosity + coupling * coupling / (4.0 * VISCOSITY);
+    for degrees in [0.0, 30.0, 90.0] {
+        let angle = f64::to_radians(degrees);
+        let cos = (2.0 * angle).cos();
+        let coupling = 1.0 - GEL.alignment * cos;
+        let exact = 2.0 * VISCOSITY * GEL.frank * diffusion(coupling) / (cos * coupling);
+        let errors = [32, 64].map(|cells| {
+            let found = threshold(|gel| wave_rate(gel, cells, angle, Vec2::X)).unwrap();
+            (found / exact - 1.0).abs()
+        });
+        assert!(errors[1] < 5e-3 && (errors[0] / errors[1]).log2() > 1.9, "{degrees}: {errors:?} of {exact}");
+    }
+    let zero = 2.404_825_557_695_773;
+    for (anchoring, sign) in [(Anchoring::Homeotropic, 1.0), (Anchoring::Planar, -1.0)] {
+        let coupling = 1.0 - sign * GEL.alignment;
+        let exact = sign * 2.0 * VISCOSITY * GEL.frank * zero * zero * diffusion(coupling) / coupling;
+        let errors = [40, 80].map(|cells| {
+            let found = threshold(|gel| disc_rate(gel, cells, zero, anchoring, VISCOSITY)).unwrap();
+            (found / exact - 1.0).abs()
+        });
+        // Of an order less than two, by the core.
+        assert!(errors[1] < 0.12 && errors[1] < 0.6 * errors[0], "{anchoring:?}: {errors:?} of {exact}");
     }
 }

@@ -63,7 +63,7 @@ pub use picture::{Look, SolidColour, SolidShape, Track};
 pub use plot::droplet::{concentration_plot, time_series};
 pub use plot::{Figure, Marker, Plot, Series};
 pub use progress::{Progress, RunProgress};
-pub use snapshot::{DropletOutline, GelField, Snapshot};
+pub use snapshot::{DropletOutline, GelField, InteriorField, Snapshot};
 pub use solids::SolidMeter;
 pub use table::CsvTable;
 pub use trajectory::TrajectoryCsv;

@@ -13,9 +13,10 @@ const STREAMLINES: f64 = 0.05;
 pub type Track = Vec<(f64, Vec2)>;
 
 /// How scenes are drawn: pressure in colour, streamlines in the laboratory frame, the interfaces of all droplets
-/// coloured by their concentrations (black without particles), the directors and defects of gels, solids, rigid walls,
-/// between walls the paths of the droplets, the time and a scale bar. In periodic directions everything is drawn with
-/// its periodic images, so positions need not be wrapped.
+/// coloured by their concentrations (black without particles), the densities of particles that diffuse inside in place
+/// of the pressure, the directors and defects of gels, solids, rigid walls, between walls the paths of the droplets,
+/// the time and a scale bar. In periodic directions everything is drawn with its periodic images, so positions need not
+/// be wrapped.
 ///
 /// ```
 /// use motile::prelude::*;
@@ -100,11 +101,13 @@ impl Format {
         Self { width: 440, levels: 20, streamline_spacing: 2.0, type_sizes: 37.0, follows: false };
 }
 
-/// The colour scales of pressure, concentration where there are particles, and solids where they are coloured.
+/// The colour scales of pressure, concentration and density inside where there are particles, and solids where they are
+/// coloured.
 #[derive(Debug)]
 pub(crate) struct Legends {
     pressure: ColourScale,
     concentration: Option<ColourScale>,
+    inside: Option<ColourScale>,
     solids: Option<ColourScale>,
     /// Concentration that counts as 1 (particles per length).
     unit: f64,
@@ -132,12 +135,14 @@ impl Look {
         let droplets = all.iter().flat_map(|seen| &seen.droplets);
         let concentrations = droplets.flat_map(|droplet| droplet.concentration.iter().map(|c| c / unit));
         let label = if self.concentration.is_some() { "concentration c/c_{0}" } else { "concentration c" };
+        let inside = all.iter().flat_map(|seen| &seen.inside).flat_map(|field| field.densities.iter().flatten());
         let solids = all.iter().flat_map(|seen| &seen.solids).flat_map(|solid| solid.values(self.solids));
         let of_solids = if self.solids == SolidColour::Stress { "stress deviator" } else { "displacement" };
         Legends {
             solids: ColourScale::from_zero(solids.copied(), of_solids).map(ColourScale::green),
             pressure: ColourScale::of_most(pressures, "pressure p"),
             concentration: ColourScale::from_zero(concentrations, label),
+            inside: ColourScale::from_zero(inside.copied(), "density inside C").map(ColourScale::green),
             unit,
         }
     }

@@ -2,7 +2,7 @@
 
 use motile::active_interface::{ActiveDroplet, curve::polygon_moments};
 use motile::ib_core::{FlowSample, Hydrodynamics, System};
-use motile::interior_fields::{Defect, GelInDroplet};
+use motile::interior_fields::{Defect, GelInDroplet, ParticlesInDroplet};
 
 use crate::{
     Error, Raster, SolidShape, Vec2,
@@ -31,6 +31,25 @@ pub struct GelField {
     pub defects: Vec<Defect>,
 }
 
+/// Particles that diffuse inside a droplet, at one time.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct InteriorField {
+    /// The triangles of its mesh (length).
+    pub triangles: Vec<[Vec2; 3]>,
+    /// The densities at their corners (particles per area).
+    pub densities: Vec<[f64; 3]>,
+}
+
+impl InteriorField {
+    fn of(body: &ParticlesInDroplet) -> Self {
+        let densities: Vec<f64> = body.densities().collect();
+        Self {
+            triangles: body.triangles().iter().map(|corners| corners.map(|node| body.nodes()[node])).collect(),
+            densities: body.triangles().iter().map(|corners| corners.map(|node| densities[node])).collect(),
+        }
+    }
+}
+
 /// All droplets and solids of a scene and the flow on a raster, at one time.
 #[derive(Debug, Clone)]
 pub struct Snapshot {
@@ -44,6 +63,8 @@ pub struct Snapshot {
     pub droplets: Vec<DropletOutline>,
     /// The gels inside droplets, in the order of addition.
     pub gels: Vec<GelField>,
+    /// The particles that diffuse inside droplets, in the order of addition.
+    pub inside: Vec<InteriorField>,
     /// The elastic solids, rigid bodies and membranes, each in the order of addition, and rigid walls and obstacles as
     /// one more.
     pub solids: Vec<SolidShape>,
@@ -73,6 +94,7 @@ impl Snapshot {
         };
         Ok(Self {
             gels: system.bodies().map(gel).collect(),
+            inside: system.bodies().map(|(_, body)| InteriorField::of(body)).collect(),
             time: system.time(),
             raster,
             flow,

@@ -5,6 +5,7 @@ use std::path::Path;
 use motile::active_interface::ActiveDroplet;
 use motile::active_interface::trajectory::{TrajectoryRecord, TrajectoryRecorder};
 use motile::ib_core::{Handle, Hydrodynamics, Observer, System};
+use motile::interior_fields::ParticlesInDroplet;
 
 use crate::{CsvTable, Error, SolidMeter, Track};
 
@@ -15,10 +16,14 @@ const BETWEEN_RIGID_WALLS: [&str; 3] = ["gap", "net_flux", "retrograde_flow"];
 /// And those that walls that are not straight do not have.
 const BETWEEN_STRAIGHT_WALLS: [&str; 2] = ["net_flux", "retrograde_flow"];
 
+/// Columns of particles that diffuse inside.
+const INSIDE: [&str; 2] = ["number_inside", "exchange_flux"];
+
 /// Records a droplet whenever it is called and writes what it sees to a CSV file.
 ///
-/// The columns are those of [`TrajectoryRecord::entries`], without those about walls where there are none, and where
-/// there are elastic solids those of [`SolidMeter::NAMES`].
+/// The columns are those of [`TrajectoryRecord::entries`], without those about walls where there are none, where
+/// particles diffuse inside the droplet their number and what is exchanged (`number_inside`, `exchange_flux`, as with
+/// a well-mixed inside), and where there are elastic solids those of [`SolidMeter::NAMES`].
 ///
 /// ```
 /// use motile::prelude::*;
@@ -38,6 +43,7 @@ pub struct TrajectoryCsv {
     records: TrajectoryRecorder,
     table: CsvTable,
     columns: Vec<usize>,
+    inside: Option<Handle<ParticlesInDroplet>>,
     solids: Option<SolidMeter>,
     last_solids: Option<[f64; 8]>,
     /// The time from which a trajectory that was begun before goes on: that state was due for a row or not.
@@ -71,10 +77,15 @@ impl TrajectoryCsv {
         };
         let columns: Vec<usize> = (0..entries.len()).filter(wanted).collect();
         let mut names: Vec<&str> = columns.iter().map(|&k| entries[k].0).collect();
+        let inside = system.bodies::<ParticlesInDroplet>().find(|(_, body)| body.droplet() == droplet);
+        let inside = inside.map(|(handle, _)| handle);
+        names.extend(inside.iter().flat_map(|_| INSIDE));
         names.extend(solids.iter().flat_map(|_| SolidMeter::NAMES));
-        let table = CsvTable::resume(path, &names, system.time())?;
+        // A run from the start leaves nothing of another one that the file may have.
+        let begun = system.time() > 0.0;
+        let table = if begun { CsvTable::resume(path, &names, system.time()) } else { CsvTable::create(path, &names) }?;
         let resumed = (!table.rows().is_empty()).then(|| system.time());
-        Ok(Self { records, table, columns, solids, last_solids: None, resumed })
+        Ok(Self { records, table, columns, inside, solids, last_solids: None, resumed })
     }
 
     /// Everything measured, record by record.
@@ -119,6 +130,10 @@ impl<H: Hydrodynamics> Observer<H> for TrajectoryCsv {
         self.records.observe(system)?;
         let entries = self.records.records().last().map(TrajectoryRecord::entries).unwrap_or_default();
         let mut row: Vec<f64> = self.columns.iter().map(|&k| entries[k].1.unwrap_or(f64::NAN)).collect();
+        if let Some(inside) = self.inside {
+            let seen = system.body(inside)?.seen();
+            row.extend([seen.number, seen.flux]);
+        }
         if let Some(meter) = &mut self.solids {
             let values = meter.measure(system)?;
             row.extend(values);

@@ -350,6 +350,7 @@ impl SteadyState {
                 numbers: &numbers,
                 viscosities: model.viscosities,
                 inside: None,
+                filled: None,
                 stresslet: None,
             },
             Convention::FarField,

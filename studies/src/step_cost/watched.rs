@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use motile::ib_core::{
     Body, BodyError, Discretisation, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers, Vec2,
-    body::{StepInfo, StepLimit},
+    body::{Guest, StepInfo, StepLimit},
     hydrodynamics::{FlowWork, SolveReport},
 };
 use motile::stokes_grid::{CentreField, Grid, StaggeredField, StokesError, StokesSolver, WallMotion, Work};
@@ -107,6 +107,10 @@ impl<B: Body> Body for Watched<B> {
 
     fn step_limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
         self.0.step_limits(discretisation, limits);
+    }
+
+    fn as_guest(&mut self) -> Option<&mut dyn Guest> {
+        self.0.as_guest()
     }
 }
 

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use ib_core::{
     Body, BodyError, Discretisation, MarkerKind, Vec2, Warning,
-    body::{StepInfo, StepLimit},
+    body::{StepInfo, StepLimit, write_points},
     checkpoint::SavedState,
     input::at_least,
 };
@@ -75,9 +75,7 @@ impl Body for ActiveDroplet {
 
     fn write_state(&self, state: &mut [f64]) {
         let (positions, numbers) = state.split_at_mut(2 * self.shape.markers.len());
-        for (pair, marker) in positions.chunks_exact_mut(2).zip(&self.shape.markers) {
-            pair.copy_from_slice(&marker.to_array());
-        }
+        write_points(&self.shape.markers, positions);
         let (on, inside) = numbers.split_at_mut(self.numbers.len());
         on.copy_from_slice(&self.numbers);
         if let (Some(inside), Some(pool)) = (inside.first_mut(), &self.pool) {
@@ -133,9 +131,7 @@ impl Body for ActiveDroplet {
             let _ = series.truncate_vectors(&mut self.motions, *modes);
         }
         let (positions, numbers) = rate.split_at_mut(2 * count);
-        for (pair, motion) in positions.chunks_exact_mut(2).zip(&self.motions) {
-            pair.copy_from_slice(&motion.to_array());
-        }
+        write_points(&self.motions, positions);
         numbers.fill(0.0);
         if let Some(transport) = self.transport.as_mut() {
             let lengths = &self.shape.geometry.lengths;

@@ -25,6 +25,7 @@ impl<'a> InterfaceState<'a> {
             numbers: droplet.particle_numbers(),
             inside: droplet.number_inside().zip(droplet.exchange_flux()),
             stresslet: flow.stresslet,
+            filled: Some(*flow),
             viscosities: [droplet.viscosity_inside().unwrap_or(outside), outside],
         }
     }

@@ -47,6 +47,19 @@ impl ForceMoments {
         [[half, off], [off, -half]]
     }
 
+    /// Adds what a force at a place inside the droplet has, both in these axes.
+    pub(super) fn add_force(&mut self, r: Vec2, f: Vec2) {
+        for i in 0..2 {
+            self.force[i] += f[i];
+            for j in 0..2 {
+                self.dipole[i][j] += f[i] * r[j];
+                for k in 0..2 {
+                    self.quadrupole[i][j][k] += f[i] * r[j] * r[k];
+                }
+            }
+        }
+    }
+
     /// Moves the stresslet by a `share` of the way from that of the `far_field` convention to the `known` one of the
     /// flow far away, in these axes; in the other convention, whose viscous term has the other sign, by as much back.
     pub(super) fn shift_stresslet(

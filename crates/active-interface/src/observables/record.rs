@@ -1,7 +1,7 @@
 //! All observables of a droplet at one time.
 
-use ib_core::Vec2;
 use ib_core::input::{all_finite, all_points_finite, at_least, same_length};
+use ib_core::{Vec2, scene::BodyFlow};
 
 use super::fourier::{concentration_modes, shape_modes};
 use super::frame::{aspect_ratio_of, raw_centroid_velocity};
@@ -31,6 +31,8 @@ pub struct InterfaceState<'a> {
     /// The stresslet (force times length, along x and y) of the flow around the interface where it is known otherwise
     /// than from forces and velocities, which for very different viscosities give it as a small difference.
     pub stresslet: Option<[[f64; 2]; 2]>,
+    /// The flow in which bodies that fill the droplet put forces on the fluid too; `None` where nothing does.
+    pub filled: Option<BodyFlow<'a>>,
 }
 
 /// Modes of shape and concentration that are recorded.
@@ -85,7 +87,7 @@ pub struct Observables {
 /// Lists of different length, fewer than eight markers, values that are not finite, markers that coincide or enclose
 /// no area.
 pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Observables, InterfaceError> {
-    let InterfaceState { markers, forces, velocities, numbers, viscosities, stresslet, inside } = *state;
+    let InterfaceState { markers, forces, velocities, numbers, viscosities, stresslet, inside, filled } = *state;
     at_least("markers", markers.len(), 8)?;
     same_length("velocities", markers.len(), velocities.len())?;
     all_points_finite("the velocities", velocities)?;
@@ -99,6 +101,9 @@ pub fn observe(state: &InterfaceState<'_>, convention: Convention) -> Result<Obs
         // All of it for a very viscous droplet, continuous where viscosities become equal.
         let share = (1.0 - viscosities[1] / viscosities[0]).max(0.0);
         moments.shift_stresslet(share, &far_field, frame.tensor(known), convention);
+    }
+    for [position, force] in filled.iter().flat_map(BodyFlow::inside) {
+        moments.add_force(frame.coordinates(position), frame.components(force));
     }
     let mut record = Observables {
         centroid: area.centroid,

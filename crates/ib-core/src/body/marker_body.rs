@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::{
     Body, BodyError, Discretisation, MarkerKind, Vec2,
-    body::StepLimit,
+    body::{StepLimit, read_points, write_points},
     input::{InputError, all_points_finite, not_negative},
 };
 
@@ -161,19 +161,11 @@ impl Body for MarkerBody {
     }
 
     fn write_state(&self, state: &mut [f64]) {
-        for (pair, position) in state.chunks_exact_mut(2).zip(&self.positions) {
-            pair.copy_from_slice(&position.to_array());
-        }
+        write_points(&self.positions, state);
     }
 
     fn read_state(&mut self, state: &[f64]) -> Result<(), BodyError> {
-        if let Some(index) = state.iter().position(|value| !value.is_finite()) {
-            return Err(BodyError::NonFinite { what: "marker coordinate", index, value: state[index] });
-        }
-        for (position, pair) in self.positions.iter_mut().zip(state.chunks_exact(2)) {
-            *position = Vec2::new(pair[0], pair[1]);
-        }
-        Ok(())
+        read_points(state, &mut self.positions)
     }
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
@@ -182,9 +174,7 @@ impl Body for MarkerBody {
         if let Some(motion) = &mut self.motion {
             motion(&self.positions, velocities, &mut self.rates);
         }
-        for (pair, velocity) in rate.chunks_exact_mut(2).zip(&self.rates) {
-            pair.copy_from_slice(&velocity.to_array());
-        }
+        write_points(&self.rates, rate);
     }
 
     fn step_limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {

@@ -1,14 +1,12 @@
 //! A gel that fills a droplet.
 
-use std::any::Any;
-
 use active_interface::ActiveDroplet;
 use ib_core::body::{Guest, StepInfo, StepLimit};
 use ib_core::scene::BodyFlow;
 use ib_core::{Body, BodyError, Discretisation, Handle, MarkerKind, Observe, Vec2};
 
 use super::{Anchoring, Defect, DirectorStart, GelMaterial, director::Director, elements::Elements};
-use crate::{DiscMesh, InteriorError};
+use crate::{InteriorError, filling::Filling};
 
 /// What is seen of a gel at one time.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,17 +36,11 @@ impl GelObservables {
 #[derive(Debug, Clone)]
 pub struct GelInDroplet {
     name: String,
-    host: Handle<ActiveDroplet>,
-    mesh: DiscMesh,
+    filling: Filling,
     director: Director,
     anchoring: Anchoring,
-    /// Of all nodes, the droplet's markers first: places, forces, velocities of the fluid and of the nodes.
-    nodes: Vec<Vec2>,
+    /// At all nodes, the droplet's markers first.
     forces: Vec<Vec2>,
-    fluid: Vec<Vec2>,
-    motion: Vec<Vec2>,
-    /// Whether the host is a droplet that still has as many markers as the mesh was made for.
-    fits: bool,
 }
 
 impl GelInDroplet {
@@ -65,37 +57,28 @@ impl GelInDroplet {
         start: &DirectorStart,
         spacing: f64,
     ) -> Result<Self, InteriorError> {
-        if !matches!(droplet.kind(), MarkerKind::Interface { .. }) {
-            return Err(InteriorError::ChangingMarkers);
-        }
-        let markers = droplet.markers();
-        let radius = droplet.segment_lengths().iter().sum::<f64>() / std::f64::consts::TAU;
-        let mesh = DiscMesh::new(markers.len(), spacing / radius)?;
-        let mut nodes = vec![Vec2::ZERO; mesh.node_count()];
-        nodes[..markers.len()].copy_from_slice(markers);
-        mesh.place(&mut nodes);
-        let angles = start.angles(&nodes, markers.iter().sum::<Vec2>() / markers.len() as f64)?;
-        let elements = Elements::new(mesh.triangles().to_vec(), nodes.len(), [None; 2]);
+        let filling = Filling::new(droplet, host, spacing)?;
+        let (nodes, markers) = (&filling.nodes, filling.markers());
+        let angles = start.angles(nodes, markers.iter().sum::<Vec2>() / markers.len() as f64)?;
+        let elements = Elements::new(filling.mesh.triangles().to_vec(), nodes.len(), [None; 2]);
         let anchored = anchoring.angle_from_tangent().map(|angle| (angle, markers.len()));
         let mut director = Director::new(material.checked()?, elements, angles, anchored);
-        director.move_to(&nodes);
+        director.move_to(nodes);
         let mut forces = vec![Vec2::ZERO; nodes.len()];
-        director.write_forces(&nodes, &mut forces)?;
-        let [fluid, motion] = [(); 2].map(|()| vec![Vec2::ZERO; nodes.len()]);
-        let name = format!("gel of {}", droplet.name());
-        Ok(Self { name, host, mesh, director, anchoring, nodes, forces, fluid, motion, fits: true })
+        director.write_forces(nodes, &mut forces)?;
+        Ok(Self { name: format!("gel of {}", droplet.name()), filling, director, anchoring, forces })
     }
 
     /// Where the nodes are (length), the droplet's markers first.
     #[must_use]
     pub fn nodes(&self) -> &[Vec2] {
-        &self.nodes
+        &self.filling.nodes
     }
 
     /// Triangles by the numbers of their nodes, counter-clockwise.
     #[must_use]
     pub fn triangles(&self) -> &[[usize; 3]] {
-        self.mesh.triangles()
+        self.filling.mesh.triangles()
     }
 
     /// The director at the nodes (no dimension).
@@ -107,32 +90,24 @@ impl GelInDroplet {
     /// The points about which the director turns.
     #[must_use]
     pub fn defects(&self) -> Vec<Defect> {
-        self.director.defects(&self.nodes)
+        self.director.defects(&self.filling.nodes)
     }
 
     /// The droplet that it fills.
     #[must_use]
     pub fn droplet(&self) -> Handle<ActiveDroplet> {
-        self.host
-    }
-
-    fn inner(&self) -> std::ops::RangeFrom<usize> {
-        self.mesh.marker_count()..
+        self.filling.host
     }
 }
 
 impl Guest for GelInDroplet {
     fn host(&self) -> Handle<dyn Body> {
-        self.host.into()
+        self.filling.host.into()
     }
 
     fn see(&mut self, host: &dyn Body) {
-        let droplet: &dyn Any = host;
-        self.fits = droplet.is::<ActiveDroplet>() && host.marker_count() == self.mesh.marker_count();
-        if self.fits {
-            host.write_markers(&mut self.nodes[..self.mesh.marker_count()]);
-            self.mesh.place(&mut self.nodes);
-            self.director.move_to(&self.nodes);
+        if self.filling.see(host, |_| true).is_some() {
+            self.director.move_to(&self.filling.nodes);
         }
     }
 
@@ -141,13 +116,7 @@ impl Guest for GelInDroplet {
     }
 
     fn see_motion(&mut self, host: &dyn Body, velocities: &[Vec2]) {
-        let host: &dyn Any = host;
-        if let Some(droplet) = host.downcast_ref::<ActiveDroplet>().filter(|_| self.fits) {
-            let count = self.mesh.marker_count();
-            self.fluid[..count].copy_from_slice(velocities);
-            self.motion[..count].copy_from_slice(droplet.marker_motion());
-            self.mesh.place(&mut self.motion);
-        }
+        self.filling.see_motion(host, velocities);
     }
 }
 
@@ -161,19 +130,17 @@ impl Body for GelInDroplet {
     }
 
     fn marker_count(&self) -> usize {
-        self.mesh.node_count() - self.mesh.marker_count()
+        self.filling.inner_count()
     }
 
     fn write_markers(&self, positions: &mut [Vec2]) {
-        positions.copy_from_slice(&self.nodes[self.inner()]);
+        positions.copy_from_slice(&self.filling.nodes[self.filling.inner()]);
     }
 
     fn write_forces(&mut self, _medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        if !self.fits {
-            return Err(InteriorError::ChangingMarkers.into());
-        }
-        self.director.write_forces(&self.nodes, &mut self.forces)?;
-        forces.copy_from_slice(&self.forces[self.inner()]);
+        self.filling.check()?;
+        self.director.write_forces(&self.filling.nodes, &mut self.forces)?;
+        forces.copy_from_slice(&self.forces[self.filling.inner()]);
         Ok(())
     }
 
@@ -190,9 +157,8 @@ impl Body for GelInDroplet {
     }
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
-        let inner = self.inner();
-        self.fluid[inner].copy_from_slice(velocities);
-        self.director.write_rate(&self.fluid, &self.motion, rate);
+        self.filling.set_flow(velocities);
+        self.director.write_rate(&self.filling.fluid, &self.filling.motion, rate);
     }
 
     fn begin_step(&mut self, medium: &Discretisation, step: StepInfo) -> Result<(), BodyError> {
@@ -214,7 +180,7 @@ impl Body for GelInDroplet {
 
     fn properties(&self) -> Vec<(String, f64)> {
         let mut properties = self.director.material.properties();
-        properties.push(("the number of nodes".to_owned(), self.nodes.len() as f64));
+        properties.push(("the number of nodes".to_owned(), self.filling.nodes.len() as f64));
         properties.push(("the anchoring".to_owned(), f64::from(self.anchoring as u8)));
         properties
     }
@@ -228,6 +194,6 @@ impl Observe for GelInDroplet {
     type Observables = GelObservables;
 
     fn observables(&self, _medium: &Discretisation, _flow: &BodyFlow<'_>) -> Result<GelObservables, BodyError> {
-        Ok(GelObservables::of(&self.director, &self.nodes))
+        Ok(GelObservables::of(&self.director, &self.filling.nodes))
     }
 }

@@ -1,7 +1,5 @@
 //! Particles inside a droplet.
 
-use std::any::Any;
-
 use active_interface::{ActiveDroplet, Exchange};
 use ib_core::body::{Guest, StepInfo, StepLimit};
 use ib_core::checkpoint::SavedState;
@@ -10,7 +8,7 @@ use ib_core::scene::BodyFlow;
 use ib_core::{Body, BodyError, Discretisation, Handle, MarkerKind, Observe, Vec2, Warning};
 
 use super::{cells::Cells, diffusion::Diffusion, positivity::fill_up, transport::Transport};
-use crate::{DiscMesh, InteriorError};
+use crate::{InteriorError, filling::Filling};
 
 /// Relative change of the number of particles at which a run ends.
 const NUMBER_BOUND: f64 = 1e-8;
@@ -44,8 +42,7 @@ pub struct InteriorObservables {
 #[derive(Debug, Clone)]
 pub struct ParticlesInDroplet {
     name: String,
-    host: Handle<ActiveDroplet>,
-    mesh: DiscMesh,
+    filling: Filling,
     exchange: Exchange,
     cells: Cells,
     /// With the mesh of the start of the step.
@@ -54,10 +51,6 @@ pub struct ParticlesInDroplet {
     numbers: Vec<f64>,
     change: Vec<f64>,
     initial_number: f64,
-    /// Of all nodes, the droplet's markers first: places, velocities of the fluid and of the nodes.
-    nodes: Vec<Vec2>,
-    fluid: Vec<Vec2>,
-    motion: Vec<Vec2>,
     /// Where the nodes were when the host was seen before, and how far they are from there.
     before: Vec<Vec2>,
     shift: Vec<Vec2>,
@@ -65,8 +58,6 @@ pub struct ParticlesInDroplet {
     lengths: Vec<f64>,
     on: Vec<f64>,
     bound: Vec<f64>,
-    /// Whether the host is a droplet that still has as many markers as the mesh was made for.
-    fits: bool,
 }
 
 impl ParticlesInDroplet {
@@ -86,19 +77,12 @@ impl ParticlesInDroplet {
         spacing: f64,
     ) -> Result<Self, InteriorError> {
         positive("the diffusion constant inside", diffusion)?;
-        if !matches!(droplet.kind(), MarkerKind::Interface { .. }) {
-            return Err(InteriorError::ChangingMarkers);
-        }
+        let filling = Filling::new(droplet, host, spacing)?;
         if droplet.particle_numbers().is_empty() {
             return Err(InteriorError::NoParticles);
         }
-        let markers = droplet.markers();
-        let radius = droplet.segment_lengths().iter().sum::<f64>() / std::f64::consts::TAU;
-        let mesh = DiscMesh::new(markers.len(), spacing / radius)?;
-        let mut nodes = vec![Vec2::ZERO; mesh.node_count()];
-        nodes[..markers.len()].copy_from_slice(markers);
-        mesh.place(&mut nodes);
-        let cells = Cells::new(mesh.triangles().to_vec(), &nodes);
+        let nodes = &filling.nodes;
+        let cells = Cells::new(filling.mesh.triangles().to_vec(), nodes);
         if let Some(place) = cells.folded {
             return Err(InteriorError::Folded { x: place.x, y: place.y });
         }
@@ -111,37 +95,32 @@ impl ParticlesInDroplet {
         let on = droplet.particle_numbers().to_vec();
         Ok(Self {
             name: format!("inside of {}", droplet.name()),
-            host,
             exchange,
             diffusion: Diffusion::new(diffusion, &cells),
             transport: Transport::new(&cells)?,
             initial_number: numbers.iter().sum::<f64>() + on.iter().sum::<f64>(),
             numbers,
-            fluid: vec![Vec2::ZERO; nodes.len()],
-            motion: vec![Vec2::ZERO; nodes.len()],
             before: nodes.clone(),
             shift: vec![Vec2::ZERO; nodes.len()],
             change: vec![0.0; nodes.len()],
             lengths: droplet.segment_lengths().to_vec(),
             bound: vec![0.0; on.len()],
             on,
-            nodes,
             cells,
-            mesh,
-            fits: true,
+            filling,
         })
     }
 
     /// Where the nodes are (length), the droplet's markers first.
     #[must_use]
     pub fn nodes(&self) -> &[Vec2] {
-        &self.nodes
+        &self.filling.nodes
     }
 
     /// Triangles by the numbers of their nodes, counter-clockwise.
     #[must_use]
     pub fn triangles(&self) -> &[[usize; 3]] {
-        self.mesh.triangles()
+        self.filling.mesh.triangles()
     }
 
     /// Numbers of particles in the cells around the nodes.
@@ -155,6 +134,22 @@ impl ParticlesInDroplet {
         self.numbers.iter().zip(&self.cells.areas).map(|(number, area)| number / area)
     }
 
+    /// What is seen of them at present; it does not depend on the flow.
+    #[must_use]
+    pub fn seen(&self) -> InteriorObservables {
+        let number = self.numbers.iter().sum();
+        let least = self.densities().fold(f64::INFINITY, f64::min);
+        let largest = self.densities().fold(0.0, f64::max);
+        let binding = |segment: usize| {
+            let density = |node: usize| self.numbers[node] / self.cells.areas[node];
+            0.5 * self.lengths[segment] * self.ends(segment).into_iter().map(density).sum::<f64>()
+        };
+        let flux = (0..self.on.len())
+            .map(|k| self.exchange.binding() * binding(k) - self.exchange.unbinding() * self.on[k])
+            .sum();
+        InteriorObservables { number, number_on: self.on.iter().sum(), flux, range: [least, largest] }
+    }
+
     /// The number of particles on the interface and inside at the start.
     #[must_use]
     pub fn initial_number(&self) -> f64 {
@@ -164,22 +159,18 @@ impl ParticlesInDroplet {
     /// The droplet that they are in.
     #[must_use]
     pub fn droplet(&self) -> Handle<ActiveDroplet> {
-        self.host
-    }
-
-    fn inner(&self) -> std::ops::RangeFrom<usize> {
-        self.mesh.marker_count()..
+        self.filling.host
     }
 
     /// Nodes at the ends of a segment.
     fn ends(&self, segment: usize) -> [usize; 2] {
-        [segment, (segment + 1) % self.mesh.marker_count()]
+        [segment, (segment + 1) % self.on.len()]
     }
 
     /// The largest cell Peclet number, speed relative to the mesh times the width of a cell over the diffusion
     /// constant.
     fn cell_peclet(&self) -> f64 {
-        let speeds = self.fluid.iter().zip(&self.motion).map(|(fluid, motion)| fluid.distance(*motion));
+        let speeds = self.filling.fluid.iter().zip(&self.filling.motion).map(|(fluid, motion)| fluid.distance(*motion));
         let widest = speeds.zip(&self.cells.areas).map(|(speed, area)| speed * area.sqrt()).fold(0.0, f64::max);
         widest / self.diffusion.constant
     }
@@ -187,20 +178,13 @@ impl ParticlesInDroplet {
 
 impl Guest for ParticlesInDroplet {
     fn host(&self) -> Handle<dyn Body> {
-        self.host.into()
+        self.filling.host.into()
     }
 
     fn see(&mut self, host: &dyn Body) {
-        let droplet: &dyn Any = host;
-        let droplet = droplet.downcast_ref::<ActiveDroplet>();
-        let count = self.mesh.marker_count();
-        let droplet = droplet.filter(|droplet| droplet.particle_numbers().len() == count);
-        self.fits = droplet.is_some();
-        if let Some(droplet) = droplet {
-            self.before.copy_from_slice(&self.nodes);
-            self.nodes[..count].copy_from_slice(droplet.markers());
-            self.mesh.place(&mut self.nodes);
-            self.cells.move_to(&self.nodes);
+        self.before.copy_from_slice(&self.filling.nodes);
+        if let Some(droplet) = self.filling.see(host, |droplet| !droplet.particle_numbers().is_empty()) {
+            self.cells.move_to(&self.filling.nodes);
             self.on.copy_from_slice(droplet.particle_numbers());
             self.lengths.copy_from_slice(droplet.segment_lengths());
         }
@@ -209,13 +193,7 @@ impl Guest for ParticlesInDroplet {
     fn add_host_forces(&self, _forces: &mut [Vec2]) {}
 
     fn see_motion(&mut self, host: &dyn Body, velocities: &[Vec2]) {
-        let host: &dyn Any = host;
-        if let Some(droplet) = host.downcast_ref::<ActiveDroplet>().filter(|_| self.fits) {
-            let count = self.mesh.marker_count();
-            self.fluid[..count].copy_from_slice(velocities);
-            self.motion[..count].copy_from_slice(droplet.marker_motion());
-            self.mesh.place(&mut self.motion);
-        }
+        self.filling.see_motion(host, velocities);
     }
 
     fn add_host_rate(&self, rate: &mut [f64]) {
@@ -234,17 +212,15 @@ impl Body for ParticlesInDroplet {
     }
 
     fn marker_count(&self) -> usize {
-        self.mesh.node_count() - self.mesh.marker_count()
+        self.filling.inner_count()
     }
 
     fn write_markers(&self, positions: &mut [Vec2]) {
-        positions.copy_from_slice(&self.nodes[self.inner()]);
+        positions.copy_from_slice(&self.filling.nodes[self.filling.inner()]);
     }
 
     fn write_forces(&mut self, _medium: &Discretisation, forces: &mut [Vec2]) -> Result<(), BodyError> {
-        if !self.fits {
-            return Err(InteriorError::ChangingMarkers.into());
-        }
+        self.filling.check()?;
         if let Some(place) = self.cells.folded {
             return Err(InteriorError::Folded { x: place.x, y: place.y }.into());
         }
@@ -274,9 +250,9 @@ impl Body for ParticlesInDroplet {
     }
 
     fn rate(&mut self, velocities: &[Vec2], rate: &mut [f64]) {
-        let inner = self.inner();
-        self.fluid[inner].copy_from_slice(velocities);
-        self.transport.set_motion(&self.cells, &self.nodes, (&self.fluid, &self.motion));
+        self.filling.set_flow(velocities);
+        let Filling { nodes, fluid, motion, .. } = &self.filling;
+        self.transport.set_motion(&self.cells, nodes, (fluid, motion));
         rate.fill(0.0);
         self.transport.add(&self.cells, &self.numbers, self.diffusion.constant, rate);
         // What the implicit part adds is subtracted here.
@@ -309,11 +285,12 @@ impl Body for ParticlesInDroplet {
 
     fn end_step(&mut self, _medium: &Discretisation, _dt: f64) -> Result<(), BodyError> {
         // What the end of the host's step did to its markers, with the fluid at rest.
-        if self.before != self.nodes {
-            self.shift.iter_mut().zip(&self.nodes).zip(&self.before).for_each(|((by, to), from)| *by = *to - *from);
+        let nodes = &self.filling.nodes;
+        if self.before != *nodes {
+            self.shift.iter_mut().zip(nodes).zip(&self.before).for_each(|((by, to), from)| *by = *to - *from);
             self.before.fill(Vec2::ZERO);
             let fastest = self.transport.fastest;
-            self.transport.set_motion(&self.cells, &self.nodes, (&self.before, &self.shift));
+            self.transport.set_motion(&self.cells, nodes, (&self.before, &self.shift));
             self.transport.fastest = fastest;
             self.change.fill(0.0);
             self.transport.add(&self.cells, &self.numbers, 0.0, &mut self.change);
@@ -363,7 +340,7 @@ impl Body for ParticlesInDroplet {
             ("the rate of binding", self.exchange.binding()),
             ("the rate of unbinding", self.exchange.unbinding()),
             ("the diffusion constant inside", self.diffusion.constant),
-            ("the number of nodes", self.nodes.len() as f64),
+            ("the number of nodes", self.filling.nodes.len() as f64),
         ];
         named.map(|(name, value)| (name.to_owned(), value)).to_vec()
     }
@@ -387,16 +364,6 @@ impl Observe for ParticlesInDroplet {
     type Observables = InteriorObservables;
 
     fn observables(&self, _medium: &Discretisation, _flow: &BodyFlow<'_>) -> Result<InteriorObservables, BodyError> {
-        let number = self.numbers.iter().sum();
-        let least = self.densities().fold(f64::INFINITY, f64::min);
-        let largest = self.densities().fold(0.0, f64::max);
-        let binding = |segment: usize| {
-            let density = |node: usize| self.numbers[node] / self.cells.areas[node];
-            0.5 * self.lengths[segment] * self.ends(segment).into_iter().map(density).sum::<f64>()
-        };
-        let flux = (0..self.on.len())
-            .map(|k| self.exchange.binding() * binding(k) - self.exchange.unbinding() * self.on[k])
-            .sum();
-        Ok(InteriorObservables { number, number_on: self.on.iter().sum(), flux, range: [least, largest] })
+        Ok(self.seen())
     }
 }

@@ -20,6 +20,8 @@ const TRACK: Rgb = Rgb([20, 60, 150]);
 const WALL: f64 = 0.07;
 /// Height of the colour bars with their labels, in sizes of the type.
 const BARS: f64 = 4.5;
+/// How often the triangles of a mesh inside are split in four to show a smooth field.
+const SPLITS: usize = 2;
 /// Unit of lengths, in which axes are labelled.
 const UNIT: &str = "R_{0}";
 
@@ -29,6 +31,7 @@ pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, Error> {
     let mut painter = Painter { picture, drawing, layout };
     painter.drawing.clip(Some(painter.layout.frame.area));
     painter.pressure()?;
+    painter.inside();
     painter.streamlines()?;
     painter.gels();
     painter.solids();
@@ -44,6 +47,23 @@ pub(crate) fn paint(picture: &Picture<'_>) -> Result<Drawing, Error> {
     let size = 1.05 * em * (area.width / text_width(&picture.title, 1.05 * em)).min(1.0);
     painter.drawing.text([area.left, area.top - 1.15 * em], &picture.title, &TextStyle::new(size, Anchor::Start));
     Ok(painter.drawing)
+}
+
+/// Splits a triangle into four, so many times over, and shows each part with the mean of the linear function that has
+/// those values at the corners.
+fn split(corners: [Pixel; 3], values: [f64; 3], times: usize, show: &mut impl FnMut([Pixel; 3], f64)) {
+    if times == 0 {
+        return show(corners, values.iter().sum::<f64>() / 3.0);
+    }
+    let [a, b, c] = corners;
+    let [u, v, w] = values;
+    let middle = |p: Pixel, q: Pixel| [0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])];
+    let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+    let [uv, vw, wu] = [0.5 * (u + v), 0.5 * (v + w), 0.5 * (w + u)];
+    let parts = [([a, ab, ca], [u, uv, wu]), ([ab, b, bc], [uv, v, vw]), ([ca, bc, c], [wu, vw, w])];
+    for (corners, values) in parts.into_iter().chain([([ab, bc, ca], [uv, vw, wu])]) {
+        split(corners, values, times - 1, show);
+    }
 }
 
 /// Where the parts of a picture are.
@@ -131,6 +151,24 @@ impl Painter<'_> {
             level.is_finite().then(|| table[(level.max(0.0) as usize).min(levels - 1)])
         });
         Ok(())
+    }
+
+    /// Densities of particles inside, linear within the triangles of their mesh.
+    fn inside(&mut self) {
+        let Some(scale) = &self.picture.legends.inside else { return };
+        let frame = &self.layout.frame;
+        let mut shades: Vec<([Pixel; 3], Rgb)> = Vec::new();
+        for field in &self.picture.seen.inside {
+            for shift in self.images(&field.triangles.iter().flatten()) {
+                let place = |p: Vec2| frame.place(p.x + shift.x, p.y + shift.y);
+                for (corners, values) in field.triangles.iter().zip(&field.densities) {
+                    split(corners.map(place), *values, SPLITS, &mut |at, value| shades.push((at, scale.colour(value))));
+                }
+            }
+        }
+        if !shades.is_empty() {
+            self.drawing.triangles(frame.area, shades.into_iter());
+        }
     }
 
     fn streamlines(&mut self) -> Result<(), Error> {
@@ -298,9 +336,9 @@ impl Painter<'_> {
 
     fn legends(&mut self) {
         let (area, em) = (self.layout.frame.area, self.layout.em);
-        let Legends { pressure, concentration, solids, .. } = self.picture.legends;
+        let Legends { pressure, concentration, inside, solids, .. } = self.picture.legends;
         let mut legends = vec![(pressure, self.picture.format.levels)];
-        legends.extend([concentration, solids].into_iter().flatten().map(|scale| (scale, 256)));
+        legends.extend([concentration, inside, solids].into_iter().flatten().map(|scale| (scale, 256)));
         let (gap, count) = (3.0 * em, legends.len() as f64);
         let width = (area.width - (count - 1.0) * gap) / count;
         let top = area.bottom() + Frame::bottom_margin(&self.layout.frame.x, em);

@@ -1,6 +1,6 @@
 use super::*;
 use crate::drawing::raster::colours;
-use crate::{DropletOutline, Raster, Rgb};
+use crate::{DropletOutline, InteriorField, Raster, Rgb};
 use motile::ib_core::FlowSample;
 
 /// A pressure that is 0 in the left and 1 in the right half of a square box around the origin, without flow.
@@ -8,7 +8,16 @@ fn halves() -> Snapshot {
     let raster = Raster::new([-3.0, -3.0], [6.0, 6.0], [60, 60], [true, true]).unwrap();
     let sample = |p: &Vec2| FlowSample { pressure: if p.x < 0.0 { 0.0 } else { 1.0 }, ..FlowSample::default() };
     let flow = raster.points().iter().map(sample).collect();
-    Snapshot { time: 0.0, raster, flow, droplets: Vec::new(), gels: Vec::new(), solids: Vec::new(), walls: None }
+    Snapshot {
+        time: 0.0,
+        raster,
+        flow,
+        droplets: Vec::new(),
+        gels: Vec::new(),
+        inside: Vec::new(),
+        solids: Vec::new(),
+        walls: None,
+    }
 }
 
 fn circle(x: f64) -> DropletOutline {
@@ -75,7 +84,16 @@ fn values_that_are_not_numbers_do_no_harm() {
         displacement: vec![f64::NAN],
         stress: vec![f64::NAN],
     }];
-    let seen = Snapshot { time: 1.0, raster, flow, droplets, gels: Vec::new(), solids, walls: Some([0.0, 2.0]) };
+    let seen = Snapshot {
+        time: 1.0,
+        raster,
+        flow,
+        droplets,
+        gels: Vec::new(),
+        inside: Vec::new(),
+        solids,
+        walls: Some([0.0, 2.0]),
+    };
     draw(&seen, &[vec![(0.0, bad), (0.5, Vec2::new(1.0, 1.0))], Vec::new()], &Format::STILL);
     let look = Look::default();
     let short = Snapshot { flow: Vec::new(), ..seen };
@@ -89,4 +107,29 @@ fn paths_end_with_the_state_and_are_shorter_than_the_period() {
     let end = last_period(&path, 4.0);
     assert!((end[0].x - 6.9).abs() < 1e-9 && end.last() == path.last());
     assert!(last_period(&[], 1.0).is_empty());
+}
+
+#[test]
+fn the_field_inside_is_as_bright_as_it_is_dense() {
+    let corner = |x: f64, y: f64| Vec2::new(x, y);
+    let triangle = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 2.0)];
+    let field = |densities| InteriorField { triangles: vec![triangle], densities: vec![densities] };
+    let seen = |densities| Snapshot { inside: vec![field(densities)], ..halves() };
+    let legends = Look::default().legends(&[seen([0.0, 4.0, 2.0])]);
+    let scale = legends.inside.as_ref().expect("a scale");
+    assert_eq!([scale.low, scale.high], [0.0, 4.0]);
+    let image = |seen: &Snapshot| {
+        let drawing = Look::default().draw(seen, &legends, &[], &Format::FRAME).unwrap();
+        colours(&drawing.pixels(1.0).unwrap()).collect::<Vec<Rgb>>()
+    };
+    // Three of 36 squares of the frame's area, which is the share of the pressure that it hides; the colour bar has a
+    // few pixels of each colour.
+    let uniform = image(&seen([1.0; 3]));
+    let (inside, left) = (count(&uniform, scale.colour(1.0)), count(&uniform, legends.pressure.colour(0.0)));
+    assert!((inside / left - 3.0 / 16.5).abs() < 0.01, "{inside} {left}");
+    let graded = image(&seen([0.0, 4.0, 2.0]));
+    // The mean of each of the sixteen parts: no two neighbours of one colour, none of the ends.
+    assert!(count(&graded, scale.colour(2.0)) > 0.04 * inside, "{}", count(&graded, scale.colour(2.0)));
+    assert!(count(&graded, scale.colour(1.0)) < 0.3 * inside);
+    assert!(Look::default().legends(&[halves()]).inside.is_none());
 }

@@ -70,3 +70,51 @@ fn a_run_that_was_cut_leaves_the_same_file() {
         assert!(texts[0].lines().count() > 14);
     }
 }
+
+#[test]
+fn a_run_from_the_start_leaves_nothing_of_another_one() {
+    let path = std::env::temp_dir().join(format!("motile-again-{}.csv", std::process::id()));
+    for x in [0.5, -0.25] {
+        let method = Method::Integral(IntegralMethod { nodes: 24, cells: 48 });
+        let droplets = vec![DropletSetup { centre: [x, 0.0], ..DropletSetup::default() }];
+        let Built { mut scene, droplets, .. } = Setup { method, droplets, ..Setup::default() }.build().unwrap();
+        let mut rows = TrajectoryCsv::create(&path, scene.system_mut(), droplets[0]).unwrap();
+        scene.run(0.05).observe(Every::Steps(1), &mut rows).go().unwrap();
+        rows.finish(scene.system_mut()).unwrap();
+        let starts = rows.table().curve("time", "x").unwrap();
+        assert!(starts[0].0 == 0.0 && (starts[0].1 - x).abs() < 1e-9 && starts[1].0 > 0.0, "{starts:?}");
+    }
+    std::fs::remove_file(path).unwrap();
+}
+
+/// In the same columns as what a well-mixed inside has.
+#[test]
+fn what_is_inside_has_its_columns() {
+    let inside = |diffusion_inside| {
+        let exchange = Some(ExchangeSetup { diffusion_inside, ..ExchangeSetup::new(0.6, 0.4) });
+        let particles = Particles { exchange, ..Particles::default() };
+        let droplets = vec![DropletSetup { particles: Some(particles), ..DropletSetup::default() }];
+        let method = Method::Integral(IntegralMethod { nodes: 24, cells: 48 });
+        let setup = Setup { method, droplets, step: StepSize::Fixed(0.002), ..Setup::default() };
+        let Built { mut scene, droplets, .. } = setup.build().unwrap();
+        let name = format!("motile-inside-{}-{}.csv", diffusion_inside.is_some(), std::process::id());
+        let path = std::env::temp_dir().join(name);
+        let mut rows = TrajectoryCsv::create(&path, scene.system_mut(), droplets[0]).unwrap();
+        scene.run(0.2).observe(Every::Steps(1), &mut rows).go().unwrap();
+        let text = std::fs::read_to_string(&path).unwrap();
+        std::fs::remove_file(path).unwrap();
+        let column = |name: &str| rows.table().curve("time", name).unwrap();
+        let totals: Vec<f64> =
+            column("number_inside").iter().zip(column("particle_number")).map(|(a, b)| a.1 + b.1).collect();
+        assert!(totals.iter().all(|total| (total / totals[0] - 1.0).abs() < 1e-12), "{totals:?}");
+        let flux = column("exchange_flux");
+        // The interface gains what binds, by the trapezoidal rule.
+        let gained: f64 = flux.windows(2).map(|w| 0.5 * (w[0].1 + w[1].1) * (w[1].0 - w[0].0)).sum();
+        let numbers = column("particle_number");
+        let gain = numbers.last().unwrap().1 - numbers[0].1;
+        assert!((gained - gain).abs() < 0.02 * gain.abs(), "{diffusion_inside:?} {gained} {gain} {flux:?} {numbers:?}");
+        (text.lines().next().unwrap().split(',').count(), numbers.len())
+    };
+    let (pool, field) = (inside(None), inside(Some(0.5)));
+    assert!(pool.0 == field.0 && pool.1 > 2 && field.1 > 2, "{pool:?} {field:?}");
+}

@@ -168,6 +168,11 @@ impl Setup {
                           surfaces of solids";
             checked.refuse("kernel", &format!("{:?}", grid.kernel), remedy)?;
         }
+        if let Some(number) = self.droplets.iter().position(|droplet| droplet.gel.is_some()) {
+            let remedy = "the grid hardly sees the gel's forces so close to a layer: take the gel away, or give plain \
+                          surfaces of solids and no rigid bodies or shells";
+            Checked { place: &format!("droplets[{number}]") }.refuse("gel", &"a gel", remedy)?;
+        }
         for (number, solid) in self.solids.iter().enumerate() {
             let place = Checked { place: &format!("solids[{number}]") };
             if solid.surface == Surface::Plain {

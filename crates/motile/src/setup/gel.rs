@@ -8,7 +8,8 @@ use super::check::Checked;
 use super::{DropletSetup, ExchangeSetup, MarkerMotion, Method, Particles, Setup};
 use crate::SetupError;
 
-/// An active polar gel that fills a droplet ([`GelInDroplet`]); its viscosity is the droplet's. Needs a grid.
+/// An active polar gel that fills a droplet ([`GelInDroplet`]); its viscosity is the droplet's. Needs a grid without
+/// layers: beside elastic solids those of plain surfaces ([`crate::Surface::Plain`]).
 ///
 /// ```
 /// use motile::interior_fields::GelMaterial;

@@ -60,6 +60,7 @@ impl Exact {
                 numbers: &[],
                 viscosities: [droplet.ratio, 1.0],
                 inside: None,
+                filled: None,
                 stresslet: flow.stresslet(index)?,
             };
             let stresslet = |state: &InterfaceState<'_>| -> Result<[f64; 2], StudyError> {

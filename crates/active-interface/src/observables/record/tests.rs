@@ -37,6 +37,7 @@ fn record(count: usize, heading: f64) -> Observables {
         numbers: &numbers,
         viscosities: [100.0, 100.0],
         inside: None,
+        filled: None,
         stresslet: None,
     };
     observe(&state, Convention::FarField).unwrap()
@@ -94,6 +95,7 @@ fn a_drop_without_particles_at_rest() {
         numbers: &[],
         viscosities,
         inside: None,
+        filled: None,
         stresslet: None,
     };
     let record = observe(&state, Convention::AsPrinted).unwrap();
@@ -127,6 +129,7 @@ fn a_known_stresslet() {
         numbers: &numbers,
         viscosities: [inside, outside],
         inside: None,
+        filled: None,
         stresslet: None,
     };
     let [computed, printed] =

@@ -3,7 +3,7 @@
 use std::any::Any;
 
 use super::{System, body_error};
-use crate::{Body, Discretisation, Handle, Hydrodynamics, Observe, SceneError, Vec2};
+use crate::{Body, Discretisation, Handle, Hydrodynamics, Markers, Observe, SceneError, Vec2};
 
 /// The flow at the markers of one body: lists of as many entries as it has markers.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +16,20 @@ pub struct BodyFlow<'a> {
     pub velocities: &'a [Vec2],
     /// The stresslet of the flow around it, where the flow knows it ([`Hydrodynamics::stresslet`]).
     pub stresslet: Option<[[f64; 2]; 2]>,
+    /// All markers, and hosts and guests by their numbers.
+    all: (&'a Markers, &'a [[usize; 2]]),
+    index: usize,
+}
+
+impl<'a> BodyFlow<'a> {
+    /// Positions (length) of the inner points of the bodies that fill this one ([`crate::body::Guest`]), and their
+    /// forces on the fluid there (force).
+    pub fn inside(&self) -> impl Iterator<Item = [Vec2; 2]> + use<'a> {
+        let (Self { index, .. }, (markers, guests)) = (*self, self.all);
+        let own = guests.iter().filter(move |[host, _]| *host == index);
+        own.flat_map(|&[_, guest]| markers.groups()[guest].range.clone())
+            .map(|k| [markers.positions[k], markers.forces[k]])
+    }
 }
 
 impl<H: Hydrodynamics> System<H> {
@@ -77,12 +91,17 @@ impl<H: Hydrodynamics> System<H> {
         }
         let range = self.markers.groups()[index].range.clone();
         let stresslet = self.hydrodynamics.stresslet(index);
-        Ok(BodyFlow {
+        let mut flow = BodyFlow {
             stresslet: stresslet.map_err(|source| SceneError::Flow { time: self.time, source })?,
+            all: (&self.markers, &self.guests),
+            index,
             positions: &self.markers.positions[range.clone()],
             forces: &self.markers.forces[range.clone()],
             velocities: &self.markers.velocities[range],
-        })
+        };
+        // That of a flow which knows nothing of forces inside.
+        flow.stresslet = flow.stresslet.filter(|_| flow.inside().all(|[_, force]| force == Vec2::ZERO));
+        Ok(flow)
     }
 
     /// The fluid as a body sees it: with the viscosity of that around it, which is not the exterior one where the body
