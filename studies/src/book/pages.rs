@@ -115,7 +115,7 @@ fn section(number: &str, figure: &Figure, verdict: &str, [full, quick]: [&Option
             text += "\n";
         }
         for check in &kept.checks {
-            let _ = writeln!(text, "* {}: {}", check.name, check.text);
+            text += &wrapped(&format!("* {}: {}", check.name, check.text));
         }
         if kept.left_out > 0 {
             let _ = writeln!(text, "\n{} of {} runs failed and are left out.", kept.left_out, kept.runs);

@@ -30,7 +30,8 @@ impl GelObservables {
 }
 
 /// A polar gel that fills a droplet, a body of a scene ([`ib_core::body::Guest`]): it puts forces on the fluid at the
-/// nodes of a [`DiscMesh`] whose boundary are the droplet's markers, and its state are the angles of the director.
+/// nodes of a [`DiscMesh`](crate::DiscMesh) whose boundary are the droplet's markers, and its state are the angles of
+/// the director.
 ///
 /// It has no torque and no resultant: what turns the director at an anchored interface turns the interface back.
 #[derive(Debug, Clone)]

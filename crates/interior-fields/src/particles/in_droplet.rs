@@ -35,10 +35,10 @@ pub struct InteriorObservables {
 /// ```text
 /// dC/dt + v.grad C = D_b lap C,   -D_b dC/dn = k_on C - k_off c = gain of c
 /// ```
-/// The unknowns are the numbers of particles in the cells around the nodes of a [`DiscMesh`] whose boundary are the
-/// droplet's markers; a node's density is its number over the area of its cell. All fluxes leave one cell or segment
-/// and enter another one, so particles are lost to round-off only. Diffusion is implicit, with the mesh of the start of
-/// a step; what that misses is explicit, so that a step is of second order.
+/// The unknowns are the numbers of particles in the cells around the nodes of a [`DiscMesh`](crate::DiscMesh) whose
+/// boundary are the droplet's markers; a node's density is its number over the area of its cell. All fluxes leave one
+/// cell or segment and enter another one, so particles are lost to round-off only. Diffusion is implicit, with the
+/// mesh of the start of a step; what that misses is explicit, so that a step is of second order.
 #[derive(Debug, Clone)]
 pub struct ParticlesInDroplet {
     name: String,
