@@ -154,7 +154,12 @@ fn gels_that_make_no_scene_are_refused() {
             setup
         }),
         ("droplets[0].gel = a gel: solids[0] lies inside", {
-            Setup { solids: vec![disc(0.1, 0.0, 0.3)], ..with(GelSetup::default()) }
+            let inside = SolidSetup { surface: Surface::Plain, ..disc(0.1, 0.0, 0.3) };
+            Setup { solids: vec![inside], ..with(GelSetup::default()) }
+        }),
+        ("droplets[0].gel = a gel: the grid hardly sees", {
+            let base = elastic(3.0, Surface::Layer);
+            Setup { droplets: with(GelSetup::default()).droplets, ..base }
         }),
     ];
     for (start, setup) in cases {
@@ -524,7 +529,7 @@ mod file {
     fn what_is_written_is_read() {
         let passive = Setup { droplets: vec![DropletSetup::passive(3.0)], ..Setup::default() };
         let mut layers = varied();
-        layers.droplets.iter_mut().for_each(|droplet| droplet.viscosity = None);
+        layers.droplets.iter_mut().for_each(|droplet| (droplet.viscosity, droplet.gel) = (None, None));
         layers.rigid_bodies.push(RigidBodySetup { torque: 0.1, ..RigidBodySetup::disc(0.2) });
         layers.solids.iter_mut().for_each(|solid| (solid.mesh_spacing, solid.surface) = (None, Surface::Layer));
         for setup in [Setup::default(), passive, Setup::thesis(), elastic(2.0, Surface::Plain), varied(), layers] {
