@@ -18,7 +18,6 @@ mod run_pool;
 mod scaling;
 mod steady_states;
 mod step_cost;
-mod stiffness;
 mod sweep;
 mod tables;
 mod threads;
@@ -46,7 +45,6 @@ enum Study {
     WorkPrecision(work_precision::Flags),
     StepCost(step_cost::Flags),
     SteadyStates(steady_states::Flags),
-    Stiffness(stiffness::Flags),
     Sweep(sweep::Flags),
     Figure(book::FigureFlags),
     Figures(book::FiguresFlags),
@@ -71,7 +69,6 @@ fn main() -> ExitCode {
         Study::WorkPrecision(flags) => work_precision::run(flags),
         Study::StepCost(flags) => step_cost::run(flags),
         Study::SteadyStates(flags) => steady_states::run(flags),
-        Study::Stiffness(flags) => stiffness::run(flags),
         Study::Sweep(flags) => sweep::run(flags),
         Study::Figure(flags) => book::figure(flags),
         Study::Figures(flags) => book::figures(flags),

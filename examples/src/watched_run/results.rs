@@ -74,6 +74,7 @@ impl WatchedRun {
         for (name, value) in entries.into_iter().filter(|(name, _)| CONVENTIONAL.contains(name)) {
             summary.put(&format!("{name}_printed"), value, "");
         }
+        summary.put("pressure_gradient", self.last()?.pressure_gradient, "mean along the channel");
         if let Ok(evidence) = self.put_regime(&mut summary) {
             summary.put("period", evidence.period.map(|period| period.value), "");
         }
