@@ -74,6 +74,8 @@ impl WatchedRun {
         for (name, value) in entries.into_iter().filter(|(name, _)| CONVENTIONAL.contains(name)) {
             summary.put(&format!("{name}_printed"), value, "");
         }
+        let furthest = table.curve("time", "x")?.iter().map(|(_, x)| *x).fold(f64::NAN, f64::max);
+        summary.put("furthest_x", furthest, "largest x of the centroid over the run (R0)");
         summary.put("pressure_gradient", self.last()?.pressure_gradient, "mean along the channel");
         if let Ok(evidence) = self.put_regime(&mut summary) {
             summary.put("period", evidence.period.map(|period| period.value), "");
