@@ -6,7 +6,6 @@
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod book;
-mod channels;
 mod elastic_step;
 mod exchange;
 mod gel;
@@ -48,7 +47,6 @@ enum Study {
     Sweep(sweep::Flags),
     Figure(book::FigureFlags),
     Figures(book::FiguresFlags),
-    Channels(channels::Flags),
     HardCases(hard_cases::Flags),
     TimeSteps(time_steps::Flags),
     Scaling(scaling::Flags),
@@ -72,7 +70,6 @@ fn main() -> ExitCode {
         Study::Sweep(flags) => sweep::run(flags),
         Study::Figure(flags) => book::figure(flags),
         Study::Figures(flags) => book::figures(flags),
-        Study::Channels(flags) => channels::run(flags),
         Study::HardCases(flags) => hard_cases::run(flags),
         Study::TimeSteps(flags) => time_steps::run(flags),
         Study::Scaling(flags) => scaling::run(flags),
