@@ -53,7 +53,8 @@ pub struct SteadyState {
 pub struct Measured {
     /// Speed (length per time).
     pub speed: f64,
-    /// Stresslet along the motion (force times length), the convention of the far field; zero at rest.
+    /// Stresslet along the motion (force times length), the convention of the far field; zero at rest, not a number
+    /// of a droplet with a nucleus, whose part in it is not known.
     pub stresslet: f64,
     /// Aspect ratio from area moments, along x over across it.
     pub aspect_ratio: f64,
@@ -141,7 +142,9 @@ impl SteadyState {
         let model = System::new(setup)?.model;
         let (radius, mean) = (model.radius, model.concentration);
         let positions = (0..nodes).map(|k| radius * Vec2::from_angle(TAU * k as f64 / nodes as f64)).collect();
-        let profile = Profile { positions, density: vec![radius * mean; nodes] };
+        let centre = Vec2::from(setup.droplets[0].centre);
+        let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre) - centre).collect();
+        let profile = Profile { positions, density: vec![radius * mean; nodes], nuclei };
         let (system, point, outcome) = Self::newton(setup, &profile, [0.0; 3], true, 0.0)?;
         Self::of(&system, point, outcome, true)
     }
@@ -313,7 +316,7 @@ impl SteadyState {
         let (xx, xy) = (0.5 * (dipole[0][0] - dipole[1][1]), 0.5 * (dipole[0][1] + dipole[1][0]));
         Ok(Measured {
             speed: self.velocity().length(),
-            stresslet: cos * xx + sin * xy,
+            stresslet: if self.profile.nuclei.is_empty() { cos * xx + sin * xy } else { f64::NAN },
             aspect_ratio: moments.aspect_ratio,
             concentration: self.profile.extrema()?.map(|c| c / model.concentration),
             perimeter: tangents.iter().map(|t| t.length() * step).sum(),
@@ -326,16 +329,24 @@ impl SteadyState {
     /// order in their spacing: 16 for each node.
     ///
     /// # Errors
-    /// A flow that cannot be solved for.
+    /// A flow that cannot be solved for; a droplet with a nucleus, whose force moments are not known.
     pub fn observables(&self) -> Result<Observables, SteadyError> {
+        if !self.profile.nuclei.is_empty() {
+            return Err(SteadyError::Unsupported {
+                what: "force moments of a droplet with a nucleus are not known".to_owned(),
+                remedy: "use what is measured, or observe a run",
+            });
+        }
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
         let nodes = self.profile.nodes();
         let fine = REFINEMENT * nodes;
         let model = &system.model;
-        let velocities = Profile { positions: model.velocities.clone(), density: vec![0.0; nodes] };
+        let of =
+            |vectors: &[Vec2]| Profile { positions: vectors.to_vec(), density: vec![0.0; nodes], nuclei: Vec::new() };
+        let velocities = of(&model.velocities);
         let scaled = nodes as f64 / fine as f64;
-        let forces = Profile { positions: model.forces.clone(), density: vec![0.0; nodes] };
+        let forces = of(&model.forces);
         let [curve, velocity, force] = [&self.profile, &velocities, &forces].map(Sampler::new);
         let (curve, velocity, force) = (curve?, velocity?, force?);
         let parameter = |k: f64| TAU * k / fine as f64;
@@ -376,7 +387,8 @@ pub(crate) fn with_nodes(setup: &Setup, nodes: usize) -> Setup {
 fn start(setup: &Setup) -> Result<Profile, SteadyError> {
     let fine = with_nodes(setup, nodes_of(setup)?.max(2 * COARSE));
     let droplet = fine.droplet(&fine.droplets[0])?;
-    Profile::from_markers(droplet.markers(), droplet.particle_numbers())
+    let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre)).collect();
+    Ok(Profile::from_markers(droplet.markers(), droplet.particle_numbers())?.with_nuclei(nuclei))
 }
 
 /// Refuses a droplet that reaches beyond a wall or its own periodic image.
@@ -404,6 +416,7 @@ fn is_mirror(profile: &Profile) -> bool {
     let other = profile.mirrored();
     let size = profile.density.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6 * size;
-    profile.positions.iter().zip(&other.positions).all(|(a, b)| a.distance(*b) < 1e-6)
+    let places = || profile.positions.iter().chain(&profile.nuclei);
+    places().zip(other.positions.iter().chain(&other.nuclei)).all(|(a, b)| a.distance(*b) < 1e-6)
         && profile.density.iter().zip(&other.density).all(same)
 }
