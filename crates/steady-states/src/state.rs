@@ -44,6 +44,8 @@ pub struct SteadyState {
     outcome: Outcome,
     mirror: bool,
     tail: f64,
+    /// Of the centroid (length per time).
+    velocity: Vec2,
     /// D/R^2 (1/time).
     rate: f64,
 }
@@ -198,7 +200,9 @@ impl SteadyState {
         }
         let tail = tails.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest));
         let rate = system.model.diffusion_rate();
-        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror, tail, rate })
+        let [x, y, turn] = point.frame;
+        let velocity = Vec2::new(x, y) + turn * profile.moments()?.centroid.perp();
+        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror, tail, velocity, rate })
     }
 
     /// This state with another description, nearby, over the same nodes.
@@ -234,10 +238,17 @@ impl SteadyState {
         &self.profile
     }
 
-    /// Velocity of the droplet (length per time).
+    /// Velocity of the droplet's centroid (length per time).
     #[must_use]
     pub fn velocity(&self) -> Vec2 {
-        Vec2::new(self.point.frame[0], self.point.frame[1])
+        self.velocity
+    }
+
+    /// Rate at which the droplet turns, counter-clockwise (1/time): in the plane it may swim in a circle, whose radius
+    /// is the speed over it.
+    #[must_use]
+    pub fn turning_rate(&self) -> f64 {
+        self.point.frame[2]
     }
 
     /// Whether it is its own mirror image at the x axis.
