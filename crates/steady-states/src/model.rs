@@ -65,8 +65,8 @@ struct Nucleus {
 /// dh/dt = (v - V).n/(n0.n),   q = (v - V - dh/dt n0).tau,   dm/dt = -d(q c - D dc/ds)/da
 /// ```
 /// a the parameter: the equations (2.3), (2.5) and (2.39) of Cowley and the motion of the interface with the fluid,
-/// with points that slide along fixed lines. Rigid discs inside move with the fluid; their places x and y, and the rates
-/// of these, stand after the offsets and the densities.
+/// with points that slide along fixed lines. Rigid discs inside move with the fluid; their places x and y, and the
+/// rates of these, stand after the offsets and the densities.
 #[derive(Debug)]
 pub(crate) struct Model {
     pub(crate) setup: Setup,
