@@ -204,8 +204,8 @@ fn line(drawing: &mut Drawing, path: &[Pixel], series: &Series, colour: Rgb, em:
 fn draw_markers(drawing: &mut Drawing, marker: Marker, at: &[Pixel], radius: f64, colour: Rgb) {
     let (corners, size, turn) = match marker {
         Marker::Disc | Marker::Circle => {
-            // The round ends of lines without length.
-            let dots: Vec<Vec<Pixel>> = at.iter().map(|p| vec![*p, *p]).collect();
+            // The round ends of lines of next to no length; without any some viewers show nothing.
+            let dots: Vec<Vec<Pixel>> = at.iter().map(|[x, y]| vec![[*x, *y], [x + 0.1, *y]]).collect();
             if marker == Marker::Disc {
                 drawing.strokes(&dots, &Pen::new(colour, 2.0 * radius));
             } else {
