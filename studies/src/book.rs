@@ -159,7 +159,8 @@ fn make(numbers: &[String], common: &Common) -> Result<()> {
     for number in numbers {
         // One that fails does not keep the others from being made.
         if let Err(failure) = one(number, &making, &mut made, common.write) {
-            failures.push(format!("figure {number}: {}", explained(&failure)));
+            let which = if numbers.len() > 1 { format!("figure {number}: ") } else { String::new() };
+            failures.push(which + &explained(&failure));
         }
     }
     if common.write {

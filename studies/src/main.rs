@@ -6,7 +6,6 @@
 //! environment on cell migration", PhD thesis, University of Sheffield.
 
 mod book;
-mod channels;
 mod elastic_step;
 mod exchange;
 mod gel;
@@ -18,7 +17,6 @@ mod run_pool;
 mod scaling;
 mod steady_states;
 mod step_cost;
-mod stiffness;
 mod sweep;
 mod tables;
 mod threads;
@@ -46,11 +44,9 @@ enum Study {
     WorkPrecision(work_precision::Flags),
     StepCost(step_cost::Flags),
     SteadyStates(steady_states::Flags),
-    Stiffness(stiffness::Flags),
     Sweep(sweep::Flags),
     Figure(book::FigureFlags),
     Figures(book::FiguresFlags),
-    Channels(channels::Flags),
     HardCases(hard_cases::Flags),
     TimeSteps(time_steps::Flags),
     Scaling(scaling::Flags),
@@ -71,11 +67,9 @@ fn main() -> ExitCode {
         Study::WorkPrecision(flags) => work_precision::run(flags),
         Study::StepCost(flags) => step_cost::run(flags),
         Study::SteadyStates(flags) => steady_states::run(flags),
-        Study::Stiffness(flags) => stiffness::run(flags),
         Study::Sweep(flags) => sweep::run(flags),
         Study::Figure(flags) => book::figure(flags),
         Study::Figures(flags) => book::figures(flags),
-        Study::Channels(flags) => channels::run(flags),
         Study::HardCases(flags) => hard_cases::run(flags),
         Study::TimeSteps(flags) => time_steps::run(flags),
         Study::Scaling(flags) => scaling::run(flags),

@@ -1,120 +1,152 @@
 //! Droplets with a rigid nucleus: whether they swim in circles.
 //!
-//! `cargo run --release -p studies -- nucleus` prints a table, which `--write` keeps as `docs/tables/nucleus.csv`.
+//! `cargo run --release -p studies -- nucleus` prints two tables, which `--write` keeps as `docs/tables/nucleus.csv`:
+//! steady states that runs lead to, found by Newton's method from their ends, and the branch of those that swim in
+//! circles over the radius of the nucleus.
 
 use anyhow::{Context, Result};
 use clap::Args;
-use motile::active_interface::trajectory::TrajectoryRecorder;
-use motile::ib_core::{Every, Vec2};
-use motile::{Built, DropletSetup, IntegralMethod, Method, Region, RepulsionSetup, RigidBodySetup, Setup};
-use motile_examples::{positive, say, turning_rate};
+use motile::ib_core::Vec2;
+use motile::{Built, DropletSetup, IntegralMethod, Method, Region, RigidBodySetup, Setup};
+use motile_examples::{explained, positive, say};
 use motile_tests::validation::Table;
+use steady_states::{Parameter, Profile, SteadyState};
 
 use crate::tables;
 
 /// Whether droplets with a nucleus swim in circles.
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
-    /// Time to which they swim
-    #[arg(long, default_value_t = 40.0, value_parser = positive)]
+    /// Time to which they swim before Newton's method takes over
+    #[arg(long, default_value_t = 60.0, value_parser = positive)]
     time: f64,
-    /// Write the table to docs/tables, with the commit and what it depends on
+    /// Write the tables to docs/tables, with the commit and what they depend on
     #[arg(long)]
     write: bool,
 }
 
-/// Whether in a box of 6 x 6 or in the plane, activity, radius and place of the nucleus.
-type Scene = (bool, f64, f64, [f64; 2]);
+/// Activity, viscosity of the droplet, radius and place of the nucleus.
+type Scene = (f64, f64, f64, [f64; 2]);
 
 const ASIDE: [f64; 2] = [0.05, 0.15];
 
-const SCENES: [Scene; 9] = [
-    (false, -1.0, 0.3, ASIDE),
-    (false, -1.0, 0.5, ASIDE),
-    (false, -1.0, 0.5, [-0.3, 0.25]),
-    (false, -1.0, 0.7, ASIDE),
-    (false, -2.0, 0.3, ASIDE),
-    (false, -2.0, 0.5, [0.0, 0.0]),
-    (false, -2.0, 0.5, ASIDE),
-    (false, -2.0, 0.7, ASIDE),
-    (true, -1.0, 0.5, ASIDE),
+const SCENES: [Scene; 11] = [
+    (-1.0, 100.0, 0.3, ASIDE),
+    (-1.0, 100.0, 0.5, ASIDE),
+    (-1.0, 100.0, 0.5, [-0.3, 0.25]),
+    (-1.0, 100.0, 0.7, ASIDE),
+    (-2.0, 100.0, 0.3, ASIDE),
+    (-2.0, 100.0, 0.5, ASIDE),
+    (-2.0, 100.0, 0.7, ASIDE),
+    (-4.0, 100.0, 0.5, ASIDE),
+    (-4.0, 100.0, 0.7, ASIDE),
+    (-2.0, 20.0, 0.5, ASIDE),
+    (-2.0, 500.0, 0.5, ASIDE),
 ];
+/// Nodes of the runs and of the steady states.
+const NODES: [usize; 2] = [48, 72];
+/// Radii of the branch, and the scene it starts from.
+const RADII: [f64; 12] = [0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75];
+const FROM: Scene = (-1.0, 100.0, 0.5, ASIDE);
 
-fn setup(&(boxed, activity, radius, centre): &Scene) -> Setup {
+fn setup(&(activity, viscosity, radius, centre): &Scene, nodes: usize) -> Setup {
     Setup {
-        region: if boxed { Region::Box { lengths: [6.0; 2] } } else { Region::Plane },
-        method: Method::Integral(IntegralMethod { nodes: 32, cells: 128 }),
-        repulsion: Some(RepulsionSetup { strength: 500.0, range: 0.1 }),
-        droplets: vec![DropletSetup::active(activity)],
+        region: Region::Plane,
+        method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }),
+        droplets: vec![DropletSetup { viscosity: Some(viscosity), ..DropletSetup::active(activity) }],
         rigid_bodies: vec![RigidBodySetup { centre, ..RigidBodySetup::disc(radius) }],
         ..Setup::default()
     }
 }
 
-/// Time, speed, turning rate, distance of the nucleus from the centroid and from the axis of motion, its angular
-/// velocity, the least gap.
-fn run_one(setup: &Setup, time: f64) -> Result<[f64; 7]> {
-    let Built { mut scene, droplets, rigid_bodies, .. } = setup.build()?;
-    let (droplet, core) = (*droplets.first().context("no droplet")?, *rigid_bodies.first().context("no nucleus")?);
-    let mut recorder = TrajectoryRecorder::new(droplet);
-    scene.run(time).observe(Every::StepAfter(time / 400.0), &mut recorder).go()?;
-    let seen = scene.observe(droplet)?;
-    let nucleus = scene.observe(core)?;
-    let offset = nucleus.centre - seen.centroid;
-    let aside = seen.velocity.normalize_or(Vec2::X).perp_dot(offset);
-    let turning = turning_rate(recorder.records()).context("too few steps")?;
-    let gap = scene.system().minimum_gap().unwrap_or(f64::NAN);
-    Ok([scene.time(), seen.speed(), turning, offset.length(), aside, nucleus.spin, gap])
+/// The steady state that a run leads to.
+fn found(of: &Scene, time: f64) -> Result<SteadyState> {
+    let Built { mut scene, droplets, rigid_bodies, .. } = setup(of, NODES[0]).build()?;
+    let droplet = *droplets.first().context("no droplet")?;
+    let nucleus = *rigid_bodies.first().context("no nucleus")?;
+    scene.run(time).go()?;
+    let (seen, disc) = (scene.observe(droplet)?, scene.observe(nucleus)?);
+    // About its centroid, on its way along x.
+    let back = seen.velocity.normalize_or(Vec2::X) * Vec2::new(1.0, -1.0);
+    let moved = |x: Vec2| back.rotate(x - seen.centroid);
+    let body = scene.body(droplet)?;
+    let markers: Vec<Vec2> = body.markers().iter().map(|x| moved(*x)).collect();
+    let profile = Profile::from_markers(&markers, body.particle_numbers())?.with_nuclei(vec![moved(disc.centre)]);
+    Ok(SteadyState::near(&setup(of, NODES[1]), &profile, Vec2::new(seen.speed(), 0.0), false)?)
+}
+
+const VALUES: [&str; 9] =
+    ["speed", "turning rate", "track radius", "offset", "aside", "least film", "growth", "frequency", "last modes"];
+
+fn values(state: &SteadyState) -> Result<Vec<String>> {
+    let (seen, velocity) = (state.measured()?, state.velocity());
+    let profile = state.profile();
+    let centre = *profile.nuclei.first().context("no nucleus")?;
+    let radius = Parameter::NucleusRadius.get(state.setup()).context("no nucleus")?;
+    let film = profile.positions.iter().map(|x| x.distance(centre) - radius).fold(f64::INFINITY, f64::min);
+    let offset = centre - seen.centroid;
+    let leading = state.spectrum()?.leading().map(|mode| mode.value).unwrap_or_default();
+    let turning = state.turning_rate();
+    let straight = turning.abs() < 1e-8;
+    Ok(vec![
+        format!("{:.5}", seen.speed),
+        if straight { "0".to_owned() } else { format!("{turning:+.5}") },
+        if straight { "straight".to_owned() } else { format!("{:.3}", seen.speed / turning.abs()) },
+        format!("{:.4}", offset.length()),
+        format!("{:+.4}", velocity.normalize_or(Vec2::X).perp_dot(offset)),
+        format!("{film:.3}"),
+        format!("{:+.4}", leading.re),
+        format!("{:.4}", leading.im),
+        format!("{:.0e}", state.tail()),
+    ])
+}
+
+/// A row, or what went wrong.
+fn push(table: &mut Table, row: Vec<String>, state: Result<SteadyState>) -> Option<SteadyState> {
+    let state = state.and_then(|state| Ok((values(&state)?, state)));
+    let (values, state) = match state {
+        Ok((values, state)) => (values, Some(state)),
+        Err(error) => (vec![explained(&error)], None),
+    };
+    say(format_args!("{} {}", row.join(" "), values.join(" ")));
+    table.push(row.into_iter().chain(values));
+    state
 }
 
 pub(crate) fn run(flags: &Flags) -> Result<()> {
-    let columns = [
-        "region",
-        "activity",
-        "radius",
-        "start",
-        "speed",
-        "turning rate",
-        "track radius",
-        "offset",
-        "aside",
-        "spin",
-        "least gap",
-    ];
-    let mut table = Table::new("Droplets with a rigid nucleus, late", &columns);
+    let columns: Vec<&str> = ["activity", "viscosity", "radius", "start"].into_iter().chain(VALUES).collect();
+    let mut table = Table::new("Steady droplets with a rigid nucleus, and the mode that grows fastest", &columns);
+    let mut first = None;
     for scene in &SCENES {
-        let (boxed, activity, radius, [x, y]) = scene;
-        let region = if *boxed { "box" } else { "plane" };
-        let row = [region.to_owned(), activity.to_string(), radius.to_string(), format!("{x}, {y}")];
-        let values = match run_one(&setup(scene), flags.time) {
-            Ok([_, speed, turning, offset, aside, spin, gap]) => {
-                let radius = speed / turning.abs();
-                let signed = |value: f64| format!("{value:+.1e}");
-                let track = if radius < 1e4 { format!("{radius:.3}") } else { "straight".to_owned() };
-                vec![
-                    format!("{speed:.5}"),
-                    signed(turning),
-                    track,
-                    format!("{offset:.4}"),
-                    signed(aside),
-                    signed(spin),
-                    format!("{gap:.3}"),
-                ]
+        let (activity, viscosity, radius, [x, y]) = scene;
+        let row = vec![activity.to_string(), viscosity.to_string(), radius.to_string(), format!("{x}, {y}")];
+        let state = push(&mut table, row, found(scene, flags.time));
+        if *scene == FROM {
+            first = state;
+        }
+    }
+    let columns: Vec<&str> = std::iter::once("radius").chain(VALUES).collect();
+    let mut branch =
+        Table::new("Droplets of activity -1 that swim in circles, over the radius of the nucleus", &columns);
+    let first = first.context("there is no state to start from")?;
+    let (before, after): (Vec<f64>, Vec<f64>) = RADII.into_iter().partition(|radius| *radius < FROM.2);
+    for list in [before.into_iter().rev().collect::<Vec<_>>(), after] {
+        let mut state = first.clone();
+        for radius in list {
+            let next = Parameter::NucleusRadius.with(state.setup(), radius);
+            let next = next.and_then(|setup| SteadyState::near(&setup, state.profile(), state.velocity(), false));
+            match push(&mut branch, vec![radius.to_string()], next.map_err(Into::into)) {
+                Some(next) => state = next,
+                None => break,
             }
-            Err(error) => {
-                let mut values = vec![String::new(); columns.len() - row.len()];
-                values[0] = error.to_string();
-                values
-            }
-        };
-        say(format_args!("{} {}", row.join(" "), values.join(" ")));
-        table.push(row.into_iter().chain(values));
+        }
     }
     say(&table);
+    say(&branch);
     if flags.write {
-        let own = ["crates/elastic-solids", "studies/src/nucleus.rs", "examples/src/turning.rs"];
+        let own = ["crates/elastic-solids", "crates/steady-states/src", "studies/src/nucleus.rs"];
         let code = [&tables::RUNS[..7], &own].concat();
-        tables::write("nucleus", "nucleus --write", &code, &[table])?;
+        tables::write("nucleus", "nucleus --write", &code, &[table, branch])?;
     }
     Ok(())
 }

@@ -7,6 +7,7 @@
 mod channels;
 mod contrast;
 mod curved_walls;
+mod elastic_walls;
 mod headings;
 mod interfaces;
 mod recommended;
@@ -60,6 +61,7 @@ enum Study {
     InterfaceSeveral,
     InterfaceLongRuns,
     CurvedWalls,
+    ElasticWalls,
     Solids,
     Cost,
 }
@@ -87,7 +89,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
-    let studies: [(Study, Run); 35] = [
+    let studies: [(Study, Run); 36] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -121,6 +123,7 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
         (Study::InterfaceSeveral, interfaces::several),
         (Study::InterfaceLongRuns, interfaces::long_runs),
         (Study::CurvedWalls, curved_walls::curved_walls),
+        (Study::ElasticWalls, elastic_walls::elastic_walls),
         (Study::Solids, solids::solids),
         (Study::Cost, interfaces::cost),
     ];
@@ -130,7 +133,11 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
             found.iter().for_each(say);
             if flags.write || flags.check {
                 let name = study.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();
-                let solids = if study == Study::Solids { &["crates/elastic-solids"][..] } else { &[] };
+                let solids = if matches!(study, Study::Solids | Study::ElasticWalls) {
+                    &["crates/elastic-solids"][..]
+                } else {
+                    &[]
+                };
                 let inputs = [&tables::RUNS[..], solids].concat();
                 if flags.check {
                     tables::check(&name, &found)?;

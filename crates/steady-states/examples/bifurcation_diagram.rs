@@ -250,6 +250,7 @@ impl<'a> Diagram<'a> {
         let profile = Profile {
             positions: nodes.iter().map(|row| Vec2::new(row[0], row[1])).collect(),
             density: nodes.iter().map(|row| row[2]).collect(),
+            nuclei: Vec::new(),
         };
         let setup = self.flags.parameter.with(setup, place[0])?;
         let moves = Vec2::new(velocity[0], velocity[1]);

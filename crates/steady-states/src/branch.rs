@@ -330,7 +330,7 @@ impl Follower {
         let shift = self.system.profile(&self.point).moments()?.centroid.x;
         let over = |profile: Profile| -> Result<Option<Fields>, SteadyError> {
             let mut profile = profile;
-            profile.positions.iter_mut().for_each(|x| x.x -= shift);
+            profile.shift(-shift);
             profile.over(&point.base.positions, &point.base.normals)
         };
         let mut tangent = self.tangent.clone();

@@ -83,6 +83,12 @@ impl LimitCycle {
         instants: usize,
     ) -> Result<Self, SteadyError> {
         let Critical { state, mode } = hopf;
+        if !state.profile().nuclei.is_empty() {
+            return Err(SteadyError::Unsupported {
+                what: "the droplet has a nucleus".into(),
+                remedy: "leave it out, or follow the oscillation in a run",
+            });
+        }
         if mode.symmetry != Symmetry::Antisymmetric || mode.value.im <= 0.0 || instants.is_multiple_of(2) {
             return Err(SteadyError::Unsupported {
                 what: "this is not a Hopf point of swings across a channel, or the number of instants is even".into(),
@@ -314,7 +320,7 @@ impl LimitCycle {
         let (offsets, density) = self.system.modes.synthesise(&self.states[instant]);
         let positions =
             base.positions.iter().zip(&base.normals).zip(&offsets).map(|((x, n), h)| *x + *h * *n).collect();
-        Ok(Profile { positions, density })
+        Ok(Profile { positions, density, nuclei: Vec::new() })
     }
 
     /// Poses' derivatives by the phase.
@@ -507,7 +513,8 @@ impl LimitCycle {
         let positions =
             base.positions.iter().zip(&base.normals).zip(&offsets).map(|((x, n), h)| *x + *h * *n).collect();
         let nodes = self.shape.nodes();
-        let shape = crate::newton::centred(Profile { positions, density }.resampled(nodes, CROWDING)?)?;
+        let shape =
+            crate::newton::centred(Profile { positions, density, nuclei: Vec::new() }.resampled(nodes, CROWDING)?)?;
         let poses: Vec<[f64; 3]> = (0..count)
             .map(|j| {
                 let profile = self.lab_profile(j)?;

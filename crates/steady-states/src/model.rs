@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use fourier::PeriodicSeries;
 use motile::active_interface::{ContractileTension, Tension};
 use motile::ib_core::Vec2;
-use motile::{DropletSetup, DropletShape, Method, Particles, Region, Setup};
+use motile::{DropletSetup, DropletShape, Method, Particles, Region, RigidBodySetup, Setup};
 use num_complex::Complex64;
 use stokes_layers::{Interface, InterfaceFlow, PeriodicCalculus, Settings, TensionPlacement};
 
@@ -48,6 +48,15 @@ fn outward(tangent: Vec2) -> Vec2 {
 /// How the frame of a droplet moves: velocity and rate of turning about the origin.
 pub(crate) type FrameMotion = [f64; 3];
 
+/// A rigid disc inside, free of force and torque.
+#[derive(Debug)]
+struct Nucleus {
+    radius: f64,
+    centre: Vec2,
+    velocity: Vec2,
+    surface: Vec<Vec2>,
+}
+
 /// A droplet of a description at N nodes. Its state is the offset h of its shape along the normals n0 of a curve x0 and
 /// the number of particles per parameter, m; in a frame that moves with the velocity V
 ///
@@ -56,7 +65,8 @@ pub(crate) type FrameMotion = [f64; 3];
 /// dh/dt = (v - V).n/(n0.n),   q = (v - V - dh/dt n0).tau,   dm/dt = -d(q c - D dc/ds)/da
 /// ```
 /// a the parameter: the equations (2.3), (2.5) and (2.39) of Cowley and the motion of the interface with the fluid,
-/// with points that slide along fixed lines.
+/// with points that slide along fixed lines. Rigid discs inside move with the fluid; their places x and y, and the
+/// rates of these, stand after the offsets and the densities.
 #[derive(Debug)]
 pub(crate) struct Model {
     pub(crate) setup: Setup,
@@ -74,6 +84,9 @@ pub(crate) struct Model {
     tensions: Vec<f64>,
     pub(crate) forces: Vec<Vec2>,
     pub(crate) velocities: Vec<Vec2>,
+    nuclei: Vec<Nucleus>,
+    /// No forces.
+    none: Vec<Vec2>,
     /// dh/dt and q, and dm/dt, of the last rates.
     offset_rates: Vec<f64>,
     density_rates: Vec<f64>,
@@ -94,9 +107,17 @@ impl Model {
         else {
             return refuse("the scene is not of one active droplet", "give one droplet with particles");
         };
-        if !setup.solids.is_empty() || setup.repulsion.is_some() {
-            return refuse("the scene has solids or a repulsion", "leave them out");
+        if !(setup.solids.is_empty() && setup.shells.is_empty() && setup.rigid.is_empty()) || setup.repulsion.is_some()
+        {
+            return refuse("the scene has solids, shells, walls of their own or a repulsion", "leave them out");
         }
+        let disc = |body: &RigidBodySetup| match body.shape {
+            DropletShape::Round { radius } if body.force == [0.0; 2] && body.torque == 0.0 => Some(radius),
+            _ => None,
+        };
+        let Some(discs) = setup.rigid_bodies.iter().map(disc).collect::<Option<Vec<f64>>>() else {
+            return refuse("a rigid body is no disc, or is acted on", "give a round one without force and torque");
+        };
         let (DropletShape::Round { radius } | DropletShape::Squeezed { radius, .. }) = *shape else {
             return refuse("the droplet has a shape of its own", "give a round one");
         };
@@ -107,6 +128,8 @@ impl Model {
         }
         let &Particles { diffusion, concentration, .. } = particles;
         motile::ib_core::input::positive("the diffusion constant", diffusion)?;
+        let nucleus =
+            |radius| Nucleus { radius, centre: Vec2::ZERO, velocity: Vec2::ZERO, surface: vec![Vec2::ZERO; nodes] };
         Ok(Self {
             setup: setup.clone(),
             radius,
@@ -123,8 +146,10 @@ impl Model {
             tensions: vec![0.0; nodes],
             forces: vec![Vec2::ZERO; nodes],
             velocities: vec![Vec2::ZERO; nodes],
-            offset_rates: vec![0.0; nodes],
-            density_rates: vec![0.0; nodes],
+            offset_rates: vec![0.0; nodes + discs.len()],
+            density_rates: vec![0.0; nodes + discs.len()],
+            nuclei: discs.into_iter().map(nucleus).collect(),
+            none: vec![Vec2::ZERO; nodes],
             slip: vec![0.0; nodes],
             evaluations: 0,
         })
@@ -132,6 +157,10 @@ impl Model {
 
     pub(crate) fn nodes(&self) -> usize {
         self.positions.len()
+    }
+
+    pub(crate) fn nuclei(&self) -> usize {
+        self.nuclei.len()
     }
 
     /// Area of the droplet (length squared) and number of its particles.
@@ -168,9 +197,20 @@ impl Model {
         calculus.tension_forces(positions, tensions, TensionPlacement::Points, forces)?;
         let viscosity = self.viscosities[0];
         let viscosities = [viscosity, self.flow.viscosity()];
-        self.flow.load(std::iter::once(Interface::closed(positions, forces, viscosities)))?;
+        for (k, Nucleus { radius, centre, surface, .. }) in self.nuclei.iter_mut().enumerate() {
+            *centre = Vec2::new(offsets[positions.len() + k], density[positions.len() + k]);
+            let step = TAU / surface.len() as f64;
+            for (j, point) in surface.iter_mut().enumerate() {
+                *point = *centre + *radius * Vec2::from_angle(step * j as f64);
+            }
+        }
+        let discs = self.nuclei.iter().map(|disc| Interface::rigid(&disc.surface, &self.none, viscosity));
+        self.flow.load(std::iter::once(Interface::closed(positions, forces, viscosities)).chain(discs))?;
         self.flow.solve()?;
         self.evaluations += 1;
+        for (k, nucleus) in self.nuclei.iter_mut().enumerate() {
+            nucleus.velocity = self.flow.rigid_motion(1 + k).map_or(Vec2::ZERO, |motion| motion.velocity);
+        }
         Ok(self.flow.velocities(0, &mut self.velocities)?)
     }
 
@@ -197,6 +237,7 @@ impl Model {
         let velocities = std::mem::take(&mut self.velocities);
         self.transport(base, |k, x| velocities[k] - frame(x));
         self.velocities = velocities;
+        self.carry(|nucleus| nucleus.velocity - frame(nucleus.centre));
         // The diffusive flux, which needs the gradient of the concentration.
         self.series.analyse(self.concentrations.iter().map(|&c| Complex64::new(c, 0.0)))?;
         self.series.differentiate();
@@ -209,7 +250,9 @@ impl Model {
     /// The rates that a rigid motion has, in which h and m change as if the fluid moved like this.
     pub(crate) fn rigid_rates(&mut self, base: &Base, motion: FrameMotion) -> Result<(&[f64], &[f64]), SteadyError> {
         let [ux, uy, turn] = motion;
-        self.transport(base, |_, x| Vec2::new(ux - turn * x.y, uy + turn * x.x));
+        let velocity = |x: Vec2| Vec2::new(ux - turn * x.y, uy + turn * x.x);
+        self.transport(base, |_, x| velocity(x));
+        self.carry(|nucleus| velocity(nucleus.centre));
         self.divergence()
     }
 
@@ -220,6 +263,15 @@ impl Model {
             let rate = w.dot(n) / n0.dot(n);
             self.offset_rates[k] = rate;
             self.slip[k] = (w - rate * n0).dot(tangent.normalize()) * self.concentrations[k];
+        }
+    }
+
+    /// Velocities of the nuclei as rates.
+    fn carry(&mut self, velocity: impl Fn(&Nucleus) -> Vec2) {
+        let nodes = self.nodes();
+        for (k, nucleus) in self.nuclei.iter().enumerate() {
+            let Vec2 { x, y } = velocity(nucleus);
+            (self.offset_rates[nodes + k], self.density_rates[nodes + k]) = (x, y);
         }
     }
 

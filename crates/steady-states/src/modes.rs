@@ -21,7 +21,9 @@ pub(crate) enum Part {
 }
 
 /// A state as coefficients without dimension: of offsets over the radius, then of densities over their mean; first the
-/// cosines of both from the mean on, then the sines of both. The unpaired mode of an even number of nodes is left out.
+/// cosines of both from the mean on and the x of the nuclei over the radius, then the sines of both and the y of the
+/// nuclei. The unpaired mode of an even number of nodes is left out. As values at the nodes x stands after the offsets
+/// and y after the densities.
 #[derive(Debug)]
 pub(crate) struct Modes {
     series: PeriodicSeries,
@@ -29,11 +31,12 @@ pub(crate) struct Modes {
     largest: usize,
     /// Units of offset (length) and density.
     scales: [f64; 2],
+    nuclei: usize,
 }
 
 impl Modes {
-    pub(crate) fn new(nodes: usize, scales: [f64; 2]) -> Result<Self, SteadyError> {
-        Ok(Self { series: PeriodicSeries::new(nodes)?, largest: nodes / 2 - 1, scales })
+    pub(crate) fn new(nodes: usize, scales: [f64; 2], nuclei: usize) -> Result<Self, SteadyError> {
+        Ok(Self { series: PeriodicSeries::new(nodes)?, largest: nodes / 2 - 1, scales, nuclei })
     }
 
     pub(crate) fn nodes(&self) -> usize {
@@ -42,11 +45,11 @@ impl Modes {
 
     /// Number of all coefficients.
     pub(crate) fn len(&self) -> usize {
-        4 * self.largest + 2
+        4 * self.largest + 2 + 2 * self.nuclei
     }
 
     pub(crate) fn part(&self, part: Part) -> Range<usize> {
-        let even = 2 * (self.largest + 1);
+        let even = self.even();
         match part {
             Part::Even => 0..even,
             Part::Odd => even..self.len(),
@@ -54,31 +57,53 @@ impl Modes {
         }
     }
 
+    /// Number of those that are their own mirror image.
+    fn even(&self) -> usize {
+        2 * (self.largest + 1) + self.nuclei
+    }
+
     /// Which coefficient this is: of the density (else of the offset), a sine (else a cosine), its wave number.
-    pub(crate) fn kind(&self, index: usize) -> (bool, bool, usize) {
-        let even = self.largest + 1;
-        if index < 2 * even {
-            (index >= even, false, index % even)
-        } else {
-            let index = index - 2 * even;
-            (index >= self.largest, true, index % self.largest + 1)
+    fn kind(&self, index: usize) -> (bool, bool, usize) {
+        let sine = index >= self.even();
+        let index = if sine { index - self.even() } else { index };
+        let first = usize::from(sine);
+        let waves = self.largest + 1 - first;
+        (index >= waves, sine, index % waves + first)
+    }
+
+    /// The nucleus whose place this is, and whether it is y (else x).
+    fn nucleus(&self, index: usize) -> Option<(usize, bool)> {
+        let (even, all) = (self.even(), self.len());
+        match index {
+            _ if (even - self.nuclei..even).contains(&index) => Some((index + self.nuclei - even, false)),
+            _ if index >= all - self.nuclei => Some((index + self.nuclei - all, true)),
+            _ => None,
         }
+    }
+
+    /// The wave number of a coefficient; 1 for a place.
+    pub(crate) fn wave(&self, index: usize) -> usize {
+        if self.nucleus(index).is_some() { 1 } else { self.kind(index).2 }
     }
 
     /// Position of the coefficient of this kind.
     pub(crate) fn index(&self, density: bool, sine: bool, wave: usize) -> usize {
-        let even = self.largest + 1;
         let field = usize::from(density);
-        if sine { 2 * even + field * self.largest + wave - 1 } else { field * even + wave }
+        if sine { self.even() + field * self.largest + wave - 1 } else { field * (self.largest + 1) + wave }
     }
 
     /// Adds `amount` of a coefficient to the values at the nodes.
     pub(crate) fn perturb(&self, index: usize, amount: f64, offsets: &mut [f64], density: &mut [f64]) {
+        let len = self.nodes();
+        if let Some((nucleus, across)) = self.nucleus(index) {
+            let values = if across { density } else { offsets };
+            values[len + nucleus] += amount * self.scales[0];
+            return;
+        }
         let (of_density, sine, wave) = self.kind(index);
         let values = if of_density { density } else { offsets };
         let amount = amount * self.scales[usize::from(of_density)];
-        let len = values.len();
-        for (k, value) in values.iter_mut().enumerate() {
+        for (k, value) in values[..len].iter_mut().enumerate() {
             let angle = TAU * ((k * wave) % len) as f64 / len as f64;
             *value += amount * if sine { angle.sin() } else { angle.cos() };
         }
@@ -87,12 +112,18 @@ impl Modes {
     /// Coefficients of values at the nodes.
     pub(crate) fn analyse(&mut self, offsets: &[f64], density: &[f64]) -> Result<DVector<f64>, SteadyError> {
         let [r, c] = self.scales;
-        self.series.analyse(offsets.iter().zip(density).map(|(h, m)| Complex64::new(h / r, m / c)))?;
+        let nodes = self.nodes();
+        self.series.analyse(offsets.iter().zip(density).take(nodes).map(|(h, m)| Complex64::new(h / r, m / c)))?;
         let coefficients = self.series.coefficients();
-        let mut state = DVector::zeros(self.len());
+        let (even, all) = (self.even(), self.len());
+        let mut state = DVector::zeros(all);
+        for (k, (x, y)) in offsets.iter().zip(density).skip(nodes).enumerate() {
+            state[even - self.nuclei + k] = x / r;
+            state[all - self.nuclei + k] = y / r;
+        }
         for wave in 0..=self.largest {
             let up = coefficients[wave];
-            let down = if wave == 0 { up } else { coefficients[self.nodes() - wave] };
+            let down = if wave == 0 { up } else { coefficients[nodes - wave] };
             let (h, m) = (0.5 * (up + down.conj()), Complex64::new(0.0, -0.5) * (up - down.conj()));
             let factor = if wave == 0 { 1.0 } else { 2.0 };
             for (field, value) in [h, m].into_iter().enumerate() {
@@ -107,8 +138,8 @@ impl Modes {
 
     /// Values at the nodes, offsets and densities.
     pub(crate) fn synthesise(&self, state: &DVector<f64>) -> (Vec<f64>, Vec<f64>) {
-        let nodes = self.nodes();
-        let (mut offsets, mut density) = (vec![0.0; nodes], vec![0.0; nodes]);
+        let values = self.nodes() + self.nuclei;
+        let (mut offsets, mut density) = (vec![0.0; values], vec![0.0; values]);
         for (index, &value) in state.iter().enumerate() {
             if value != 0.0 {
                 self.perturb(index, value, &mut offsets, &mut density);

@@ -172,7 +172,7 @@ impl System {
     /// Whether the droplet is far from its base.
     pub(crate) fn is_far(&self, point: &Point) -> bool {
         let (offsets, _) = self.modes.synthesise(&point.state);
-        offsets.iter().any(|h| h.abs() > FARTHEST * self.model.radius)
+        offsets[..self.modes.nodes()].iter().any(|h| h.abs() > FARTHEST * self.model.radius)
     }
 
     /// The same droplet over itself, with nodes placed anew.
@@ -257,7 +257,6 @@ impl System {
 
 /// The same droplet with its centroid at x = 0.
 pub(crate) fn centred(mut profile: Profile) -> Result<Profile, SteadyError> {
-    let x = profile.moments()?.centroid.x;
-    profile.positions.iter_mut().for_each(|position| position.x -= x);
+    profile.shift(-profile.moments()?.centroid.x);
     Ok(profile)
 }

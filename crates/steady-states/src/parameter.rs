@@ -1,6 +1,6 @@
 //! The numbers of a description that a branch may be followed in.
 
-use motile::{Exclusion, Region, Setup};
+use motile::{DropletShape, Exclusion, Region, Setup};
 
 use crate::SteadyError;
 
@@ -25,11 +25,13 @@ pub enum Parameter {
     Width,
     /// Period of a channel, or side of a square box (length).
     Length,
+    /// Radius of the first rigid disc inside (length).
+    NucleusRadius,
 }
 
 impl Parameter {
     /// All of them, with the names that a command line has for them.
-    pub const NAMES: [(&str, Self); 9] = [
+    pub const NAMES: [(&str, Self); 10] = [
         ("activity", Self::Activity),
         ("excluded-volume", Self::ExcludedVolume),
         ("diffusion", Self::Diffusion),
@@ -39,6 +41,7 @@ impl Parameter {
         ("viscosity-ratio", Self::ViscosityRatio),
         ("width", Self::Width),
         ("length", Self::Length),
+        ("nucleus-radius", Self::NucleusRadius),
     ];
 
     /// Its name on a command line.
@@ -70,6 +73,10 @@ impl Parameter {
             Self::Length => match setup.region {
                 Region::Channel { length, .. } => Some(length),
                 Region::Box { lengths: [x, y] } if x == y => Some(x),
+                _ => None,
+            },
+            Self::NucleusRadius => match setup.rigid_bodies.first()?.shape {
+                DropletShape::Round { radius } => Some(radius),
                 _ => None,
             },
         }
@@ -111,6 +118,7 @@ impl Parameter {
                 Region::Box { lengths } => *lengths = [value; 2],
                 Region::Plane => {}
             },
+            Self::NucleusRadius => setup.rigid_bodies[0].shape = DropletShape::Round { radius: value },
         }
         Ok(setup)
     }

@@ -25,6 +25,8 @@ pub struct Profile {
     pub positions: Vec<Vec2>,
     /// Particles per parameter: the concentration times the derivative of the arc length by the parameter.
     pub density: Vec<f64>,
+    /// Centres of the rigid discs inside (length).
+    pub nuclei: Vec<Vec2>,
 }
 
 /// Offsets (length) and densities at nodes.
@@ -97,7 +99,18 @@ impl Profile {
             Complex64::cis(-half) / mean
         });
         let density = series.values().iter().map(|z| z.re).collect();
-        Ok(Self { positions: markers.to_vec(), density })
+        Ok(Self { positions: markers.to_vec(), density, nuclei: Vec::new() })
+    }
+
+    /// The same droplet with rigid discs inside, at these centres (length).
+    #[must_use]
+    pub fn with_nuclei(self, nuclei: Vec<Vec2>) -> Self {
+        Self { nuclei, ..self }
+    }
+
+    /// Moves it along x.
+    pub(crate) fn shift(&mut self, x: f64) {
+        self.positions.iter_mut().chain(&mut self.nuclei).for_each(|position| position.x += x);
     }
 
     /// Number of nodes.
@@ -114,6 +127,7 @@ impl Profile {
         Self {
             positions: (0..n).map(|k| self.positions[from(k)] * Vec2::new(1.0, -1.0)).collect(),
             density: (0..n).map(|k| self.density[from(k)]).collect(),
+            nuclei: self.nuclei.iter().map(|centre| *centre * Vec2::new(1.0, -1.0)).collect(),
         }
     }
 
@@ -139,7 +153,8 @@ impl Profile {
         let places = (0..count).map(|k| sampler.at(first + TAU * k as f64 / count as f64));
         let across = Vec2::new(0.0, centroid.y);
         let (positions, density) = places.map(|place| (place.position - across, place.density)).unzip();
-        Ok(Self { positions, density }.mean_with_image())
+        let nuclei = self.nuclei.iter().map(|centre| *centre - across).collect();
+        Ok(Self { positions, density, nuclei }.mean_with_image())
     }
 
     /// The mean of this droplet, whose first node is on the x axis, and its mirror image.
@@ -147,6 +162,7 @@ impl Profile {
         let image = self.mirrored();
         self.positions.iter_mut().zip(&image.positions).for_each(|(here, there)| *here = 0.5 * (*here + *there));
         self.density.iter_mut().zip(&image.density).for_each(|(here, there)| *here = 0.5 * (*here + there));
+        self.nuclei.iter_mut().for_each(|centre| centre.y = 0.0);
         self
     }
 
@@ -219,7 +235,8 @@ impl Profile {
             (slope * parameter + sum, rate)
         };
         let start = weight(0.0).0;
-        let mut result = Self { positions: Vec::with_capacity(nodes), density: Vec::with_capacity(nodes) };
+        let (positions, density) = (Vec::with_capacity(nodes), Vec::with_capacity(nodes));
+        let mut result = Self { positions, density, nuclei: self.nuclei.clone() };
         let mut parameter = 0.0;
         for k in 0..nodes {
             let goal = start + slope * TAU * k as f64 / nodes as f64;
@@ -282,6 +299,8 @@ impl Profile {
         for (value, rate) in density.iter_mut().zip(&rates) {
             *value *= 1.0 + rate;
         }
+        offsets.extend(self.nuclei.iter().map(|centre| centre.x));
+        density.extend(self.nuclei.iter().map(|centre| centre.y));
         Ok(Some((offsets, density)))
     }
 }
@@ -315,13 +334,13 @@ impl Profile {
         let count = 2 * self.nodes();
         let places = (0..count).map(|k| sampler.at(TAU * k as f64 / count as f64));
         let (positions, density) = places.map(|place| (place.position, place.density)).unzip();
-        Ok(Self { positions, density })
+        Ok(Self { positions, density, nuclei: self.nuclei.clone() })
     }
 
     /// Least curvature (1/length) at the nodes.
     pub(crate) fn least_curvature(&self) -> Result<f64, SteadyError> {
         let tangents = self.tangents()?;
-        let turning = Self { positions: tangents.clone(), density: Vec::new() }.tangents()?;
+        let turning = Self { positions: tangents.clone(), density: Vec::new(), nuclei: Vec::new() }.tangents()?;
         let curvature = tangents.iter().zip(&turning).map(|(t, rate)| t.perp_dot(*rate) / t.length().powi(3));
         Ok(curvature.fold(f64::INFINITY, f64::min))
     }

@@ -190,7 +190,9 @@ impl System {
                 sides.push(self.model.concentrations.clone());
             }
             let change = sides[0].iter().zip(&sides[1]).map(|(above, below)| (above - below) / (2.0 * SMALL)).collect();
-            Ok((self.modes.synthesise(state).0, change))
+            let mut offsets = self.modes.synthesise(state).0;
+            offsets.truncate(self.modes.nodes());
+            Ok((offsets, change))
         };
         let ((h, c), (h_imaginary, c_imaginary)) = (change(&real)?, change(&imaginary)?);
         let complex = |re: &[f64], im: &[f64]| re.iter().zip(im).map(|(re, im)| Complex64::new(*re, *im)).collect();

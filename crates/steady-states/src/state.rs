@@ -44,6 +44,8 @@ pub struct SteadyState {
     outcome: Outcome,
     mirror: bool,
     tail: f64,
+    /// Of the centroid (length per time).
+    velocity: Vec2,
     /// D/R^2 (1/time).
     rate: f64,
 }
@@ -53,7 +55,8 @@ pub struct SteadyState {
 pub struct Measured {
     /// Speed (length per time).
     pub speed: f64,
-    /// Stresslet along the motion (force times length), the convention of the far field; zero at rest.
+    /// Stresslet along the motion (force times length), the convention of the far field; zero at rest, not a number
+    /// of a droplet with a nucleus, whose part in it is not known.
     pub stresslet: f64,
     /// Aspect ratio from area moments, along x over across it.
     pub aspect_ratio: f64,
@@ -141,7 +144,9 @@ impl SteadyState {
         let model = System::new(setup)?.model;
         let (radius, mean) = (model.radius, model.concentration);
         let positions = (0..nodes).map(|k| radius * Vec2::from_angle(TAU * k as f64 / nodes as f64)).collect();
-        let profile = Profile { positions, density: vec![radius * mean; nodes] };
+        let centre = Vec2::from(setup.droplets[0].centre);
+        let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre) - centre).collect();
+        let profile = Profile { positions, density: vec![radius * mean; nodes], nuclei };
         let (system, point, outcome) = Self::newton(setup, &profile, [0.0; 3], true, 0.0)?;
         Self::of(&system, point, outcome, true)
     }
@@ -195,7 +200,9 @@ impl SteadyState {
         }
         let tail = tails.into_iter().fold(0.0, |largest, (_, tail)| tail.max(largest));
         let rate = system.model.diffusion_rate();
-        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror, tail, rate })
+        let [x, y, turn] = point.frame;
+        let velocity = Vec2::new(x, y) + turn * profile.moments()?.centroid.perp();
+        Ok(Self { setup: system.model.setup.clone(), point, profile, outcome, mirror, tail, velocity, rate })
     }
 
     /// This state with another description, nearby, over the same nodes.
@@ -231,10 +238,17 @@ impl SteadyState {
         &self.profile
     }
 
-    /// Velocity of the droplet (length per time).
+    /// Velocity of the droplet's centroid (length per time).
     #[must_use]
     pub fn velocity(&self) -> Vec2 {
-        Vec2::new(self.point.frame[0], self.point.frame[1])
+        self.velocity
+    }
+
+    /// Rate at which the droplet turns, counter-clockwise (1/time): in the plane it may swim in a circle, whose radius
+    /// is the speed over it.
+    #[must_use]
+    pub fn turning_rate(&self) -> f64 {
+        self.point.frame[2]
     }
 
     /// Whether it is its own mirror image at the x axis.
@@ -313,7 +327,7 @@ impl SteadyState {
         let (xx, xy) = (0.5 * (dipole[0][0] - dipole[1][1]), 0.5 * (dipole[0][1] + dipole[1][0]));
         Ok(Measured {
             speed: self.velocity().length(),
-            stresslet: cos * xx + sin * xy,
+            stresslet: if self.profile.nuclei.is_empty() { cos * xx + sin * xy } else { f64::NAN },
             aspect_ratio: moments.aspect_ratio,
             concentration: self.profile.extrema()?.map(|c| c / model.concentration),
             perimeter: tangents.iter().map(|t| t.length() * step).sum(),
@@ -326,16 +340,24 @@ impl SteadyState {
     /// order in their spacing: 16 for each node.
     ///
     /// # Errors
-    /// A flow that cannot be solved for.
+    /// A flow that cannot be solved for; a droplet with a nucleus, whose force moments are not known.
     pub fn observables(&self) -> Result<Observables, SteadyError> {
+        if !self.profile.nuclei.is_empty() {
+            return Err(SteadyError::Unsupported {
+                what: "force moments of a droplet with a nucleus are not known".to_owned(),
+                remedy: "use what is measured, or observe a run",
+            });
+        }
         let mut system = System::new(&self.setup)?;
         system.load(&self.point)?;
         let nodes = self.profile.nodes();
         let fine = REFINEMENT * nodes;
         let model = &system.model;
-        let velocities = Profile { positions: model.velocities.clone(), density: vec![0.0; nodes] };
+        let of =
+            |vectors: &[Vec2]| Profile { positions: vectors.to_vec(), density: vec![0.0; nodes], nuclei: Vec::new() };
+        let velocities = of(&model.velocities);
         let scaled = nodes as f64 / fine as f64;
-        let forces = Profile { positions: model.forces.clone(), density: vec![0.0; nodes] };
+        let forces = of(&model.forces);
         let [curve, velocity, force] = [&self.profile, &velocities, &forces].map(Sampler::new);
         let (curve, velocity, force) = (curve?, velocity?, force?);
         let parameter = |k: f64| TAU * k / fine as f64;
@@ -376,7 +398,8 @@ pub(crate) fn with_nodes(setup: &Setup, nodes: usize) -> Setup {
 fn start(setup: &Setup) -> Result<Profile, SteadyError> {
     let fine = with_nodes(setup, nodes_of(setup)?.max(2 * COARSE));
     let droplet = fine.droplet(&fine.droplets[0])?;
-    Profile::from_markers(droplet.markers(), droplet.particle_numbers())
+    let nuclei = setup.rigid_bodies.iter().map(|body| Vec2::from(body.centre)).collect();
+    Ok(Profile::from_markers(droplet.markers(), droplet.particle_numbers())?.with_nuclei(nuclei))
 }
 
 /// Refuses a droplet that reaches beyond a wall or its own periodic image.
@@ -404,6 +427,7 @@ fn is_mirror(profile: &Profile) -> bool {
     let other = profile.mirrored();
     let size = profile.density.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     let same = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-6 * size;
-    profile.positions.iter().zip(&other.positions).all(|(a, b)| a.distance(*b) < 1e-6)
+    let places = || profile.positions.iter().chain(&profile.nuclei);
+    places().zip(other.positions.iter().chain(&other.nuclei)).all(|(a, b)| a.distance(*b) < 1e-6)
         && profile.density.iter().zip(&other.density).all(same)
 }

@@ -1,5 +1,6 @@
 //! The equations of a steady state, their derivative, and what makes them regular.
 
+use motile::ib_core::Vec2;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use crate::model::{Base, FrameMotion, Model};
@@ -53,21 +54,29 @@ pub(crate) struct System {
 impl System {
     pub(crate) fn new(setup: &motile::Setup) -> Result<Self, SteadyError> {
         let model = Model::new(setup)?;
-        let modes = Modes::new(model.nodes(), [model.radius, model.radius * model.concentration])?;
+        let scales = [model.radius, model.radius * model.concentration];
+        let modes = Modes::new(model.nodes(), scales, model.nuclei())?;
         Ok(Self { model, modes })
     }
 
     /// A profile as a point over itself, its centre at x = 0, or over an earlier base.
     pub(crate) fn point(&mut self, profile: &Profile, frame: FrameMotion) -> Result<Point, SteadyError> {
         let base = Base::new(profile)?;
-        let state = self.modes.analyse(&vec![0.0; profile.nodes()], &profile.density)?;
+        let x = profile.nuclei.iter().map(|centre| centre.x);
+        let y = profile.nuclei.iter().map(|centre| centre.y);
+        let offsets: Vec<f64> = std::iter::repeat_n(0.0, profile.nodes()).chain(x).collect();
+        let density: Vec<f64> = profile.density.iter().copied().chain(y).collect();
+        let state = self.modes.analyse(&offsets, &density)?;
         Ok(Point { base, state, frame })
     }
 
     pub(crate) fn profile(&self, point: &Point) -> Profile {
-        let (offsets, density) = self.modes.synthesise(&point.state);
+        let (offsets, mut density) = self.modes.synthesise(&point.state);
         let shifted = point.base.positions.iter().zip(&point.base.normals).zip(&offsets);
-        Profile { positions: shifted.map(|((x, n), h)| *x + *h * *n).collect(), density }
+        let positions: Vec<Vec2> = shifted.map(|((x, n), h)| *x + *h * *n).collect();
+        let y = density.split_off(positions.len());
+        let nuclei = offsets[positions.len()..].iter().zip(y).map(|(x, y)| Vec2::new(*x, y)).collect();
+        Profile { positions, density, nuclei }
     }
 
     pub(crate) fn load(&mut self, point: &Point) -> Result<(), SteadyError> {
@@ -110,7 +119,7 @@ impl System {
         let (offsets, density) = self.modes.synthesise(&point.state);
         let mut jacobian = DMatrix::zeros(range.len(), range.len());
         for (column, index) in range.clone().enumerate() {
-            let step = step / (1.0 + 0.1 * self.modes.kind(index).2 as f64);
+            let step = step / (1.0 + 0.1 * self.modes.wave(index) as f64);
             let mut side = |amount: f64| {
                 let (mut h, mut m) = (offsets.clone(), density.clone());
                 self.modes.perturb(index, amount, &mut h, &mut m);
@@ -164,7 +173,7 @@ impl System {
         let zeros = vec![0.0; area.len()];
         let mut gradient = self.modes.analyse(&area, &zeros)?;
         for (index, value) in gradient.iter_mut().enumerate() {
-            *value *= if self.modes.kind(index).2 == 0 { 2.0 } else { 1.0 };
+            *value *= if self.modes.wave(index) == 0 { 2.0 } else { 1.0 };
         }
         let mut number = DVector::zeros(self.modes.len());
         number[self.modes.index(true, false, 0)] = 1.0;

@@ -128,6 +128,7 @@ fn a_start_from_a_run_that_is_not_quite_straight_leads_to_the_straight_swimmer()
     let start = steady_states::Profile {
         positions: (0..count).map(turned).collect(),
         density: (0..count).map(lopsided).collect(),
+        nuclei: Vec::new(),
     };
     let velocity = Vec2::new(1.01, 0.01) * exact.velocity().x;
     for mirror in [true, false] {

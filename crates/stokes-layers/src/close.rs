@@ -14,7 +14,7 @@ use num_complex::Complex64;
 
 use crate::{
     curve::{Curve, REFINEMENT, Transforms},
-    greens::{GreensFunction, Kernels, row_singularities, row_weighted, weighted},
+    greens::{GreensFunction, Kernels, half_turns, row_of_turns, row_weighted, weighted},
 };
 
 mod correction;
@@ -132,12 +132,13 @@ impl CloseWeights {
         } else {
             None
         };
+        let row = if let GreensFunction::Row { k } = self.greens { Some((k, half_turns(point, k))) } else { None };
         let [first, second, third] = &mut self.powers;
         for (j, z) in curve.fine.position.iter().enumerate() {
             let d = z - point;
             self.distance[j] = d;
-            (self.log[j], [first[j], second[j], third[j]]) = if let GreensFunction::Row { k } = self.greens {
-                row_singularities(d, k)
+            (self.log[j], [first[j], second[j], third[j]]) = if let Some((k, turns)) = row {
+                row_of_turns(d, k, curve.fine.half_turns[j], turns)
             } else {
                 let inverse = d.inv();
                 let square = inverse * inverse;

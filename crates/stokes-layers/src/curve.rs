@@ -9,7 +9,10 @@ use fourier::spectrum::{copy_band, differentiate, largest_wave};
 use input_checks::{InputError, same_length, within};
 use num_complex::Complex64;
 
-use crate::{Geometry, LayerError, Vec2, greens::GreensFunction};
+use crate::{
+    Geometry, LayerError, Vec2,
+    greens::{GreensFunction, half_turns},
+};
 pub use calculus::{PeriodicCalculus, TensionPlacement};
 pub(crate) use transform::Transform;
 
@@ -117,6 +120,8 @@ pub(crate) struct Samples {
     pub(crate) tangent: Vec<Complex64>,
     /// Force per parameter times the weight 2 pi/number (force).
     pub(crate) force: Vec<Complex64>,
+    /// exp(i k z/2) and its inverse at the fine nodes of an open curve with the wave number k.
+    pub(crate) half_turns: Vec<[Complex64; 2]>,
 }
 
 impl Samples {
@@ -294,6 +299,10 @@ impl Curve {
     pub(crate) fn refine(&mut self, transforms: &mut Transforms) {
         if !self.refined {
             self.fine.fill(&mut transforms.fine, [&self.shape, &self.force], self.period, None);
+            if let GreensFunction::Row { k } = self.greens() {
+                self.fine.half_turns.clear();
+                self.fine.half_turns.extend(self.fine.position.iter().map(|z| half_turns(*z, k)));
+            }
             self.refined = true;
         }
     }

@@ -13,5 +13,5 @@ pub(crate) mod walls;
 pub(crate) use logarithm::ln;
 pub(crate) use nodes::{Nodes, Vectors};
 pub(crate) use pair::{FreePair, LatticePair, PairKernel, RowPair, Stokeslet};
-pub(crate) use point::{Flow, GreensFunction, Kernels, row_singularities, row_weighted, weighted};
+pub(crate) use point::{Flow, GreensFunction, Kernels, half_turns, row_of_turns, row_weighted, weighted};
 pub(crate) use stress::{Sources, StressKernel};

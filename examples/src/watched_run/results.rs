@@ -74,6 +74,12 @@ impl WatchedRun {
         for (name, value) in entries.into_iter().filter(|(name, _)| CONVENTIONAL.contains(name)) {
             summary.put(&format!("{name}_printed"), value, "");
         }
+        let late = table.curve("time", "stresslet_xx")?.into_iter().filter(|(time, _)| *time >= 0.5 * end);
+        let (count, sum) = late.fold((0.0, 0.0), |(count, sum), (_, value)| (count + 1.0, sum + value));
+        summary.put("stresslet_xx_mean", sum / count, "over the second half");
+        let furthest = table.curve("time", "x")?.iter().map(|(_, x)| *x).fold(f64::NAN, f64::max);
+        summary.put("furthest_x", furthest, "largest x of the centroid over the run (R0)");
+        summary.put("pressure_gradient", self.last()?.pressure_gradient, "mean along the channel");
         if let Ok(evidence) = self.put_regime(&mut summary) {
             summary.put("period", evidence.period.map(|period| period.value), "");
         }

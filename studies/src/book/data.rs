@@ -242,9 +242,6 @@ fn of_table(name: &str) -> Result<Vec<Row>> {
                     }
                     Err(_) => flatten(name, &Value::String(cell.to_owned()), &mut row),
                 }
-                // A verdict before its number.
-                let word = cell.split([' ', ',']).next().filter(|word| word.starts_with(char::is_alphabetic));
-                row.extend(word.map(|word| (format!("{name}_{}", plain(word)), 1.0)));
             }
             rows.push(row);
         }

@@ -200,8 +200,29 @@ pub(crate) fn weighted(log: f64, c: [Complex64; 3], conjugate: Complex64) -> Ker
 }
 
 /// The singular functions of a row of images: `ln|2 sin(k d/2)|` and the sums of 1/d, 1/d^2, 1/d^3.
-pub(crate) fn row_singularities(d: Complex64, k: f64) -> (f64, [Complex64; 3]) {
+fn row_singularities(d: Complex64, k: f64) -> (f64, [Complex64; 3]) {
     singular_row(d, k, &HalfAngle::new(d * (0.5 * k)), false)
+}
+
+/// The same from the [`half_turns`] of source and target, without circular functions.
+pub(crate) fn row_of_turns(
+    d: Complex64,
+    k: f64,
+    source: [Complex64; 2],
+    target: [Complex64; 2],
+) -> (f64, [Complex64; 3]) {
+    let [turn, back] = [source[0] * target[1], source[1] * target[0]];
+    // Digits of the difference are lost close to zero.
+    if (turn - back).norm_sqr() < 4e-3 {
+        return row_singularities(d, k);
+    }
+    singular_of(k, -0.5 * I * (turn - back), 0.5 * (turn + back))
+}
+
+/// exp(i k z/2) and its inverse.
+pub(crate) fn half_turns(z: Complex64, k: f64) -> [Complex64; 2] {
+    let turn = (0.5 * k * I * z).exp();
+    [turn, turn.inv()]
 }
 
 /// Kernels of a row of images from functions that stand for its singular ones.
@@ -252,16 +273,20 @@ fn singular_row(d: Complex64, k: f64, half: &HalfAngle, regular: bool) -> (f64, 
     if regular && half.x.norm_sqr() < 0.25 {
         return near_row(half.x, k);
     }
-    let cosecant = 0.5 * k * half.sin.inv();
-    let first = cosecant * half.cos;
-    let log = 0.5 * ln(4.0 * half.sin.norm_sqr());
-    let c = [first, cosecant * cosecant, cosecant * cosecant * first];
+    let (log, c) = singular_of(k, half.sin, half.cos);
     if regular {
         let own = free(d);
         (log - own.log - 0.5, [c[0] - own.c[0], c[1] - own.c[1], c[2] - own.c[2]])
     } else {
         (log, c)
     }
+}
+
+/// The functions of a row from the sine and cosine of k d/2.
+fn singular_of(k: f64, sin: Complex64, cos: Complex64) -> (f64, [Complex64; 3]) {
+    let cosecant = 0.5 * k * sin.inv();
+    let first = cosecant * cos;
+    (0.5 * ln(4.0 * sin.norm_sqr()), [first, cosecant * cosecant, cosecant * cosecant * first])
 }
 
 /// The regular functions of a row by the Laurent series `cot x = 1/x - sum a_n x^(2n - 1)`, a_n = 2 zeta(2n)/pi^(2n).
@@ -296,3 +321,6 @@ fn near_row(x: Complex64, k: f64) -> (f64, [Complex64; 3]) {
     let c = [first * x * half, second * (half * half), third * x * (half * half * half)];
     (k.ln() + (log * square).re, c)
 }
+
+#[cfg(test)]
+mod tests;

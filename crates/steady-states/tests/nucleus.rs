@@ -1,0 +1,111 @@
+//! Droplets with a rigid nucleus against closed forms.
+
+use motile::prelude::*;
+use motile::{DropletSetup, Exclusion, Particles, RigidBodySetup};
+use num_complex::Complex64;
+use steady_states::SteadyState;
+
+const OUTSIDE: f64 = 10.0;
+
+fn setup(nodes: usize, ratio: f64, activity: f64, radius: f64) -> Setup {
+    let particles = Particles { activity, excluded_volume: Exclusion::None, ..Particles::default() };
+    let droplet = DropletSetup {
+        tension: 10.0,
+        viscosity: Some(ratio * OUTSIDE),
+        particles: Some(particles),
+        ..DropletSetup::default()
+    };
+    Setup {
+        region: Region::Plane,
+        method: Method::Integral(IntegralMethod { nodes, cells: 4 * nodes }),
+        viscosity: OUTSIDE,
+        droplets: vec![droplet],
+        rigid_bodies: vec![RigidBodySetup::disc(radius)],
+        ..Setup::default()
+    }
+}
+
+/// The matrix by which the fluid around a concentric rigid disc resists modes of a unit circle, in units of twice its
+/// viscosity: entries rr, rt, tt.
+fn resistance(m: i32, radius: f64) -> [f64; 3] {
+    let (order, square) = (f64::from(m), radius * radius);
+    let power = square.powi(m);
+    let bottom = square * (1.0 - power).powi(2) - order * order * power * (1.0 - square).powi(2);
+    let shared = power * (1.0 - square);
+    [
+        order * square * (1.0 - power * power) + shared * (order * order * (3.0 - square) - 4.0),
+        square * (1.0 - power * power) + order * shared * (order * order * (1.0 - square) - 2.0),
+        order * square * (1.0 - power * power) - order * order * power * (1.0 - square * square),
+    ]
+    .map(|top| top / bottom)
+}
+
+/// Growth rates of concentration and shape of a mode around a concentric nucleus; of mode 1, which has no shape of its
+/// own, that of the concentration.
+fn rates(m: i32, setup: &Setup) -> Vec<Complex64> {
+    let droplet = &setup.droplets[0];
+    let particles = droplet.particles.expect("particles");
+    let radius = match setup.rigid_bodies[0].shape {
+        DropletShape::Round { radius } => radius,
+        _ => f64::NAN,
+    };
+    let (order, inside) = (f64::from(m), droplet.viscosity.unwrap_or(OUTSIDE) / OUTSIDE);
+    let (c0, diffusion, activity) = (particles.concentration, particles.diffusion, particles.activity);
+    if m == 1 {
+        let part = radius.powi(4);
+        let drift = 0.25 / (1.0 + inside * (1.0 + part) / (1.0 - part)) / OUTSIDE;
+        return vec![Complex64::new(-2.0 * c0 * activity * drift - diffusion, 0.0)];
+    }
+    let mean = droplet.tension - activity * c0;
+    let [rr, rt, tt] = resistance(m, radius).map(|value| inside * value);
+    let [a, b, d] = [2.0 * (order + rr), 2.0 * (1.0 + rt), 2.0 * (order + tt)].map(|value| value * OUTSIDE);
+    let respond = |[normal, tangential]: [f64; 2]| {
+        [(d * normal - b * tangential) / (a * d - b * b), (a * tangential - b * normal) / (a * d - b * b)]
+    };
+    let column = |[c, r]: [f64; 2]| {
+        let gamma = -activity * c;
+        let [u, w] = respond([-gamma - (order * order - 1.0) * mean * r, -order * gamma]);
+        [-c0 * (order * w + u) - order * order * diffusion * c, u]
+    };
+    let ([p, q], [r, s]) = (column([1.0, 0.0]), column([0.0, 1.0]));
+    let (half, determinant) = (0.5 * (p + s), p * s - q * r);
+    let root = Complex64::new(half * half - determinant, 0.0).sqrt();
+    vec![half + root, half - root]
+}
+
+/// The circle around a concentric nucleus: all eigenvalues of modes 1 to 4, over sizes and viscosities. Where nothing
+/// flows a nucleus may stay anywhere, which is an eigenvalue of zero.
+#[test]
+fn growth_rates_around_a_nucleus() {
+    let mut worst = 0.0_f64;
+    for ratio in [0.1, 1.0, 100.0] {
+        for radius in [0.1, 0.5, 0.75] {
+            let setup = setup(48, ratio, -0.3, radius);
+            let spectrum = SteadyState::uniform(&setup).unwrap().spectrum().unwrap();
+            for m in 1..=4 {
+                for exact in rates(m, &setup) {
+                    let nearest = |a: &&steady_states::Eigenmode| (a.value - exact).norm();
+                    let found = spectrum.modes.iter().min_by(|a, b| nearest(a).total_cmp(&nearest(b))).unwrap();
+                    let error = (found.value - exact).norm() / exact.norm();
+                    worst = worst.max(error);
+                    assert!(error < 1e-6, "{ratio} {radius} {m}: {} {exact}", found.value);
+                }
+            }
+            let neutral = spectrum.modes.iter().map(|mode| mode.value.norm()).fold(f64::INFINITY, f64::min);
+            assert!(neutral < 1e-8, "{ratio} {radius}: {neutral:e}");
+        }
+    }
+    println!("largest error {worst:e}");
+}
+
+/// The nucleus that makes mode 2 oscillate: 0.0465 and 0.0811 in a run.
+#[test]
+fn mode_two_oscillates() {
+    let setup = setup(64, 100.0, -7.0, 0.75);
+    let spectrum = SteadyState::uniform(&setup).unwrap().spectrum().unwrap();
+    let exact = rates(2, &setup)[0];
+    let found = spectrum.modes.iter().find(|mode| mode.value.im > 1e-3).unwrap().value;
+    println!("{found} {exact}");
+    assert!((found.re - exact.re).abs() < 1e-7 && (found.im - exact.im.abs()).abs() < 1e-7, "{found} {exact}");
+    assert!((found.re - 0.0465).abs() < 1e-4 && (found.im - 0.0811).abs() < 1e-4);
+}
