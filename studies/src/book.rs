@@ -214,7 +214,7 @@ fn one(number: &str, making: &Making, made: &mut BTreeMap<String, Data>, write: 
         let folder = pages::folder().join("figures");
         fs::create_dir_all(&folder)?;
         if columns > 0 {
-            fs::write(folder.join(format!("{number}.svg")), pages::rounded(&picture.svg()?))?;
+            fs::write(folder.join(format!("{number}.svg")), picture.svg()?)?;
             fs::write(folder.join(format!("{number}.csv")), points)?;
         }
         fs::write(pages::kept_file(number, making.quick), serde_json::to_string_pretty(&kept)? + "\n")?;

@@ -91,6 +91,7 @@ pub struct Plot {
     labels: [String; 2],
     scales: [AxisScale; 2],
     x_range: Option<[f64; 2]>,
+    equal_units: bool,
     series: Vec<Series>,
     references: Vec<(f64, String)>,
 }
@@ -120,6 +121,12 @@ impl Plot {
     #[must_use]
     pub fn x_range(self, low: f64, high: f64) -> Self {
         Self { x_range: Some([low, high]), ..self }
+    }
+
+    /// A unit is as long on the vertical axis as on the horizontal one, as it should be for shapes (both axes linear).
+    #[must_use]
+    pub fn equal_units(self) -> Self {
+        Self { equal_units: true, ..self }
     }
 
     /// Adds a series.

@@ -79,7 +79,11 @@ impl Source {
         let Some(plan) = &self.plan else { return Ok(Vec::new()) };
         let mut plan = plan.clone();
         if let Some(Preset::Thesis) = self.preset {
-            let scene: Table = toml::from_str(&Setup::thesis().to_toml()?)?;
+            let mut scene: Table = toml::from_str(&Setup::thesis().to_toml()?)?;
+            // A region of another kind takes its place.
+            if plan.get("scene").and_then(|scene| scene.get("region")).is_some() {
+                scene.remove("region");
+            }
             let mut whole = Table::from_iter([("scene".to_owned(), scene.into())]);
             merge(&mut whole, &plan);
             plan = whole;

@@ -76,6 +76,9 @@ struct Panel {
     y: String,
     #[serde(default)]
     logarithmic: bool,
+    /// Lists of points are closed curves in the plane.
+    #[serde(default)]
+    shapes: bool,
     curve: Vec<Curve>,
 }
 
@@ -178,6 +181,9 @@ impl Figure {
             let scale = |log| if log { AxisScale::Logarithmic } else { AxisScale::Linear };
             let mut plot =
                 Plot::new(&panel.title).x_axis(&panel.x, scale(panel.logarithmic)).y_axis(&panel.y, AxisScale::Linear);
+            if panel.shapes {
+                plot = plot.equal_units();
+            }
             let mut colours: Vec<f64> = Vec::new();
             for curve in &panel.curve {
                 let groups = self.groups(&curve.points, &definitions, data).with_context(|| panel.title.clone())?;
@@ -188,11 +194,12 @@ impl Figure {
                     colours.extend(known.is_none().then_some(group));
                     let label = curve.label.replace("{}", &shown(group).replace('-', "−"));
                     let colour = SERIES_COLOURS[own % SERIES_COLOURS.len()];
-                    let points = means(&points);
+                    let points = if panel.shapes { points } else { means(&points) };
                     for (x, y, deviation) in &points {
                         table += &format!("{},{},{},{x},{y},{deviation}\n", k + 1, curve.label, shown(group));
                     }
-                    let line = points.iter().map(|(x, y, _)| (*x, *y));
+                    let again = points.first().filter(|_| panel.shapes);
+                    let line = points.iter().chain(again).map(|(x, y, _)| (*x, *y));
                     let series = match (curve.line, curve.dashed) {
                         (_, true) => Series::line(&label, line).dashed(),
                         (true, false) => Series::line(&label, line),

@@ -145,23 +145,6 @@ fn section(number: &str, figure: &Figure, verdict: &str, [full, quick]: [&Option
     Ok(text)
 }
 
-/// A picture with one decimal of its numbers, a third smaller.
-pub(super) fn rounded(svg: &str) -> String {
-    let mut out = String::with_capacity(svg.len());
-    let mut decimals = None;
-    for c in svg.chars() {
-        decimals = match (c, decimals) {
-            ('.', _) => Some(0),
-            (c, Some(count)) if c.is_ascii_digit() => Some(count + 1),
-            _ => None,
-        };
-        if decimals.is_none_or(|count| count < 2) {
-            out.push(c);
-        }
-    }
-    out
-}
-
 /// A paragraph in lines that are not too long.
 fn wrapped(text: &str) -> String {
     let mut out = String::new();

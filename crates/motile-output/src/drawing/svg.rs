@@ -1,7 +1,5 @@
 //! Drawings as SVG files.
 
-use std::fmt::Write;
-
 use tiny_skia::{Path, PathSegment};
 
 use super::{Drawing, Shape, raster};
@@ -19,11 +17,10 @@ impl Drawing {
                         if label.is_empty() { label.clone() } else { format!(" aria-label=\"{}\"", escape(label)) };
                     let opacity = faint("fill", *opacity);
                     let (data, colour) = (data(path), colour.hex());
-                    format!("<path{label} d=\"{data}\" fill-rule=\"evenodd\" fill=\"{colour}\"{opacity}/>")
+                    format!("<path{label} d=\"{data}\" fill=\"{colour}\"{opacity}/>")
                 }
                 Shape::Line { path, pen } => format!(
-                    "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{} stroke-linejoin=\"round\" \
-                     stroke-linecap=\"round\"/>",
+                    "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}/>",
                     data(path),
                     pen.colour.hex(),
                     short(pen.width),
@@ -56,7 +53,8 @@ impl Drawing {
         let close = if clipped { "</g>\n" } else { "" };
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\">\n\
+             viewBox=\"0 0 {width} {height}\" fill-rule=\"evenodd\" stroke-linejoin=\"round\" \
+             stroke-linecap=\"round\">\n\
              <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n{body}{close}</svg>\n"
         )
     }
@@ -73,22 +71,54 @@ fn faint(what: &str, opacity: f64) -> String {
     if opacity < 1.0 { format!(" {what}-opacity=\"{}\"", short(opacity)) } else { String::new() }
 }
 
-/// A path as the data of an element.
+/// A path as the data of an element: from point to point in tenths of a pixel, each rounded for itself, so that errors
+/// do not add up.
 fn data(path: &Path) -> String {
-    let mut data = String::new();
+    let tenths = |p: tiny_skia::Point| [p.x, p.y].map(|v| (10.0 * v).round() as i64);
+    let (mut data, mut last, mut at, mut start) = (String::new(), ' ', [0; 2], [0; 2]);
     for segment in path.segments() {
         let (letter, points) = match segment {
-            PathSegment::MoveTo(p) => ("M", vec![p]),
-            PathSegment::LineTo(p) => ("L", vec![p]),
-            PathSegment::QuadTo(c, p) => ("Q", vec![c, p]),
-            PathSegment::CubicTo(c, d, p) => ("C", vec![c, d, p]),
-            PathSegment::Close => ("Z", Vec::new()),
+            PathSegment::MoveTo(p) => ('M', vec![p]),
+            PathSegment::LineTo(p) => ('l', vec![p]),
+            PathSegment::QuadTo(c, p) => ('q', vec![c, p]),
+            PathSegment::CubicTo(c, d, p) => ('c', vec![c, d, p]),
+            PathSegment::Close => ('z', Vec::new()),
         };
-        let points: Vec<_> = points.iter().map(|p| format!("{} {}", short(p.x.into()), short(p.y.into()))).collect();
-        // Writing to a string does not fail.
-        let _ = write!(data, "{letter}{}", points.join(" "));
+        if letter == 'M' {
+            at = [0; 2];
+        }
+        // Points that follow the first of an `M` would be lines.
+        let mut separate = letter == last && letter != 'M';
+        if !separate {
+            data.push(letter);
+        }
+        for point in &points {
+            for (value, origin) in tenths(*point).into_iter().zip(at) {
+                let number = value - origin;
+                if separate && number >= 0 {
+                    data.push(' ');
+                }
+                separate = true;
+                data.push_str(&decimal(number));
+            }
+        }
+        at = points.last().map_or(start, |point| tenths(*point));
+        if letter == 'M' {
+            start = at;
+        }
+        last = letter;
     }
     data
+}
+
+/// Tenths as a number, without zeros that say nothing.
+fn decimal(tenths: i64) -> String {
+    let sign = if tenths < 0 { "-" } else { "" };
+    match (tenths.abs() / 10, tenths.abs() % 10) {
+        (whole, 0) => format!("{sign}{whole}"),
+        (0, rest) => format!("{sign}.{rest}"),
+        (whole, rest) => format!("{sign}{whole}.{rest}"),
+    }
 }
 
 fn escape(text: &str) -> String {

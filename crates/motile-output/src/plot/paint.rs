@@ -44,14 +44,26 @@ fn frame(plot: &Plot, outer: Rect, em: f64) -> Frame {
     let y = axis(1, data_range(plot, 1), outer.height);
     let left = Frame::left_margin(&y, em) + 0.4 * em;
     let top = if plot.title.is_empty() { 1.4 } else { 2.9 } * em;
-    let x = axis(0, plot.x_range.unwrap_or_else(|| data_range(plot, 0)), outer.width - left);
+    let range = plot.x_range.unwrap_or_else(|| data_range(plot, 0));
+    let x = axis(0, range, outer.width - left);
     let area = Rect {
         left: outer.left + left,
         top: outer.top + top,
         width: outer.width - left - 1.6 * em,
         height: outer.height - top - Frame::bottom_margin(&x, em),
     };
-    Frame { area: area.rounded(), x, y, em }
+    let area = area.rounded();
+    if !plot.equal_units {
+        return Frame { area, x, y, em };
+    }
+    // The axis with more room to spare is made longer about its middle.
+    let (units, lengths) = ([range, data_range(plot, 1)], [area.width, area.height]);
+    let of_pixel = (0..2).map(|k| (units[k][1] - units[k][0]) / lengths[k]).fold(0.0, f64::max);
+    let [x, y] = [0, 1].map(|k| {
+        let (middle, half) = (0.5 * (units[k][0] + units[k][1]), 0.5 * of_pixel * lengths[k]);
+        axis(k, [middle - half, middle + half], lengths[k])
+    });
+    Frame { area, x, y, em }
 }
 
 /// The range of the data along an axis, with some space around it.
@@ -125,9 +137,8 @@ impl Panel<'_> {
             }
         }
         if let Some(marker) = series.marker {
-            for at in pixels.into_iter().filter(|p| p[0].is_finite() && p[1].is_finite()) {
-                draw_marker(drawing, marker, at, 0.3 * em, colour);
-            }
+            let shown: Vec<Pixel> = pixels.into_iter().filter(|p| p[0].is_finite() && p[1].is_finite()).collect();
+            draw_markers(drawing, marker, &shown, 0.3 * em, colour);
         }
     }
 
@@ -172,7 +183,7 @@ impl Panel<'_> {
                 line(drawing, &[[from, y], [to, y]], series, colour, em);
             }
             if let Some(marker) = series.marker {
-                draw_marker(drawing, marker, [0.5 * (from + to), y], 0.3 * em, colour);
+                draw_markers(drawing, marker, &[[0.5 * (from + to), y]], 0.3 * em, colour);
             }
             drawing.text([panel.left + 3.0 * em, y], &series.label, &TextStyle::new(size, Anchor::Start));
         }
@@ -189,19 +200,29 @@ fn line(drawing: &mut Drawing, path: &[Pixel], series: &Series, colour: Rgb, em:
     }
 }
 
-fn draw_marker(drawing: &mut Drawing, marker: Marker, [x, y]: Pixel, radius: f64, colour: Rgb) {
+/// Markers at the points given.
+fn draw_markers(drawing: &mut Drawing, marker: Marker, at: &[Pixel], radius: f64, colour: Rgb) {
     let (corners, size, turn) = match marker {
-        Marker::Disc | Marker::Circle => (20, radius, 0.0),
+        Marker::Disc | Marker::Circle => {
+            // The round ends of lines of next to no length; without any some viewers show nothing.
+            let dots: Vec<Vec<Pixel>> = at.iter().map(|[x, y]| vec![[*x, *y], [x + 0.1, *y]]).collect();
+            if marker == Marker::Disc {
+                drawing.strokes(&dots, &Pen::new(colour, 2.0 * radius));
+            } else {
+                for dot in &dots {
+                    drawing.stroke(dot, &Pen::new(colour, 2.45 * radius));
+                    drawing.stroke(dot, &Pen::new(Rgb::WHITE, 1.55 * radius));
+                }
+            }
+            return;
+        }
         Marker::Square => (4, 1.25 * radius, std::f64::consts::FRAC_PI_4),
         Marker::Triangle => (3, 1.3 * radius, 0.0),
         Marker::Diamond => (4, 1.3 * radius, 0.0),
     };
     let angle = |k: usize| turn + std::f64::consts::TAU * k as f64 / corners as f64;
-    let outline: Vec<Pixel> = (0..=corners).map(|k| [x + size * angle(k).sin(), y - size * angle(k).cos()]).collect();
-    if marker == Marker::Circle {
-        drawing.fill(std::slice::from_ref(&outline), Rgb::WHITE, 1.0);
-        drawing.stroke(&outline, &Pen::new(colour, 0.45 * radius));
-    } else {
+    for [x, y] in at {
+        let outline = (0..=corners).map(|k| [x + size * angle(k).sin(), y - size * angle(k).cos()]).collect();
         drawing.fill(&[outline], colour, 1.0);
     }
 }

@@ -10,10 +10,25 @@ fn elements_have_their_coordinates_and_groups_close() {
     drawing.stroke(&[[1.0, f64::NAN], [3.0, 4.0]], &Pen::new(Rgb::INK, 1.5));
     drawing.clip(Some(Rect { left: 0.0, top: 0.0, width: 10.0, height: 10.0 }));
     let document = drawing.svg();
-    assert!(document.contains("d=\"M1 2.5L3.26 4\""), "{document}");
+    assert!(document.contains("d=\"M1 2.5l2.3 1.5\""), "{document}");
     assert_eq!(document.matches("<path").count(), 1);
     assert_eq!(document.matches("<g").count(), 2);
     assert_eq!(document.matches("<g").count(), document.matches("</g>").count());
+}
+
+#[test]
+fn rounded_steps_do_not_add_up() {
+    let mut drawing = Drawing::new([100.0, 50.0]);
+    let line: Vec<[f64; 2]> = (0..=300).map(|k| [f64::from(k) * 0.04, 20.0 - f64::from(k) * 0.016]).collect();
+    drawing.strokes(&[line, vec![[7.0, 3.0], [7.0, 3.0]]], &Pen::new(Rgb::INK, 1.5));
+    let document = drawing.svg();
+    let path = document.split("d=\"M").nth(1).and_then(|rest| rest.split('"').next()).expect("a path");
+    let (line, dot) = path.split_once('M').expect("two lines");
+    assert_eq!(dot, "7 3l0 0");
+    let numbers = line.replace('l', " ").replace('-', " -");
+    let numbers: Vec<f64> = numbers.split_whitespace().map(|number| number.parse().expect(number)).collect();
+    let end = |k: usize| numbers.iter().skip(k).step_by(2).sum::<f64>();
+    assert!(numbers.len() == 602 && (end(0) - 12.0).abs() < 0.051 && (end(1) - 15.2).abs() < 0.051, "{line}");
 }
 
 #[test]

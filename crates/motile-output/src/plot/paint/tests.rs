@@ -19,3 +19,17 @@ fn figures_without_panels_and_tiny_panels_are_refused() {
     assert!(Figure::new(1).panel(Plot::new("")).panel_size(10.0, 10.0).svg().is_err());
     assert!(Figure::new(1).panel(Plot::new("empty")).svg().is_ok());
 }
+
+#[test]
+fn equal_units_are_equally_long_and_show_all_data() {
+    for (wide, high) in [(8.0, 1.0), (1.0, 8.0)] {
+        let plot = Plot::new("").series(Series::line("", [(0.0, 0.0), (wide, high)])).equal_units();
+        let frame = frame(&plot, Rect { left: 0.0, top: 0.0, width: 540.0, height: 340.0 }, EM);
+        let [from, to] = [frame.place(0.0, 0.0), frame.place(wide, high)];
+        let lengths = [(to[0] - from[0]) / wide, (from[1] - to[1]) / high];
+        assert!((lengths[0] / lengths[1] - 1.0).abs() < 1e-9, "{lengths:?}");
+        for [x, y] in [from, to] {
+            assert!(frame.area.left < x && x < frame.area.right() && frame.area.top < y && y < frame.area.bottom());
+        }
+    }
+}
