@@ -46,11 +46,14 @@ fn solve(flags: &Flags) -> Result<()> {
     let seconds = started.elapsed().as_secs_f64();
 
     // The results.
-    let Measured { speed, stresslet, aspect_ratio, concentration, .. } = state.measured()?;
+    let Measured { speed, stresslet, aspect_ratio, concentration, centroid, .. } = state.measured()?;
     let leading = spectrum.leading();
     let mut summary = Summary::default();
     summary.put("speed", speed, "of the centroid (R0/T)");
     summary.put("velocity", state.velocity().to_array().to_vec(), "of the centroid (R0/T)");
+    summary.put("turning_rate", state.turning_rate(), "of the droplet, counter-clockwise (radians/T)");
+    let core_offset = state.profile().nuclei.first().map(|place| (*place - centroid).to_array().to_vec());
+    summary.put("core_offset", core_offset, "of the nucleus from the centroid (R0)");
     summary.put("stresslet", stresslet, "along the motion");
     summary.put("aspect_ratio", aspect_ratio, "from area moments, along x over across");
     summary.put("c_max", concentration[0], "largest concentration (c0)");

@@ -133,7 +133,15 @@ impl System {
         self.load(point)?;
         let (_, generators) = self.generators(&point.base, part)?;
         let conserved = self.conserved_gradients(&point.base, part)?;
-        let neutral = generators.iter().map(|g| (g.dot(&(&jacobian * g)) / g.norm_squared()).abs()).fold(0.0, f64::max);
+        // Rigid motions are taken to one another, turns to shifts in particular, but none to itself.
+        let neutral = if generators.is_empty() {
+            0.0
+        } else {
+            let motions = DMatrix::from_columns(&generators);
+            let inverse = (motions.transpose() * &motions).try_inverse();
+            let parts = inverse.map(|inverse| inverse * motions.transpose() * &jacobian * &motions);
+            parts.map_or(f64::NAN, |parts| parts.diagonal().amax())
+        };
         let conserved = conserved.into_iter().filter(|gradient| gradient.norm() > 1e-6);
         let removed: Vec<DVector<f64>> = conserved.chain(generators).collect();
         let n = jacobian.nrows();

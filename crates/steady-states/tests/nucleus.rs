@@ -109,3 +109,35 @@ fn mode_two_oscillates() {
     assert!((found.re - exact.re).abs() < 1e-7 && (found.im - exact.im.abs()).abs() < 1e-7, "{found} {exact}");
     assert!((found.re - 0.0465).abs() < 1e-4 && (found.im - 0.0811).abs() < 1e-4);
 }
+
+/// A disc that starts aside stays there, and the droplet goes round in circles as that of a run does.
+#[test]
+fn a_disc_aside_makes_the_droplet_swim_in_stable_circles() {
+    let nucleus = RigidBodySetup { centre: [0.0, 0.4], ..RigidBodySetup::disc(0.5) };
+    let aside = Setup {
+        viscosity: 100.0,
+        droplets: vec![DropletSetup::active(-2.0)],
+        rigid_bodies: vec![nucleus],
+        ..setup(64, 1.0, -2.0, 0.5)
+    };
+    let [coarse, circle] = [64, 96].map(|nodes| {
+        let method = Method::Integral(IntegralMethod { nodes, cells: 4 * nodes });
+        SteadyState::find(&Setup { method, ..aside.clone() }).expect("a circle")
+    });
+    let [rough, spectrum] = [&coarse, &circle].map(|state| state.spectrum().expect("resolved"));
+    println!("neutral {:.1e} {:.1e}", rough.neutral, spectrum.neutral);
+    assert!(!circle.is_mirror_symmetric() && spectrum.unstable() == 0 && spectrum.neutral < 0.3 * rough.neutral);
+    assert!((rough.modes[0].value - spectrum.modes[0].value).norm() < 1e-3 && spectrum.modes[0].value.im > 0.1);
+    // A run of the same without a repulsion turns alike.
+    let method = Method::Integral(IntegralMethod { nodes: 48, cells: 192 });
+    let built = Setup { method, ..aside }.build().expect("as described");
+    let (mut scene, droplet) = (built.scene, built.droplets[0]);
+    scene.run(40.0).go().expect("a run");
+    let before = scene.observe(droplet).expect("seen").velocity;
+    scene.run(50.0).go().expect("a run");
+    let after = scene.observe(droplet).expect("seen").velocity;
+    let rate = before.angle_to(after) / 10.0;
+    println!("turning {} {rate}, speed {} {}", circle.turning_rate(), circle.velocity().length(), after.length());
+    assert!((circle.turning_rate() / rate - 1.0).abs() < 0.02, "{} {rate}", circle.turning_rate());
+    assert!((circle.velocity().length() / after.length() - 1.0).abs() < 0.01, "{}", circle.velocity());
+}

@@ -1,9 +1,9 @@
 //! The command line that both examples share: the droplet, the region, the nodes.
 
-use anyhow::{Result, ensure};
+use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::stokes_grid::Drive;
-use motile::{IntegralMethod, Method, Region, Setup};
+use motile::{IntegralMethod, Method, Region, RigidBodySetup, Setup};
 use motile_examples::{DropletFlags, positive};
 
 /// Kinds of region.
@@ -49,6 +49,12 @@ pub(crate) struct SceneFlags {
     /// What drives the flow along the channel
     #[arg(long, value_enum, default_value_t = Forcing::ZeroGradient)]
     drive: Forcing,
+    /// Radius of a rigid nucleus (R0) [default: there is none]
+    #[arg(long, value_name = "RADIUS", value_parser = positive)]
+    core_radius: Option<f64>,
+    /// Where the nucleus starts, from the droplet's centre (R0): aside, the droplet may go round in circles
+    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    core_offset: Vec<f64>,
     /// Nodes of shape and concentration
     #[arg(long, default_value_t = 96)]
     nodes: usize,
@@ -73,6 +79,16 @@ impl SceneFlags {
         let mut setup = Setup { region, method, ..Setup::default() };
         self.droplet.apply(&mut setup)?;
         setup.droplets[0].centre[1] = self.lateral_offset;
+        let offset = match self.core_offset.as_slice() {
+            [] => [0.0; 2],
+            &[x, y] if self.core_radius.is_some() => [x, y],
+            _ => bail!("--core-offset is two numbers, as in 0,0.4, and needs --core-radius"),
+        };
+        if let Some(radius) = self.core_radius {
+            let [x, y] = setup.droplets[0].centre;
+            let centre = [x + offset[0], y + offset[1]];
+            setup.rigid_bodies.push(RigidBodySetup { centre, ..RigidBodySetup::disc(radius) });
+        }
         setup.check()?;
         Ok(setup)
     }
