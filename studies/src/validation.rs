@@ -12,6 +12,7 @@ mod headings;
 mod interfaces;
 mod recommended;
 mod solids;
+mod two_droplets;
 
 use clap::{Args, ValueEnum};
 use motile::ib_core::{AnyKernel, Kernel, StepSize};
@@ -60,6 +61,7 @@ enum Study {
     InterfaceLateral,
     InterfaceSeveral,
     InterfaceLongRuns,
+    TwoDroplets,
     CurvedWalls,
     ElasticWalls,
     Solids,
@@ -89,7 +91,7 @@ type Tables = Result<Vec<Table>, StudyError>;
 type Run = fn(bool) -> Tables;
 
 pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
-    let studies: [(Study, Run); 36] = [
+    let studies: [(Study, Run); 37] = [
         (Study::FixedShapes, fixed),
         (Study::Relaxation, relax),
         (Study::Growth, grow),
@@ -122,6 +124,7 @@ pub(crate) fn run(flags: &Flags) -> anyhow::Result<()> {
         (Study::InterfaceLateral, interfaces::lateral_modes),
         (Study::InterfaceSeveral, interfaces::several),
         (Study::InterfaceLongRuns, interfaces::long_runs),
+        (Study::TwoDroplets, two_droplets::two_droplets),
         (Study::CurvedWalls, curved_walls::curved_walls),
         (Study::ElasticWalls, elastic_walls::elastic_walls),
         (Study::Solids, solids::solids),
