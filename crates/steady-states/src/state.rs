@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::{Convention, Observables, observe};
-use motile::ib_core::Vec2;
-use motile::{Region, Setup};
+use motile::ib_core::{Vec2, input::same_length};
+use motile::{DropletShape, Region, Setup};
 
 use crate::model::FrameMotion;
 use crate::modes::Part;
@@ -402,7 +402,7 @@ fn start(setup: &Setup) -> Result<Profile, SteadyError> {
     Ok(Profile::from_markers(droplet.markers(), droplet.particle_numbers())?.with_nuclei(nuclei))
 }
 
-/// Refuses a droplet that reaches beyond a wall or its own periodic image.
+/// Refuses a droplet that reaches beyond a wall or its own periodic image, or that has not all of its discs inside.
 fn has_room(setup: &Setup, profile: &Profile) -> Result<(), SteadyError> {
     let extent = |way: Vec2| profile.positions.iter().map(|x| x.dot(way)).fold(f64::NEG_INFINITY, f64::max);
     let [left, right, top, bottom] = [-Vec2::X, Vec2::X, Vec2::Y, -Vec2::Y].map(extent);
@@ -419,7 +419,20 @@ fn has_room(setup: &Setup, profile: &Profile) -> Result<(), SteadyError> {
         ),
         remedy: "give a larger region, a smaller droplet or another place for it",
     };
-    fits.then_some(()).ok_or_else(refused)
+    fits.then_some(()).ok_or_else(refused)?;
+    same_length("the nuclei of the profile", setup.rigid_bodies.len(), profile.nuclei.len())?;
+    for (body, centre) in setup.rigid_bodies.iter().zip(&profile.nuclei) {
+        let DropletShape::Round { radius } = body.shape else { continue };
+        let arms = || profile.positions.iter().map(|x| *x - *centre);
+        let turn: f64 = arms().zip(arms().cycle().skip(1)).map(|(a, b)| a.angle_to(b)).sum();
+        if turn.abs() < 0.5 * TAU || !arms().all(|arm| arm.length() > radius) {
+            return Err(SteadyError::Unsupported {
+                what: format!("the disc of radius {radius} at ({:.3}, {:.3}) is not inside", centre.x, centre.y),
+                remedy: "give a smaller disc or another place in the droplet",
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Whether a droplet is its own mirror image at the x axis.

@@ -141,3 +141,18 @@ fn a_disc_aside_makes_the_droplet_swim_in_stable_circles() {
     assert!((circle.turning_rate() / rate - 1.0).abs() < 0.02, "{} {rate}", circle.turning_rate());
     assert!((circle.velocity().length() / after.length() - 1.0).abs() < 0.01, "{}", circle.velocity());
 }
+
+/// A disc that is too large or elsewhere, and a profile without the disc of the scene.
+#[test]
+fn discs_that_are_not_inside_are_refused() {
+    let large = SteadyState::uniform(&setup(32, 1.0, -2.0, 2.0)).unwrap_err().to_string();
+    assert!(large.contains("radius 2") && large.contains("smaller disc"), "{large}");
+    let mut elsewhere = setup(32, 1.0, -2.0, 0.3);
+    elsewhere.rigid_bodies[0].centre = [3.0, 0.0];
+    let elsewhere = SteadyState::find(&elsewhere).unwrap_err().to_string();
+    assert!(elsewhere.contains("not inside"), "{elsewhere}");
+    let scene = setup(32, 1.0, -0.3, 0.3);
+    let empty = SteadyState::uniform(&scene).unwrap().profile().clone().with_nuclei(Vec::new());
+    let lack = SteadyState::near(&scene, &empty, Vec2::ZERO, true).unwrap_err().to_string();
+    assert!(lack.contains("nuclei"), "{lack}");
+}

@@ -50,7 +50,7 @@ pub(crate) struct SceneFlags {
     #[arg(long, value_enum, default_value_t = Forcing::ZeroGradient)]
     drive: Forcing,
     /// Radius of a rigid nucleus (R0) [default: there is none]
-    #[arg(long, value_name = "RADIUS", value_parser = positive)]
+    #[arg(long, value_name = "RADIUS", value_parser = positive, allow_hyphen_values = true)]
     core_radius: Option<f64>,
     /// Where the nucleus starts, from the droplet's centre (R0): aside, the droplet may go round in circles
     #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
