@@ -50,10 +50,6 @@ pub(crate) struct Effort {
 /// droplet. What the flow of F - R F has there is the grid's error; it is divided by the mean viscosity, as the rest of
 /// that flow is, where that is the larger one. So errors do not grow with the ratio and are continuous where it passes
 /// through one.
-///
-/// A droplet inside another one moves with all that is inside of it, and answers with the viscosity of the fluid right
-/// outside. The forces phi of its rigid motions are then on it and on the interface around it, so that nothing moves
-/// outside of that one.
 #[derive(Debug, Clone)]
 pub(crate) struct Contrast {
     matrix: DoubleLayerMatrix,
@@ -61,8 +57,6 @@ pub(crate) struct Contrast {
     droplets: Vec<Droplet>,
     /// The curves of the droplets.
     curves: Vec<NodeCurve>,
-    /// For each the innermost other one that it lies in.
-    around: Vec<Option<usize>>,
     nodes: usize,
     rigid: RigidModes,
     /// Droplets and nodes of the last solutions.
@@ -94,7 +88,7 @@ pub(crate) struct Droplet {
 /// fluid.
 ///
 /// # Errors
-/// A viscosity that is not positive and finite; a rigid body.
+/// A viscosity that is not positive and finite; a rigid body; an interface in fluid of another viscosity.
 pub(crate) fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 2]>, FlowError> {
     if group.kind == MarkerKind::Rigid {
         return Err(FlowError::Unsupported {
@@ -107,7 +101,13 @@ pub(crate) fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Op
     }
     let [inside, outside] = group.viscosities(exterior);
     let inside = positive("the viscosity inside an interface", inside)?;
-    Ok((inside != exterior || outside != exterior).then_some([inside, outside]))
+    if outside != exterior {
+        return Err(FlowError::Unsupported {
+            what: "an interface inside a droplet of another viscosity, coupled to a grid alone",
+            remedy: "use boundary integrals, or layers (ImmersedLayers)",
+        });
+    }
+    Ok((inside != exterior).then_some([inside, outside]))
 }
 
 impl Contrast {
@@ -119,7 +119,6 @@ impl Contrast {
             viscosity,
             droplets: Vec::new(),
             curves: Vec::new(),
-            around: Vec::new(),
             nodes: 0,
             rigid: RigidModes::default(),
             solved: [0; 2],
@@ -142,11 +141,6 @@ impl Contrast {
     /// Their curves.
     pub(crate) fn curves(&self) -> &[NodeCurve] {
         &self.curves
-    }
-
-    /// Whether one of them lies inside another one.
-    pub(crate) fn is_nested(&self) -> bool {
-        self.around.iter().any(Option::is_some)
     }
 
     /// The markers that are not on them.
@@ -197,14 +191,6 @@ impl Contrast {
             self.droplets.push(Droplet { group: number, markers: group.range.clone(), even });
         }
         self.curves.truncate(self.droplets.len());
-        self.around.clear();
-        for (index, curve) in self.curves.iter().enumerate() {
-            // Only fluid of another viscosity than the exterior can be that of another droplet here.
-            let nested = curve.outside != self.viscosity
-                || markers.groups()[self.droplets[index].group].viscosity_outside.is_some();
-            let around = nested.then(|| self.innermost(curve.centre + curve.positions[0], Some(index))).flatten();
-            self.around.push(around);
-        }
         let now = [self.curves.len(), self.nodes];
         if now != self.solved {
             // The last solutions are no guesses for other nodes.
@@ -218,7 +204,7 @@ impl Contrast {
     /// Computes the matrix and the left eigenvectors for the loaded droplets; returns the number of iterations.
     pub(crate) fn prepare(&mut self) -> Result<usize, FlowError> {
         self.matrix.build(&self.curves)?;
-        self.rigid.fill(&self.matrix, &self.curves, &self.around);
+        self.rigid.fill(&self.curves);
         let outcome = self.find_left();
         if outcome.is_err() {
             self.left.clear();
@@ -227,63 +213,41 @@ impl Contrast {
     }
 
     fn find_left(&mut self) -> Result<usize, FlowError> {
-        let Self { matrix, curves, around, nodes, rigid, left, gmres, right, contrasts: given, .. } = self;
+        let Self { matrix, curves, nodes, rigid, left, gmres, right, contrasts: given, .. } = self;
         let nodes = *nodes;
-        let len = 2 * nodes;
-        right.resize(len, 0.0);
+        right.resize(2 * nodes, 0.0);
         let mut iterations = 0;
         if left.is_empty() {
             rigid.weighted(nodes).for_each(|motion| left.extend_from_slice(motion));
         }
-        for index in 0..curves.len() {
-            // Any viscosities have these left eigenvectors: here those of exterior fluid of 1.
-            let outer = around[index];
-            let eigenvalue = if outer.is_some() { 0.5 } else { 1.0 };
-            let beside = |other: usize| around[other] == outer;
-            let contrasts = |other: usize| match outer {
-                _ if beside(other) => 1.0,
-                Some(outer) if outer == other => -0.5,
-                _ => 0.0,
-            };
-            given.clear();
-            given.extend(curves.iter().map(|curve| curve.contrast));
-            for (other, curve) in curves.iter_mut().enumerate() {
-                curve.contrast = contrasts(other);
-            }
-            let outside = |other: usize| {
-                1.0 + std::iter::successors(around[other], |&outer| around[outer]).map(contrasts).sum::<f64>()
-            };
-            let mut failure = None;
-            for motion in RIGID * index..RIGID * (index + 1) {
-                let Some(weighted) = rigid.weighted(nodes).nth(motion) else { continue };
-                right.copy_from_slice(weighted);
-                // Other eigenvalues of K are about one half.
-                let product = |q: &[f64], out: &mut [f64], _: f64| {
-                    matrix.transposed_product(curves, q, out);
-                    for (other, curve) in curves.iter().enumerate() {
-                        let (shift, contrast) = (2.0 * (outside(other) - eigenvalue), 2.0 * curve.contrast);
-                        curve.entries(nodes).for_each(|i| out[i] = shift * q[i] + contrast * out[i]);
+        // Any viscosities inside have these left eigenvectors.
+        given.clear();
+        given.extend(curves.iter().map(|curve| curve.contrast));
+        curves.iter_mut().for_each(|curve| curve.contrast = 1.0);
+        let mut failure = None;
+        for (weighted, column) in rigid.weighted(nodes).zip(left.chunks_exact_mut((2 * nodes).max(1))) {
+            right.copy_from_slice(weighted);
+            // Other eigenvalues of K are about one half.
+            let product = |q: &[f64], out: &mut [f64], _: f64| {
+                matrix.transposed_product(curves, q, out);
+                out.iter_mut().for_each(|out| *out *= 2.0);
+                for (motion, weighted) in rigid.motions(nodes).zip(rigid.weighted(nodes)) {
+                    let amount = dot(motion, q);
+                    for (out, weighted) in out.iter_mut().zip(weighted) {
+                        *out += amount * weighted;
                     }
-                    let modes = rigid.motions(nodes).zip(rigid.weighted(nodes)).enumerate();
-                    for (_, (motion, weighted)) in modes.filter(|(number, _)| beside(number / RIGID)) {
-                        let amount = dot(motion, q);
-                        for (out, weighted) in out.iter_mut().zip(weighted) {
-                            *out += amount * weighted;
-                        }
-                    }
-                };
-                let column = &mut left[len * motion..len * (motion + 1)];
-                let outcome = gmres.solve(product, right, column, TOLERANCE, MOST_ITERATIONS);
-                match check("the rigid motions of droplets of another viscosity", outcome) {
-                    Ok(outcome) => iterations += outcome.iterations,
-                    Err(error) => failure = Some(error),
                 }
+            };
+            let outcome = gmres.solve(product, right, column, TOLERANCE, MOST_ITERATIONS);
+            match check("the rigid motions of droplets of another viscosity", outcome) {
+                Ok(outcome) => iterations += outcome.iterations,
+                Err(error) => failure = Some(error),
             }
-            for (curve, contrast) in curves.iter_mut().zip(&*given) {
-                curve.contrast = *contrast;
-            }
-            failure.map_or(Ok(()), Err)?;
         }
+        for (curve, contrast) in curves.iter_mut().zip(&*given) {
+            curve.contrast = *contrast;
+        }
+        failure.map_or(Ok(()), Err)?;
         Ok(iterations)
     }
 

@@ -121,8 +121,13 @@ impl<S: StokesSolver, K: Kernel + Clone> ImmersedLayers<S, K> {
         Ok(report)
     }
 
-    /// The flow on the grid of the forces on inner points alone.
+    /// The flow on the grid of the forces on inner points alone, and what drives it.
     fn solve_inner(&mut self, forces: &[Vec2]) -> Result<SolveReport, FlowError> {
+        if self.curves.inner.is_empty() && matches!(self.solver.drive(), Drive::ZeroGradient | Drive::ZeroFlux) {
+            self.density.fill(0.0);
+            self.velocity.fill(0.0);
+            return Ok(SolveReport::default());
+        }
         self.values.clear();
         self.values.extend(self.curves.inner.iter().map(|marker| forces[*marker]));
         self.density.fill(0.0);

@@ -117,18 +117,12 @@ impl Contrast {
         })
     }
 
-    /// The innermost droplet that a point lies in.
+    /// The droplet that a point lies in.
     pub(crate) fn droplet_at(&self, point: Vec2) -> Option<usize> {
-        self.innermost(point, None)
-    }
-
-    /// The innermost droplet, but that one, that a point lies in.
-    pub(super) fn innermost(&self, point: Vec2, but: Option<usize>) -> Option<usize> {
-        let around = self.curves.iter().enumerate().filter(|(index, curve)| {
+        self.curves.iter().position(|curve| {
             let relative = self.matrix.wrap(point - curve.centre);
-            but != Some(*index) && relative.length() <= curve.radius && curve.contains(relative)
-        });
-        around.min_by(|a, b| a.1.radius.total_cmp(&b.1.radius)).map(|(index, _)| index)
+            relative.length() <= curve.radius && curve.contains(relative)
+        })
     }
 
     /// What the pressure inside each droplet exceeds that of the fluid of one viscosity times the ratio of viscosities
@@ -138,9 +132,7 @@ impl Contrast {
     /// of both sides, `at_nodes`, less q_n/2, and outside more by it. The normal stresses balance, with
     /// `n . dv/dn = -tau . dv/ds` in an incompressible flow, so that on the interface
     ///
-    /// `p_in = p_out - F_n - 2 (eta_in - eta_out) tau . dv/ds`,
-    ///
-    /// p_out that of the fluid of one viscosity, or that inside the droplet around.
+    /// `p_in = p_out - F_n - 2 (eta_in - eta_out) tau . dv/ds`.
     pub(crate) fn pressure_offsets(
         &self,
         at_nodes: &[f64],
@@ -148,7 +140,7 @@ impl Contrast {
         forces: &[Vec2],
         velocities: &[Vec2],
     ) -> Vec<f64> {
-        let offset = |curve: &NodeCurve, around: f64| {
+        let offset = |curve: &NodeCurve| {
             let count = curve.len();
             let mut sum = 0.0;
             for (k, (normal, weight)) in curve.normals.iter().zip(&curve.weights).enumerate() {
@@ -159,22 +151,13 @@ impl Contrast {
                 // Times the arc length.
                 let (q, f) = (equivalent[i].dot(unit), forces[i].dot(unit));
                 let stretching = 0.5 * (velocities[at(1)] - velocities[at(count - 1)]).dot(tangent);
-                let [inside, outside] = [curve.outside + curve.contrast, curve.outside].map(|eta| eta / self.viscosity);
+                let inside = 1.0 + curve.contrast / self.viscosity;
                 let mean = weight * at_nodes[i];
-                let out = outside * (mean + 0.5 * q) + weight * around;
-                sum += out - f - 2.0 * curve.contrast * stretching - inside * (mean - 0.5 * q);
+                sum += mean + 0.5 * q - f - 2.0 * curve.contrast * stretching - inside * (mean - 0.5 * q);
             }
             sum / curve.perimeter()
         };
-        // From the outermost droplets inwards.
-        let depth = |index: usize| std::iter::successors(self.around[index], |&outer| self.around[outer]).count();
-        let mut order: Vec<usize> = (0..self.curves.len()).collect();
-        order.sort_by_key(|&index| depth(index));
-        let mut offsets = vec![0.0; order.len()];
-        for index in order {
-            offsets[index] = offset(&self.curves[index], self.around[index].map_or(0.0, |outer| offsets[outer]));
-        }
-        offsets
+        self.curves.iter().map(offset).collect()
     }
 }
 

@@ -1,25 +1,25 @@
 //! Rigid motions of droplets: the modes in which a stiff droplet answers with the viscosity of the exterior fluid.
 
-use stokes_layers::dense::{DoubleLayerMatrix, NodeCurve};
+use stokes_layers::dense::NodeCurve;
 
 use crate::Vec2;
 
 /// Rigid motions of one droplet: along x, along y, and a rotation.
 pub(super) const RIGID: usize = 3;
 
-/// Rigid motions of droplets with all that is inside of them on the nodes of all, orthonormal in the product weighted
-/// by the arc length of the droplet; x components of all nodes first, then y components.
+/// Rigid motions of droplets on the nodes of all, orthonormal in the product weighted by arc length; x components of all
+/// nodes first, then y components.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RigidModes {
-    /// Motion by motion, with zeros on what is outside of the droplet.
+    /// Motion by motion, with zeros on all but one droplet.
     motions: Vec<f64>,
-    /// The same times the weights, with zeros on what is not the droplet.
+    /// The same times the weights.
     weighted: Vec<f64>,
 }
 
 impl RigidModes {
-    /// For curves that lie in those that `around` tells.
-    pub(crate) fn fill(&mut self, matrix: &DoubleLayerMatrix, curves: &[NodeCurve], around: &[Option<usize>]) {
+    /// For these curves.
+    pub(crate) fn fill(&mut self, curves: &[NodeCurve]) {
         let nodes: usize = curves.iter().map(NodeCurve::len).sum();
         let len = 2 * nodes * RIGID * curves.len();
         for array in [&mut self.motions, &mut self.weighted] {
@@ -34,21 +34,12 @@ impl RigidModes {
             let scales = [1.0 / perimeter.sqrt(), 1.0 / perimeter.sqrt(), 1.0 / moment.sqrt()];
             for (motion, scale) in scales.into_iter().enumerate() {
                 let start = 2 * nodes * (RIGID * index + motion);
-                for (number, moved) in curves.iter().enumerate() {
-                    let mut holders = std::iter::successors(Some(number), |&inner| around[inner]);
-                    if !holders.any(|holder| holder == index) {
-                        continue;
-                    }
-                    let offset = matrix.wrap(moved.centre - curve.centre) - centre;
-                    for (i, (x, w)) in (moved.first..).zip(moved.positions.iter().zip(&moved.weights)) {
-                        let r = x + offset;
-                        let [u, v] = [[1.0, 0.0], [0.0, 1.0], [-r.y, r.x]][motion];
-                        for (component, value) in [(0, u), (nodes, v)] {
-                            self.motions[start + component + i] = scale * value;
-                            if number == index {
-                                self.weighted[start + component + i] = scale * value * w;
-                            }
-                        }
+                for (i, (x, w)) in (curve.first..).zip(curve.positions.iter().zip(&curve.weights)) {
+                    let r = x - centre;
+                    let [u, v] = [[1.0, 0.0], [0.0, 1.0], [-r.y, r.x]][motion];
+                    for (component, value) in [(0, u), (nodes, v)] {
+                        self.motions[start + component + i] = scale * value;
+                        self.weighted[start + component + i] = scale * value * w;
                     }
                 }
             }

@@ -71,12 +71,12 @@ impl<K: Kernel> ContrastFlow<K> {
     }
 
     /// The stresslet of the flow around a droplet; `None` for markers that are no droplet of a larger viscosity: for a
-    /// smaller one forces and velocities give it without a loss. `None` too where droplets lie inside each other.
+    /// smaller one forces and velocities give it without a loss.
     pub(super) fn stresslet(&self, group: usize) -> Result<Option<[[f64; 2]; 2]>, FlowError> {
         let Some(index) = self.contrast.droplets().iter().position(|droplet| droplet.group == group) else {
             return Ok(None);
         };
-        if self.contrast.curves()[index].contrast <= 0.0 || self.contrast.is_nested() {
+        if self.contrast.curves()[index].contrast <= 0.0 {
             return Ok(None);
         }
         let Nodes { forces, other, velocities, .. } = &self.nodes;

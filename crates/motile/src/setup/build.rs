@@ -51,7 +51,9 @@ impl Setup {
     pub fn build(&self) -> Result<Built, SetupError> {
         self.check()?;
         let keyed = |body: usize| move |error: SetupError| error.of(&self.key(body));
-        let droplets = self.droplets.iter().enumerate().map(|(k, droplet)| self.droplet(droplet).map_err(keyed(k)));
+        let layers = self.has_layers();
+        let droplet = |(k, droplet)| self.placed(droplet, layers).map_err(keyed(k));
+        let droplets = self.droplets.iter().enumerate().map(droplet);
         let droplets = droplets.collect::<Result<Vec<_>, _>>()?;
         let solids = || self.solids.iter().zip(self.droplets.len()..);
         let regions = solids().map(|(solid, k)| solid.enclosed(&self.region).map_err(keyed(k)));
@@ -60,7 +62,7 @@ impl Setup {
         let bodies = self.rigid_bodies.iter().enumerate().map(|(k, body)| body.build(self).map_err(keyed(first + k)));
         let bodies = bodies.collect::<Result<Vec<_>, _>>()?;
         let first = first + bodies.len();
-        let shells = self.shells.iter().enumerate().map(|(k, shell)| shell.build(self).map_err(keyed(first + k)));
+        let shells = self.shells.iter().enumerate().map(|(k, s)| s.build(self, layers).map_err(keyed(first + k)));
         let shells = shells.collect::<Result<Vec<_>, _>>()?;
         self.check_places(&droplets, &regions, &bodies, &shells, &flow)?;
         let solids = solids().map(|(solid, k)| solid.build(self).map_err(keyed(k))).collect::<Result<Vec<_>, _>>()?;
@@ -96,6 +98,11 @@ impl Setup {
     /// # Errors
     /// Parameters out of their range.
     pub fn droplet(&self, droplet: &DropletSetup) -> Result<ActiveDroplet, SetupError> {
+        self.placed(droplet, self.has_layers())
+    }
+
+    /// A droplet, of as many markers as a layer has or as a grid alone needs.
+    fn placed(&self, droplet: &DropletSetup, layers: bool) -> Result<ActiveDroplet, SetupError> {
         let shape = self.shape(droplet)?;
         let (curve, turned, round) = shape.curve()?;
         let centre = Vec2::new(droplet.centre[0], droplet.centre[1]);
@@ -103,7 +110,7 @@ impl Setup {
             if turned { curve.rotated(droplet.angle).translated(centre) } else { curve.translated(centre) }
         };
         let curve = placed(curve, turned);
-        let markers = curve.markers(self.marker_count(&curve, &droplet.name)?)?;
+        let markers = curve.markers(self.marker_count(&curve, &droplet.name, layers)?)?;
         let made = match &droplet.particles {
             None => ActiveDroplet::passive(&markers, droplet.tension)?,
             Some(particles) => {
@@ -135,7 +142,7 @@ impl Setup {
         let motion = match droplet.motion {
             MarkerMotion::WithFluid => Motion::WithFluid,
             MarkerMotion::Equidistributed { relaxation } => {
-                let filter = !matches!(&self.method, Method::Grid(grid) if !grid.filter || self.has_layers());
+                let filter = !matches!(&self.method, Method::Grid(grid) if !grid.filter || layers);
                 Motion::Equidistributed { relaxation, filter }
             }
         };
@@ -146,12 +153,10 @@ impl Setup {
         })
     }
 
-    /// How many markers the outline of a body has.
-    pub(super) fn marker_count(&self, curve: &Curve, name: &str) -> Result<usize, SetupError> {
+    /// How many markers the outline of a body has, as a layer or on a grid alone.
+    pub(super) fn marker_count(&self, curve: &Curve, name: &str, layers: bool) -> Result<usize, SetupError> {
         Ok(match &self.method {
-            Method::Grid(GridMethod { layers: IntegralMethod { nodes, cells }, .. }) if self.has_layers() => {
-                *(cells.max(nodes))
-            }
+            Method::Grid(GridMethod { layers: IntegralMethod { nodes, cells }, .. }) if layers => *(cells.max(nodes)),
             Method::Integral(IntegralMethod { nodes, cells }) => *(cells.max(nodes)),
             Method::Grid(grid) => {
                 let spacing = grid.marker_spacing.unwrap_or(0.5 * grid.spacing);
@@ -211,9 +216,12 @@ impl Setup {
         }))
     }
 
-    /// Whether interfaces and the surfaces of solids are layers, as they are beside rigid bodies.
+    /// Whether interfaces and the surfaces of solids are layers, as they are beside rigid bodies and where interfaces
+    /// between different viscosities lie in one another.
     pub(super) fn has_layers(&self) -> bool {
-        !self.rigid_bodies.is_empty() || self.solids.iter().any(|solid| solid.surface == Surface::Layer)
+        let sharp = matches!(&self.method, Method::Grid(GridMethod { contrast: Contrast::Sharp, .. }));
+        let solids = self.solids.iter().any(|solid| solid.surface == Surface::Layer);
+        !self.rigid_bodies.is_empty() || solids || sharp && self.solids.is_empty() && self.is_nested()
     }
 
     /// Whether there is fluid of another viscosity than the exterior one.

@@ -163,7 +163,9 @@ impl Setup {
         if grid.contrast == Contrast::Arithmetic {
             checked.refuse("contrast", &"arithmetic", "layers have none: give sharp, or plain surfaces of solids")?;
         }
-        if let AnyKernel::Peskin4 | AnyKernel::Roma3 | AnyKernel::Gaussian6 = grid.kernel {
+        if let (AnyKernel::Peskin4 | AnyKernel::Roma3 | AnyKernel::Gaussian6, false) =
+            (grid.kernel, self.solids.is_empty())
+        {
             let remedy = "solids lose volume to layers with it: give a composite B-spline, such as bspline4, or plain \
                           surfaces of solids";
             checked.refuse("kernel", &format!("{:?}", grid.kernel), remedy)?;

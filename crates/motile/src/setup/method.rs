@@ -79,14 +79,15 @@ pub struct GridMethod {
     pub kernel: AnyKernel,
     /// Whether interface velocities are corrected to second order ([`ib_core::ImmersedBoundary`]). Needs markers of
     /// equal spacing ([`crate::MarkerMotion::Equidistributed`]), and a sharp contrast where viscosities differ.
-    /// Concerns scenes without solids only.
+    /// Concerns scenes without layers only.
     pub corrected: bool,
     /// Whether modes of an interface that are shorter than the kernel are filtered after each step; without it they
     /// grow in long runs. Concerns markers of equal spacing only.
     pub filter: bool,
     /// How interfaces between fluids of different viscosity are treated.
     pub contrast: Contrast,
-    /// Resolution of interfaces where surfaces of solids are layers ([`crate::Surface::Layer`]), in place of
+    /// Resolution of interfaces where they are layers: where surfaces of solids are ([`crate::Surface::Layer`]), beside
+    /// rigid bodies, and where interfaces between different viscosities lie in one another. Takes the place of
     /// corrections, filter and marker spacing. Concerns no other scenes.
     pub layers: IntegralMethod,
 }

@@ -5,8 +5,11 @@ use elastic_solids::{Interior, RigidBody, Shell};
 use ib_core::gap::{Boundary, Gaps, Overlap};
 use ib_core::{Body, Hydrodynamics, MarkerKind, Vec2};
 
-use super::{AnyFlow, DropletSetup, Region, RigidBodySetup, Setup, ShellSetup, SolidSetup};
+use super::{AnyFlow, DropletSetup, DropletShape, Region, RigidBodySetup, Setup, ShellSetup, SolidSetup};
 use crate::SetupError;
+
+/// Corners of an outline by which is told what lies in what.
+const CORNERS: usize = 128;
 
 impl Setup {
     /// Refuses bodies that reach beyond the region, overlap their own images, or lie in one another as they
@@ -57,6 +60,36 @@ impl Setup {
                 Err(SetupError::Overlap { key, other, x, y, depth, allowed })
             }
         }
+    }
+
+    /// Whether an interface lies in another one in fluid of more than one viscosity, which a grid alone does not have;
+    /// shapes that are refused later are left out.
+    pub(super) fn is_nested(&self) -> bool {
+        if !self.has_contrast() {
+            return false;
+        }
+        let droplets = self.droplets.iter().map(|droplet| (&droplet.shape, droplet.centre, droplet.angle));
+        let shells = self.shells.iter().map(|shell| (&shell.shape, shell.centre, shell.angle));
+        let outline = |(shape, centre, angle): (&DropletShape, [f64; 2], f64)| {
+            let curve = shape.curve().ok()?.0.rotated(angle).translated(centre.into());
+            let corner = |k: usize| curve.point(k as f64 / CORNERS as f64);
+            let corners: Vec<Vec2> = (0..CORNERS).map(corner).filter(|corner| corner.is_finite()).collect();
+            let mut boundary = Boundary::default();
+            boundary.push_loop(&corners);
+            boundary.sort();
+            Some((*corners.first()?, boundary))
+        };
+        let outlines: Vec<(Vec2, Boundary)> = droplets.chain(shells).filter_map(outline).collect();
+        let periods = match self.region {
+            Region::Plane => [None, None],
+            Region::Box { lengths: [x, y] } => [Some(x), Some(y)],
+            Region::Channel { length, .. } => [Some(length), None],
+        };
+        let pairs = outlines.iter().enumerate().flat_map(|(k, inner)| {
+            outlines.iter().enumerate().filter(move |(other, _)| *other != k).map(move |(_, outer)| (inner, outer))
+        });
+        let mut pairs = pairs.map(|((corner, _), (_, outer))| outer.distance(*corner, periods));
+        pairs.any(|distance| distance < 0.0)
     }
 
     /// Where a body stands in the description, droplets first, with its name if it has one of its own.

@@ -57,7 +57,8 @@ impl RigidBodySetup {
     }
 
     pub(super) fn build(&self, setup: &Setup) -> Result<RigidBody, SetupError> {
-        let markers = setup.outline(&self.shape, self.centre, self.angle, &self.name)?;
+        let curve = self.shape.curve()?.0.rotated(self.angle).translated(self.centre.into());
+        let markers = curve.markers(setup.marker_count(&curve, &self.name, true)?)?;
         Ok(RigidBody::new(&markers)?.named(&self.name).with_load(Vec2::from(self.force), self.torque)?)
     }
 }

@@ -1,7 +1,6 @@
 //! Descriptions of elastic membranes around fluid.
 
 use elastic_solids::{BendingMeasure, Shell};
-use ib_core::Vec2;
 use serde::{Deserialize, Serialize};
 
 use super::{DropletShape, Setup};
@@ -53,8 +52,9 @@ impl ShellSetup {
     /// Its name unless it has one of its own.
     pub(super) const NAME: &str = "shell";
 
-    pub(super) fn build(&self, setup: &Setup) -> Result<Shell, SetupError> {
-        let markers = setup.outline(&self.shape, self.centre, self.angle, &self.name)?;
+    pub(super) fn build(&self, setup: &Setup, layers: bool) -> Result<Shell, SetupError> {
+        let curve = self.shape.curve()?.0.rotated(self.angle).translated(self.centre.into());
+        let markers = curve.markers(setup.marker_count(&curve, &self.name, layers)?)?;
         let mut shell = Shell::new(&markers, self.stretching, self.bending)?.named(&self.name);
         if let Some(curvature) = self.reference_curvature {
             shell = shell.with_reference_curvature(curvature)?;
@@ -63,19 +63,5 @@ impl ShellSetup {
             shell = shell.with_viscosity_inside(viscosity)?;
         }
         Ok(shell.with_measure(self.measure))
-    }
-}
-
-impl Setup {
-    /// Markers of a body's outline (length).
-    pub(super) fn outline(
-        &self,
-        shape: &DropletShape,
-        centre: [f64; 2],
-        angle: f64,
-        name: &str,
-    ) -> Result<Vec<Vec2>, SetupError> {
-        let curve = shape.curve()?.0.rotated(angle).translated(Vec2::from(centre));
-        Ok(curve.markers(self.marker_count(&curve, name)?)?)
     }
 }

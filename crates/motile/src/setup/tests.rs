@@ -2,7 +2,7 @@ use active_interface::curve::polygon_moments;
 use ib_core::{Body, Handle, StepSize, Vec2};
 use stokes_grid::Drive;
 
-use interior_fields::{Anchoring, DirectorStart, GelMaterial};
+use interior_fields::{DirectorStart, GelMaterial};
 
 use super::*;
 use crate::ChannelShape;

@@ -20,7 +20,7 @@ fn three_rigid_motions_of_each_droplet() {
         curve.load(&matrix, first, [2.0, 1.0], positions).unwrap();
     }
     let (mut modes, nodes) = (RigidModes::default(), 96);
-    modes.fill(&matrix, &curves, &[None, None]);
+    modes.fill(&curves);
     for (i, motion) in modes.motions(nodes).enumerate() {
         for (j, weighted) in modes.weighted(nodes).enumerate() {
             let product: f64 = motion.iter().zip(weighted).map(|(a, b)| a * b).sum();

@@ -2,8 +2,8 @@ use std::f64::consts::TAU;
 
 use crate::gap::{Boundary, SolidGap};
 use crate::{
-    Body, BodyError, CubicQuadratic, Discretisation, ImmersedBoundary, MarkerBody, MarkerKind, Observer, Repulsion,
-    Scene, SceneError, StepSize, Vec2,
+    Body, BodyError, CubicQuadratic, Discretisation, ImmersedBoundary, ImmersedLayers, MarkerBody, MarkerKind,
+    Observer, Repulsion, Scene, SceneError, StepSize, Vec2,
 };
 use stokes_grid::{Grid, PeriodicStokes};
 
@@ -15,8 +15,15 @@ fn scene() -> Scene<Flow> {
     Scene::new(ImmersedBoundary::new(solver, CubicQuadratic::default())).with_step_size(StepSize::Fixed(0.05))
 }
 
+/// The same with interfaces as layers of 16 nodes.
+fn layers() -> Scene<ImmersedLayers<PeriodicStokes, CubicQuadratic>> {
+    let solver = PeriodicStokes::new(Grid::periodic(32, 32, 0.1).unwrap(), 10.0).unwrap();
+    let flow = ImmersedLayers::new(solver, CubicQuadratic::default(), 16, 1e-6).unwrap();
+    Scene::new(flow).with_step_size(StepSize::Fixed(0.05))
+}
+
 fn circle(centre: Vec2, radius: f64) -> Vec<Vec2> {
-    let count = (TAU * radius / 0.08).ceil();
+    let count = (TAU * radius / 0.08).ceil().max(16.0);
     (0..count as usize)
         .map(|k| centre + radius * Vec2::new((TAU * k as f64 / count).cos(), (TAU * k as f64 / count).sin()))
         .collect()
@@ -67,7 +74,7 @@ impl Body for Disc {
 #[test]
 fn bodies_know_the_fluid_around_them() {
     for place in [Vec2::ZERO, Vec2::new(0.6, 0.0), Vec2::new(-3.2, 3.2 + 0.3)] {
-        let mut scene = scene();
+        let mut scene = layers();
         let inmost = scene.add(ring("inmost", place, 0.12, Some(7.0), Vec2::ZERO));
         let outer = scene.add(ring("outer", Vec2::ZERO, 1.0, Some(100.0), Vec2::ZERO));
         let inner = scene.add(ring("inner", place, 0.3, None, Vec2::ZERO));
@@ -112,7 +119,7 @@ fn crossing_out_of_an_interface_is_the_error() {
 
 #[test]
 fn a_jump_into_another_interface_ends_the_run() {
-    let mut scene = scene().with_step_size(StepSize::Fixed(1.0));
+    let mut scene = layers().with_step_size(StepSize::Fixed(1.0));
     scene.add(ring("outer", Vec2::ZERO, 1.0, None, Vec2::ZERO));
     scene.add(ring("third", Vec2::new(-0.3, 0.0), 0.25, Some(2.0), Vec2::ZERO));
     // It crosses the film between the two in one step, half of which would end in it.
