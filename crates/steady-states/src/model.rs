@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use fourier::PeriodicSeries;
 use motile::active_interface::{ContractileTension, Tension};
-use motile::ib_core::Vec2;
+use motile::ib_core::{FlowSample, Vec2};
 use motile::{DropletSetup, DropletShape, Method, Particles, Region, RigidBodySetup, Setup};
 use num_complex::Complex64;
 use stokes_layers::{Interface, InterfaceFlow, PeriodicCalculus, Settings, TensionPlacement};
@@ -212,6 +212,13 @@ impl Model {
             nucleus.velocity = self.flow.rigid_motion(1 + k).map_or(Vec2::ZERO, |motion| motion.velocity);
         }
         Ok(self.flow.velocities(0, &mut self.velocities)?)
+    }
+
+    /// The flow at points, of the state that was taken over.
+    pub(crate) fn sample(&mut self, points: &[Vec2]) -> Result<Vec<FlowSample>, SteadyError> {
+        let mut samples = vec![FlowSample::default(); points.len()];
+        self.flow.sample(points, &mut samples)?;
+        Ok(samples)
     }
 
     /// Derivative of the area by each offset, and of the number of particles by each density, times N/(2 pi).

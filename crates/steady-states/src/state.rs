@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use motile::active_interface::observables::InterfaceState;
 use motile::active_interface::{Convention, Observables, observe};
-use motile::ib_core::{Vec2, input::same_length};
+use motile::ib_core::{FlowSample, Vec2, input::same_length};
 use motile::{DropletShape, Region, Setup};
 
 use crate::model::FrameMotion;
@@ -334,6 +334,17 @@ impl SteadyState {
             centroid: moments.centroid,
             least_curvature: self.profile.least_curvature()?,
         })
+    }
+
+    /// Velocity, its gradient and the pressure at points (length), inside the droplet and outside of it, at any distance
+    /// from the interface, in the frame of the laboratory, to spectral accuracy.
+    ///
+    /// # Errors
+    /// Points that are not finite; a flow that cannot be solved for.
+    pub fn sample(&self, points: &[Vec2]) -> Result<Vec<FlowSample>, SteadyError> {
+        let mut system = System::new(&self.setup)?;
+        system.load(&self.point)?;
+        system.model.sample(points)
     }
 
     /// All observables of a run ([`Observables::get`] has them by name), from markers between the nodes, of second

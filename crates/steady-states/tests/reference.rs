@@ -138,3 +138,38 @@ fn a_start_from_a_run_that_is_not_quite_straight_leads_to_the_straight_swimmer()
         assert!(found.velocity().y.abs() < 1e-8, "{mirror}: {}", found.velocity());
     }
 }
+
+/// Far away in unbounded fluid the flow is that of the stresslet, u = x (x . S x)/(2 pi eta r^4), and what remains of it
+/// falls by the distance; at the front of the droplet it is the droplet's.
+#[test]
+fn the_flow_around_a_swimmer() {
+    let droplet = DropletSetup { viscosity: Some(100.0), ..DropletSetup::active(-1.5) };
+    let setup = Setup {
+        method: nodes(96),
+        region: Region::Plane,
+        viscosity: 50.0,
+        droplets: vec![droplet],
+        ..Setup::default()
+    };
+    let state = SteadyState::find(&setup).unwrap();
+    let seen = state.measured().unwrap();
+    let heading = state.velocity().normalize();
+    let far = [20.0, 40.0, 80.0];
+    let points = far.map(|r| seen.centroid + r * heading);
+    let samples = state.sample(&points).unwrap();
+    let errors: Vec<f64> = far
+        .iter()
+        .zip(&samples)
+        .map(|(r, sample)| {
+            let expected = seen.stresslet / (std::f64::consts::TAU * 50.0 * r);
+            sample.velocity.dot(heading) / expected - 1.0
+        })
+        .collect();
+    let [near, middle, far] = [errors[0], errors[1], errors[2]];
+    assert!((near / middle - 2.0).abs() < 0.02 && (2.0 * far - middle).abs() < 1e-3, "{errors:?}");
+    let front = |point: &&Vec2| (**point - seen.centroid).dot(heading);
+    let foremost = state.profile().positions.iter().max_by(|a, b| front(a).total_cmp(&front(b))).unwrap();
+    let there = state.sample(&[*foremost]).unwrap()[0].velocity;
+    assert!((there - state.velocity()).length() < 1e-3 * seen.speed, "{there} {}", state.velocity());
+    assert!(state.sample(&[Vec2::NAN]).is_err());
+}

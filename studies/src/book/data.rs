@@ -4,7 +4,9 @@ use std::path::Path;
 
 use anyhow::{Context, Result, ensure};
 use motile::Setup;
+use motile::ib_core::Vec2;
 use motile_examples::{Summary, explained, make_directory, say};
+use motile_output::{Raster, Samples};
 use serde::Deserialize;
 use serde_json::Value;
 use steady_states::SteadyState;
@@ -17,6 +19,16 @@ use crate::sweep::plan::Plan;
 use crate::sweep::trial::{State, Trial};
 use crate::tables;
 
+/// Where on a swimmer's axis the flow is looked at: distances from the interface (length), each that times the last.
+const NEAREST: f64 = 0.01;
+const APART: f64 = 1.1;
+const FARTHEST: f64 = 50.0;
+/// The square around a swimmer with streamlines in it, its cells, the distance of the lines (length), and which of their
+/// points are kept.
+const FIELD: f64 = 6.0;
+const FIELD_CELLS: usize = 120;
+const LINES_APART: f64 = 0.5;
+const POINT_OF_LINE: usize = 3;
 /// Longest text that becomes a name.
 const LONGEST: usize = 40;
 
@@ -35,6 +47,9 @@ pub(super) struct Source {
     /// Steady states of the plan's points rather than runs.
     #[serde(default)]
     steady: bool,
+    /// With streamlines around them, in the frame of the laboratory.
+    #[serde(default)]
+    streamlines: bool,
     /// A scheme that the plan's scene starts from.
     #[serde(default)]
     preset: Option<Preset>,
@@ -125,6 +140,7 @@ impl Source {
         }
         let trials = trials.into_iter().filter(|trial| !matches!(trial.state(), State::Failed(_))).collect();
         let pool = RunPool::new(&folder, making.threads, making.quiet)?;
+        let steady = |trial: &Trial| steady(trial, self.streamlines);
         let make = |trial: &Trial| if self.steady { trial.keep(steady) } else { trial.run() };
         let (done, failures) = pool.study(trials, |trial| format!("{}/summary", trial.label), make);
         for failure in failures {
@@ -141,8 +157,47 @@ impl Source {
     }
 }
 
+/// Where on the axis of a swimmer, ahead of it and behind it, the fluid is at rest: the least distance from the interface
+/// (length), as far as fluid of its own is; nothing where it is nowhere.
+fn stagnation(state: &SteadyState) -> Result<[Option<f64>; 2]> {
+    let heading = state.velocity().normalize_or_zero();
+    let along = |x: &Vec2| x.dot(heading);
+    let places = state.profile().positions.iter().map(along);
+    let [rear, front] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    let centre = state.measured()?.centroid;
+    let free = state.setup().region.lengths()[0] - (front - rear);
+    let reach = (0.5 * free).min(FARTHEST);
+    let distances: Vec<f64> =
+        std::iter::successors(Some(NEAREST), |d| Some(d * APART)).take_while(|d| *d < reach).collect();
+    let side = |start: f64, sign: f64| -> Result<Option<f64>> {
+        let points: Vec<Vec2> =
+            distances.iter().map(|d| centre + (start + sign * d - along(&centre)) * heading).collect();
+        let speeds: Vec<f64> = state.sample(&points)?.iter().map(|sample| along(&sample.velocity)).collect();
+        let pairs = distances.windows(2).zip(speeds.windows(2));
+        let mut crossings = pairs.filter(|(_, u)| u[0] * u[1] <= 0.0);
+        Ok(crossings.next().map(|(d, u)| d[0] + (d[1] - d[0]) * u[0] / (u[0] - u[1])))
+    };
+    Ok([side(front, 1.0)?, side(rear, -1.0)?])
+}
+
+/// Streamlines around a swimmer, from its centroid, to a thousandth of its radius (length).
+fn streamlines(state: &SteadyState) -> Result<[Vec<Vec<f64>>; 2]> {
+    let centre = state.measured()?.centroid;
+    let corner = centre - Vec2::splat(0.5 * FIELD);
+    let raster = Raster::new(corner.into(), [FIELD; 2], [FIELD_CELLS; 2], [false; 2])?;
+    let velocities = state.sample(&raster.points())?.into_iter().map(|sample| sample.velocity).collect();
+    let lines = motile_output::streamlines(&Samples::new(raster, velocities)?, LINES_APART, centre)?;
+    let every = |line: &[Vec2]| -> Vec<Vec2> {
+        let last = line.last().copied();
+        line.iter().copied().step_by(POINT_OF_LINE).chain(last).map(|x| ((x - centre) * 1e3).round() * 1e-3).collect()
+    };
+    let lines: Vec<Vec<Vec2>> = lines.iter().map(|line| every(line)).collect();
+    let component = |of: fn(&Vec2) -> f64| lines.iter().map(|line| line.iter().map(of).collect()).collect();
+    Ok([component(|x| x.x), component(|x| x.y)])
+}
+
 /// The steady swimmer of a run's scene and all that is known of it.
-fn steady(trial: &Trial) -> Result<Summary> {
+fn steady(trial: &Trial, lines: bool) -> Result<Summary> {
     let started = std::time::Instant::now();
     let state = SteadyState::find(&trial.setup)?;
     let mut summary = Summary::default();
@@ -162,6 +217,14 @@ fn steady(trial: &Trial) -> Result<Summary> {
         ("last_modes", state.tail()),
     ] {
         summary.put(name, value, "");
+    }
+    for (name, distance) in ["stagnation_ahead", "stagnation_behind"].into_iter().zip(stagnation(&state)?) {
+        summary.put(name, distance, "");
+    }
+    if lines {
+        for (name, list) in ["streamlines_x", "streamlines_y"].into_iter().zip(streamlines(&state)?) {
+            summary.put(name, list, "");
+        }
     }
     let (x, y): (Vec<f64>, Vec<f64>) =
         state.profile().positions.iter().map(|x| *x - seen.centroid).map(|x| (x.x, x.y)).unzip();

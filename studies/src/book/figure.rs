@@ -102,7 +102,8 @@ struct Curve {
 struct Points {
     /// Which data; the first if nothing is said.
     data: Option<String>,
-    /// Expressions: one, or several points of each row; `name_*` is `name_0`, `name_1` ...
+    /// Expressions: one, or several points of each row; `name_*` is `name_0`, `name_1` ..., and `name_*_*` several such
+    /// lists, each a line of its own.
     x: Several,
     y: Several,
     by: Option<String>,
@@ -195,10 +196,11 @@ impl Figure {
                     let label = curve.label.replace("{}", &shown(group).replace('-', "−"));
                     let colour = SERIES_COLOURS[own % SERIES_COLOURS.len()];
                     let points = if panel.shapes { points } else { means(&points) };
-                    for (x, y, deviation) in &points {
+                    for (x, y, deviation) in points.iter().filter(|(x, ..)| x.is_finite()) {
                         table += &format!("{},{},{},{x},{y},{deviation}\n", k + 1, curve.label, shown(group));
                     }
-                    let again = points.first().filter(|_| panel.shapes);
+                    let closed = panel.shapes && points.iter().all(|(x, ..)| x.is_finite());
+                    let again = points.first().filter(|_| closed);
                     let line = points.iter().chain(again).map(|(x, y, _)| (*x, *y));
                     let series = match (curve.line, curve.dashed) {
                         (_, true) => Series::line(&label, line).dashed(),
@@ -242,19 +244,28 @@ impl Figure {
         let several = |which: &Several| -> Result<Vec<Expression>> {
             let texts = match which {
                 Several::List(list) => list.clone(),
-                Several::One(text) => match text.strip_suffix('*') {
-                    Some(stem) => {
-                        let names = (0..MOST_POINTS).map(|k| format!("{stem}{k}"));
-                        names.take_while(|name| known.contains(name.as_str())).collect()
+                Several::One(text) => {
+                    let list = |stem: String| {
+                        let names = (0..MOST_POINTS).map(move |k| format!("{stem}{k}"));
+                        names.take_while(|name| known.contains(name.as_str()))
+                    };
+                    match (text.strip_suffix("*_*"), text.strip_suffix('*')) {
+                        (Some(stem), _) => {
+                            let lists = (0..MOST_POINTS).map(|k| list(format!("{stem}{k}_")).collect::<Vec<_>>());
+                            let lists = lists.take_while(|list| !list.is_empty());
+                            lists.flat_map(|list| list.into_iter().chain(["0/0".to_owned()])).collect()
+                        }
+                        (None, Some(stem)) => list(stem.to_owned()).collect(),
+                        (None, None) => vec![text.clone()],
                     }
-                    None => vec![text.clone()],
-                },
+                }
             };
             texts.iter().map(|text| parse(text)).collect()
         };
         let (x, y) = (several(&points.x)?, several(&points.y)?);
         ensure!(x.len() == y.len(), "{} places and {} values: give equally many", x.len(), y.len());
         let is_list = matches!(&points.x, Several::One(text) if text.ends_with('*'));
+        let has_ends = matches!(&points.x, Several::One(text) if text.ends_with("*_*"));
         let by = points.by.as_deref().map(&parse).transpose()?;
         let wanted = points.wanted.as_deref().map(&parse).transpose()?;
         let mut groups: Vec<Group> = Vec::new();
@@ -262,7 +273,7 @@ impl Figure {
         for row in rows.iter().filter(is_wanted) {
             let group = by.as_ref().map_or(f64::NAN, |by| by.value(row));
             let values = x.iter().zip(&y).map(|(x, y)| (x.value(row), y.value(row), 0.0));
-            let values: Vec<_> = values.filter(|(x, y, _)| x.is_finite() && y.is_finite()).collect();
+            let values: Vec<_> = values.filter(|(x, y, _)| has_ends || x.is_finite() && y.is_finite()).collect();
             match groups.iter_mut().find(|(other, _)| same(*other, group) || other.is_nan() && group.is_nan()) {
                 Some((_, points)) => points.extend(values),
                 None => groups.push((group, values)),
