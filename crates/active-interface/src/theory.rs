@@ -1,5 +1,6 @@
 //! Analytic solutions: the linear theory of a round droplet in free space, the squirmer.
 
+pub mod fits;
 mod squirmer_flow;
 
 use ib_core::input::{at_least, finite, not_negative, positive};

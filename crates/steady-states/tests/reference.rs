@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use motile::active_interface::Tension;
+use motile::active_interface::observables::stress_curvature;
 use motile::prelude::*;
 use steady_states::{SteadyState, Symmetry};
 
@@ -172,4 +174,30 @@ fn the_flow_around_a_swimmer() {
     let there = state.sample(&[*foremost]).unwrap()[0].velocity;
     assert!((there - state.velocity()).length() < 1e-3 * seen.speed, "{there} {}", state.velocity());
     assert!(state.sample(&[Vec2::NAN]).is_err());
+}
+
+/// In unbounded fluid swimmers are circles, and the stresses on both sides say so, (2.61) of Cowley.
+#[test]
+fn stresses_hold_the_shape() {
+    for (inside, activity) in [(50.0, -0.6), (500.0, -2.5)] {
+        let droplet = DropletSetup { viscosity: Some(inside), ..DropletSetup::active(activity) };
+        let law = droplet.particles.as_ref().unwrap().law(droplet.tension).unwrap();
+        let setup = Setup {
+            method: nodes(128),
+            region: Region::Plane,
+            viscosity: 50.0,
+            droplets: vec![droplet],
+            ..Setup::default()
+        };
+        let state = SteadyState::find(&setup).unwrap();
+        let (_, concentrations) = state.profile().concentrations().unwrap();
+        let centre = state.measured().unwrap().centroid;
+        for (x, c) in state.profile().positions.iter().zip(concentrations) {
+            let normal = *x - centre;
+            let sides = [-1e-5, 1e-5].map(|step| *x + step * normal);
+            let flow = state.sample(&sides).unwrap();
+            let found = stress_curvature([flow[0], flow[1]], [inside, 50.0], normal, law.value(c)).unwrap();
+            assert!((found - 1.0).abs() < 2e-4, "{inside} at {x}: {found}");
+        }
+    }
 }

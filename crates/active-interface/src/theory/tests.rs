@@ -191,3 +191,17 @@ proptest! {
         prop_assert!(far.length() < 1e-5);
     }
 }
+
+/// Their limits, and Cowley's own numbers: (3.9) with alpha = 0.6 in a channel of width 5 and length 48.
+#[test]
+fn fits_of_simulations() {
+    let speed = |k| fits::speed_over_stiffness(0.2, 0.1, k, 1e4).unwrap();
+    assert_eq!(speed(0.0), 0.2);
+    assert!((speed(1e4) - (0.1 + 0.1 * (-1.0_f64).exp())).abs() < 1e-15 && (speed(1e6) - 0.1).abs() < 1e-15);
+    let amplitude = |length| fits::amplitude_over_length([length, 5.0], 1.0, 0.6, 18.0).unwrap();
+    assert_eq!(amplitude(12.0), 0.0);
+    assert!((amplitude(48.0) - 0.9 * (1.0 - (-3.0_f64).exp())).abs() < 1e-15);
+    assert!(fits::speed_over_length(-4.0, 0.0, 12.0).is_err());
+    assert!(fits::speed_over_stiffness(0.2, f64::NAN, 1.0, 1.0).is_err());
+    assert!(fits::amplitude_over_length([-1.0, 5.0], 1.0, 0.6, 18.0).is_err());
+}
