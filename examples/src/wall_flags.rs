@@ -4,9 +4,9 @@ use anyhow::{Result, bail, ensure};
 use clap::{Args, ValueEnum};
 use motile::SetupError;
 use motile::elastic_solids::Moduli;
-use motile::{ChannelShape, IntegralMethod, MeshKind, Method, MethodKind, Setup, SolidSetup, Surface};
+use motile::{ChannelShape, IntegralMethod, MeshKind, Method, MethodKind, Setup, SkinSetup, SolidSetup, Surface};
 
-use crate::parse::{one_of, positive};
+use crate::parse::{one_of, pair, positive};
 use crate::{AlongFlags, MethodFlags, Preset, RegionFlags, SceneFlags};
 
 /// Spring constant of Cowley's softest walls.
@@ -60,6 +60,9 @@ pub struct ElasticFlags {
     /// Thickness of each wall (R0)
     #[arg(long, default_value_t = 1.5, value_parser = positive, allow_hyphen_values = true)]
     pub wall_thickness: f64,
+    /// Moduli of stretching (force) and bending (force times R0^2) of a skin on the walls; without it there is none
+    #[arg(long, value_name = "STRETCHING,BENDING", value_parser = pair, allow_hyphen_values = true)]
+    pub skin: Option<[f64; 2]>,
     /// How the walls' surfaces meet the fluid; without it the preset's
     #[arg(long, value_parser = one_of(&SURFACES))]
     pub surface: Option<Surface>,
@@ -98,6 +101,7 @@ impl SceneFlags<ElasticFlags> {
             solid.mesh = walls.mesh.unwrap_or(solid.mesh);
             solid.mesh_spacing = walls.mesh_spacing;
             solid.surface = walls.surface.unwrap_or(solid.surface);
+            solid.skin = walls.skin.map(|[stretching, bending]| SkinSetup { stretching, bending });
         }
         let plain = setup.solids.iter().any(|solid| solid.surface == Surface::Plain);
         ensure!(!plain || nodes.is_none(), "--nodes means nothing with plain surfaces: leave it out");

@@ -63,6 +63,7 @@ mod mesher;
 mod outline;
 mod rigid_body;
 mod shell;
+mod skin;
 pub mod solid;
 
 pub use channel::Channel;

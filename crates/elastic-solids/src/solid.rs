@@ -9,6 +9,7 @@ use ib_core::Vec2;
 use ib_core::input::{all_points_finite, at_least, positive, same_length};
 
 use crate::forces::{Hyperelastic, Springs};
+use crate::skin::Skin;
 use crate::{ElasticForces, EnergyDensity, SolidError, TriangleMesh};
 
 pub use deformation::Deformation;
@@ -52,6 +53,7 @@ pub struct Solid {
     /// Mean edge of the mesh.
     pub(crate) spacing: f64,
     pub(crate) may_invert: bool,
+    pub(crate) skin: Option<Skin>,
 }
 
 /// A spring from a point to a fixed place.
@@ -137,6 +139,7 @@ impl Solid {
             forces: vec![Vec2::ZERO; count],
             spacing: mesh.quality().mean_edge,
             may_invert: false,
+            skin: None,
             mesh,
         }
     }
@@ -148,6 +151,25 @@ impl Solid {
     pub fn allow_inversion(mut self) -> Self {
         self.may_invert = true;
         self
+    }
+
+    /// The same with an elastic skin on its surface, without stress in the reference state, with its moduli of
+    /// stretching E_s (force) and bending B (force times length squared):
+    ///
+    /// ```text
+    /// energy = sum over sides E_s/2 (l/L - 1)^2 L  +  sum over points B/2 (theta - theta_0)^2/S
+    /// ```
+    ///
+    /// l and theta the length of the sides of the surface and the angles between them, L and theta_0 those of the
+    /// reference state, S the mean length of two sides. A soft solid that is compressed along its surface beyond a
+    /// stretch of about 0.65 creases; a skin sets the length, of the order of the cube root of B over the shear modulus,
+    /// below which it does not fold.
+    ///
+    /// # Errors
+    /// Moduli that are negative or not finite.
+    pub fn with_skin(mut self, stretching: f64, bending: f64) -> Result<Self, SolidError> {
+        self.skin = Some(Skin::new(&self.mesh, stretching, bending)?);
+        Ok(self)
     }
 
     /// The same with a name for messages ("solid" otherwise).
@@ -241,10 +263,13 @@ impl Solid {
         &mut self.tethers
     }
 
-    /// Computes the forces (force) of all points, those of the tethers included.
+    /// Computes the forces (force) of all points, those of the skin and of tethers included.
     pub(crate) fn compute_forces(&mut self) -> Result<(), SolidError> {
         self.forces.fill(Vec2::ZERO);
         self.law.add_forces(&self.positions, &mut self.forces)?;
+        if let Some(skin) = &self.skin {
+            skin.add_forces(&self.positions, &mut self.forces);
+        }
         for tether in &self.tethers {
             self.forces[tether.point] += (tether.anchor - self.positions[tether.point]) * tether.stiffness;
         }

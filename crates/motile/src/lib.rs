@@ -59,7 +59,8 @@ pub use recommend::{Recommendation, SceneKind, recommend};
 pub use setup::{
     AnyFlow, Axis, Built, Contrast, DropletSetup, DropletShape, ExchangeSetup, Exclusion, GelSetup, Grading,
     GridMethod, Hold, IntegralMethod, MarkerMotion, Material, MeshKind, Method, MethodKind, Particles, Region,
-    RepulsionSetup, RigidBodySetup, RigidSetup, Setup, ShellSetup, SolidOutline, SolidSetup, Squeezed, Start, Surface,
+    RepulsionSetup, RigidBodySetup, RigidSetup, Setup, ShellSetup, SkinSetup, SolidOutline, SolidSetup, Squeezed,
+    Start, Surface,
 };
 pub use setup_error::SetupError;
 pub use {active_interface, boundary_integral, elastic_solids, ib_core, interior_fields, stokes_grid};

@@ -5,7 +5,7 @@ use ib_core::{
     hydrodynamics::SurfaceCurve, input::same_length,
 };
 
-use crate::{Solid, SolidError};
+use crate::{Solid, SolidError, skin::Skin};
 
 impl From<SolidError> for BodyError {
     fn from(error: SolidError) -> Self {
@@ -124,6 +124,7 @@ impl Body for Solid {
             ("the number of free points", self.free.len() as f64),
             ("the number of tethers", self.tethers.len() as f64),
             ("the energy of a shear of 0.1 and a stretch of 1.05", self.law.energy(&strained).unwrap_or(f64::NAN)),
+            ("the energy of its skin there", self.skin.as_ref().map_or(0.0, |skin| skin.energy(&strained))),
         ];
         properties.map(|(name, value)| (name.to_owned(), value)).to_vec()
     }
@@ -152,12 +153,13 @@ impl Body for Solid {
     }
 
     /// `2 eta/(mu + 0.015 kappa (a/h)^2)` for the midpoint rule, a being the spacing of the mesh and h that of the
-    /// grid; of the moduli the largest in the solid. Tethers add to the sum what holding all of them together in the
+    /// grid; of the moduli the largest in the solid. A skin adds to the sum what its shortest waves take. Tethers add to the sum what holding all of them together in the
     /// slowest flow of the domain takes.
     fn step_limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
         let coarseness = discretisation.spacing.map_or(0.0, |spacing| self.spacing / spacing);
-        let elastic = moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness;
+        let skin = self.skin.as_ref().map_or(0.0, Skin::stiffness);
+        let elastic = moduli.shear() + BULK_SHARE * moduli.bulk() * coarseness * coarseness + skin;
         let (stiffness, reason) = if self.tethers.is_empty() {
             (elastic, "the elastic moduli")
         } else {

@@ -5,8 +5,8 @@ use stokes_grid::Drive;
 
 use super::{
     Contrast, DropletSetup, DropletShape, ExchangeSetup, Exclusion, Grading, GridMethod, Hold, IntegralMethod,
-    MarkerMotion, Method, Region, RigidBodySetup, RigidSetup, Setup, ShellSetup, SolidOutline, SolidSetup, Start,
-    Surface,
+    MarkerMotion, Method, Region, RigidBodySetup, RigidSetup, Setup, ShellSetup, SkinSetup, SolidOutline, SolidSetup,
+    Start, Surface,
 };
 use crate::SetupError;
 
@@ -373,6 +373,10 @@ impl SolidSetup {
         let Method::Grid(grid) = &setup.method else { return Err(SetupError::needs_a_grid("solids")) };
         if let Some(spacing) = self.mesh_spacing {
             checked.positive("mesh-spacing", spacing)?;
+        }
+        if let Some(SkinSetup { stretching, bending }) = self.skin {
+            checked.not_negative("skin.stretching", stretching)?;
+            checked.not_negative("skin.bending", bending)?;
         }
         let spacing = self.mesh_spacing.unwrap_or(grid.spacing);
         let across = |key: &str, length: f64| {

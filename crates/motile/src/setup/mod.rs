@@ -24,7 +24,7 @@ pub use region::Region;
 pub use rigid::RigidSetup;
 pub use rigid_body::RigidBodySetup;
 pub use shell::ShellSetup;
-pub use solid::{Axis, Grading, Hold, Material, MeshKind, SolidOutline, SolidSetup, Surface};
+pub use solid::{Axis, Grading, Hold, Material, MeshKind, SkinSetup, SolidOutline, SolidSetup, Surface};
 
 use ib_core::StepSize;
 use serde::{Deserialize, Serialize};

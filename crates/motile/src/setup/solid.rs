@@ -66,6 +66,20 @@ pub struct SolidSetup {
     /// Its moduli as a function of place.
     #[serde(default)]
     pub grading: Grading,
+    /// A skin on its surface, which keeps a soft one from creasing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub skin: Option<SkinSetup>,
+}
+
+/// An elastic skin on the surface of a solid ([`Solid::with_skin`]).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SkinSetup {
+    /// Modulus of stretching (force).
+    #[serde(default)]
+    pub stretching: f64,
+    /// Modulus of bending (force times length squared).
+    pub bending: f64,
 }
 
 fn solid_name() -> String {
@@ -231,6 +245,7 @@ impl SolidSetup {
             outline,
             material,
             grading: Grading::default(),
+            skin: None,
         }
     }
 
@@ -279,7 +294,10 @@ impl SolidSetup {
         let finer = self.surface == Surface::Layer && self.finer_surface.unwrap_or(!springs);
         let mesh = if finer { mesh.with_finer_boundary(|s| !fixed(s))? } else { mesh };
         let share = mesh.area() / mesh.points().len() as f64;
-        let solid = self.at_rest(mesh)?.named(&self.name);
+        let mut solid = self.at_rest(mesh)?.named(&self.name);
+        if let Some(SkinSetup { stretching, bending }) = self.skin {
+            solid = solid.with_skin(stretching, bending)?;
+        }
         let held = match self.hold {
             Hold::Pinned => solid.pinned(fixed)?,
             Hold::Tethered { stiffness } => solid.tethered(stiffness * share, |_| true)?,

@@ -506,7 +506,8 @@ mod file {
         });
         let graded = Grading::Along { axis: Axis::X, factors: vec![[0.0, 1.0], [3.0, 2.0]] };
         let start = DirectorStart::Uniform { angle: 0.3, noise: 0.2, seed: 9 };
-        setup.droplets[2].gel = Some(GelSetup { anchoring: Anchoring::Planar, start, ..GelSetup::default() });
+        setup.droplets[2].gel =
+            Some(GelSetup { anchoring: interior_fields::Anchoring::Planar, start, ..GelSetup::default() });
         setup.droplets[3].gel = Some(GelSetup { start: DirectorStart::Aster, ..GelSetup::default() });
         setup.droplets[2..4].iter_mut().for_each(|droplet| droplet.motion = MarkerMotion::default());
         setup.solids.push(SolidSetup {
