@@ -7,8 +7,8 @@ use crate::{SolidError, TriangleMesh};
 
 /// A skin on the whole boundary of a mesh, without stress in the reference state, that resists stretching and bending.
 ///
-/// With the length l and the turning angle theta of the sides of the boundary, L and theta_0 in the reference state, and
-/// S the mean length of two sides
+/// With the length l and the turning angle theta of the sides of the boundary, L and theta_0 in the reference state,
+/// and S the mean length of two sides
 ///
 /// ```text
 /// energy = sum over sides E_s/2 (l/L - 1)^2 L  +  sum over points B/2 (theta - theta_0)^2/S

@@ -162,8 +162,8 @@ impl Solid {
     ///
     /// l and theta the length of the sides of the surface and the angles between them, L and theta_0 those of the
     /// reference state, S the mean length of two sides. A soft solid that is compressed along its surface beyond a
-    /// stretch of about 0.65 creases; a skin sets the length, of the order of the cube root of B over the shear modulus,
-    /// below which it does not fold.
+    /// stretch of about 0.65 creases; a skin sets the length, of the order of the cube root of B over the shear
+    /// modulus, below which it does not fold.
     ///
     /// # Errors
     /// Moduli that are negative or not finite.

@@ -336,8 +336,8 @@ impl SteadyState {
         })
     }
 
-    /// Velocity, its gradient and the pressure at points (length), inside the droplet and outside of it, at any distance
-    /// from the interface, in the frame of the laboratory, to spectral accuracy.
+    /// Velocity, its gradient and the pressure at points (length), inside the droplet and outside of it, at any
+    /// distance from the interface, in the frame of the laboratory, to spectral accuracy.
     ///
     /// # Errors
     /// Points that are not finite; a flow that cannot be solved for.

@@ -141,8 +141,8 @@ fn a_start_from_a_run_that_is_not_quite_straight_leads_to_the_straight_swimmer()
     }
 }
 
-/// Far away in unbounded fluid the flow is that of the stresslet, u = x (x . S x)/(2 pi eta r^4), and what remains of it
-/// falls by the distance; at the front of the droplet it is the droplet's.
+/// Far away in unbounded fluid the flow is that of the stresslet, u = x (x . S x)/(2 pi eta r^4), and what remains of
+/// it falls by the distance; at the front of the droplet it is the droplet's.
 #[test]
 fn the_flow_around_a_swimmer() {
     let droplet = DropletSetup { viscosity: Some(100.0), ..DropletSetup::active(-1.5) };

@@ -23,8 +23,8 @@ use crate::tables;
 const NEAREST: f64 = 0.01;
 const APART: f64 = 1.1;
 const FARTHEST: f64 = 50.0;
-/// The square around a swimmer with streamlines in it, its cells, the distance of the lines (length), and which of their
-/// points are kept.
+/// The square around a swimmer with streamlines in it, its cells, the distance of the lines (length), and which of
+/// their points are kept.
 const FIELD: f64 = 6.0;
 const FIELD_CELLS: usize = 120;
 const LINES_APART: f64 = 0.5;
@@ -157,8 +157,8 @@ impl Source {
     }
 }
 
-/// Where on the axis of a swimmer, ahead of it and behind it, the fluid is at rest: the least distance from the interface
-/// (length), as far as fluid of its own is; nothing where it is nowhere.
+/// Where on the axis of a swimmer, ahead of it and behind it, the fluid is at rest: the least distance from the
+/// interface (length), as far as fluid of its own is; nothing where it is nowhere.
 fn stagnation(state: &SteadyState) -> Result<[Option<f64>; 2]> {
     let heading = state.velocity().normalize_or_zero();
     let along = |x: &Vec2| x.dot(heading);

@@ -5,8 +5,8 @@ use ib_core::{FlowSample, Vec2};
 
 use crate::InterfaceError;
 
-/// The curvature (1/length) at which the tension of an interface balances the stresses of both fluids, Cowley (2.61) and
-/// (3.8):
+/// The curvature (1/length) at which the tension of an interface balances the stresses of both fluids, Cowley (2.61)
+/// and (3.8):
 ///
 /// `kappa = n . (sigma_out - sigma_in) . n / gamma,   sigma = eta (grad u + grad u^T) - p`
 ///

@@ -153,8 +153,8 @@ impl Body for Solid {
     }
 
     /// `2 eta/(mu + 0.015 kappa (a/h)^2)` for the midpoint rule, a being the spacing of the mesh and h that of the
-    /// grid; of the moduli the largest in the solid. A skin adds to the sum what its shortest waves take. Tethers add to the sum what holding all of them together in the
-    /// slowest flow of the domain takes.
+    /// grid; of the moduli the largest in the solid. A skin adds to the sum what its shortest waves take, tethers
+    /// what holding all of them together in the slowest flow of the domain takes.
     fn step_limits(&self, discretisation: &Discretisation, limits: &mut dyn FnMut(StepLimit)) {
         let moduli = self.law.stiffest();
         let coarseness = discretisation.spacing.map_or(0.0, |spacing| self.spacing / spacing);

@@ -7,8 +7,8 @@ use crate::Vec2;
 /// Rigid motions of one droplet: along x, along y, and a rotation.
 pub(super) const RIGID: usize = 3;
 
-/// Rigid motions of droplets on the nodes of all, orthonormal in the product weighted by arc length; x components of all
-/// nodes first, then y components.
+/// Rigid motions of droplets on the nodes of all, orthonormal in the product weighted by arc length; x components of
+/// all nodes first, then y components.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RigidModes {
     /// Motion by motion, with zeros on all but one droplet.
