@@ -96,6 +96,12 @@ impl Flags {
             flags.method.method != Some(MethodKind::Grid),
             "rigid walls of any shape have no grid: leave --method immersed-boundary out"
         );
+        let (amplitude, width) = (self.amplitude, flags.region.width);
+        ensure!(
+            self.case != Case::Sinusoidal || amplitude < 0.5 * width,
+            "--amplitude {amplitude} leaves no room between walls of --width {width}: give less than {}",
+            0.5 * width
+        );
         let method = MethodFlags { method: Some(MethodKind::Integral), ..flags.method.clone() };
         let mut setup = method.setup(&flags.droplet, None)?;
         let (shape, x) = self.shape();

@@ -4,7 +4,10 @@ use std::f64::consts::TAU;
 
 use motile::ib_core::{AnyKernel, FlowError, FlowSample, Hydrodynamics, ImmersedBoundary, Markers, Vec2};
 use motile::stokes_grid::{Grid, PeriodicStokes};
-use motile::{AnyFlow, Built, DropletSetup, DropletShape, GridMethod, IntegralMethod, Method, Region, Setup};
+use motile::{
+    AnyFlow, Built, ChannelShape, DropletSetup, DropletShape, GridMethod, IntegralMethod, Material, Method, Region,
+    Setup, SetupError, SolidSetup, Surface,
+};
 use motile_tests::validation::contrast::Droplet;
 use motile_tests::validation::scene::{flow, open_channel};
 
@@ -147,4 +150,30 @@ fn a_swimmer_around_droplets() {
         println!("{found} {exact}: {:e}", found / exact - 1.0);
         assert!((found / exact - 1.0).abs() < 1e-4, "{on_grid:?} {exact:?}");
     }
+}
+
+/// In a channel as wide as it a droplet that is a layer starts beside films, as without a grid; where solids are no
+/// layers, interfaces in one another are refused before any work.
+#[test]
+fn layers_start_beside_films() {
+    let inner = DropletSetup {
+        viscosity: Some(300.0),
+        shape: DropletShape::Round { radius: 0.3 },
+        ..DropletSetup::passive(10.0)
+    };
+    let droplets = vec![DropletSetup { viscosity: Some(10.0), ..DropletSetup::active(-2.0) }, inner];
+    let speeds =
+        [Method::Grid(GridMethod::of_spacing(0.1)), Method::Integral(IntegralMethod::default())].map(|method| {
+            let setup =
+                Setup { region: open_channel(6.0, 2.0), method, droplets: droplets.clone(), ..Setup::default() };
+            let Built { mut scene, droplets, .. } = setup.build().unwrap();
+            scene.run(0.2).go().unwrap();
+            scene.observe(droplets[0]).unwrap().speed()
+        });
+    assert!((speeds[0] / speeds[1] - 1.0).abs() < 1e-3, "{speeds:?}");
+
+    let walls = SolidSetup::walls(&ChannelShape::Straight { width: 3.0 }, &Material::Springs { shear: 1000.0 });
+    let solids = walls.into_iter().map(|wall| SolidSetup { surface: Surface::Plain, ..wall }).collect();
+    let plain = Setup { region: open_channel(6.0, 5.0), solids, droplets, ..Setup::default() };
+    assert!(matches!(plain.check(), Err(SetupError::Value { .. })));
 }

@@ -1,7 +1,7 @@
 //! The flow of interfaces by boundary integrals.
 
 use crate::RigidWall;
-use ib_core::input::positive;
+use ib_core::input::{all_points_finite, positive};
 use ib_core::{
     Discretisation, Domain, FlowError, FlowSample, Hydrodynamics, MarkerKind, Markers,
     checkpoint::SavedState,
@@ -175,6 +175,7 @@ impl Hydrodynamics for BoundaryIntegral {
     }
 
     fn sample(&mut self, markers: &Markers, points: &[Vec2], out: &mut [FlowSample]) -> Result<(), FlowError> {
+        all_points_finite("the points to sample", points)?;
         self.load(markers)?;
         if markers.groups().iter().any(|group| group.kind == MarkerKind::Rigid) {
             // Velocities do not tell of the layer on a rigid body. What the next step starts from stays what it is.

@@ -88,7 +88,7 @@ pub(crate) struct Droplet {
 /// fluid.
 ///
 /// # Errors
-/// A viscosity that is not positive and finite; a rigid body; an interface in fluid of another viscosity.
+/// A viscosity that is not positive and finite; a rigid body.
 pub(crate) fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Option<[f64; 2]>, FlowError> {
     if group.kind == MarkerKind::Rigid {
         return Err(FlowError::Unsupported {
@@ -101,13 +101,7 @@ pub(crate) fn other_viscosities(group: &MarkerGroup, exterior: f64) -> Result<Op
     }
     let [inside, outside] = group.viscosities(exterior);
     let inside = positive("the viscosity inside an interface", inside)?;
-    if outside != exterior {
-        return Err(FlowError::Unsupported {
-            what: "an interface inside a droplet of another viscosity, coupled to a grid alone",
-            remedy: "use boundary integrals, or layers (ImmersedLayers)",
-        });
-    }
-    Ok((inside != exterior).then_some([inside, outside]))
+    Ok((inside != exterior || outside != exterior).then_some([inside, outside]))
 }
 
 impl Contrast {
@@ -169,7 +163,7 @@ impl Contrast {
         }
     }
 
-    /// Takes over the shapes of the droplets.
+    /// Takes over the shapes of the droplets; refuses those that lie in one another.
     pub(crate) fn load(&mut self, markers: &Markers) -> Result<(), FlowError> {
         self.targets.clear();
         self.droplets.clear();
@@ -179,6 +173,12 @@ impl Contrast {
                 self.targets.extend(group.range.clone());
                 continue;
             };
+            if viscosities[1] != self.viscosity {
+                return Err(FlowError::Unsupported {
+                    what: "an interface inside a droplet of another viscosity, coupled to a grid alone",
+                    remedy: "use boundary integrals, or layers as they are beside solids (ImmersedLayers)",
+                });
+            }
             let index = self.droplets.len();
             if index == self.curves.len() {
                 self.curves.push(NodeCurve::default());

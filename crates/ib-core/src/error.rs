@@ -67,7 +67,9 @@ pub enum FlowError {
     },
     /// An iteration did not converge.
     #[error(
-        "{what} stopped at a relative residual of {residual:.1e} after {iterations} iterations, above {tolerance:e}"
+        "{what} stopped at a relative residual of {residual:.1e} after {iterations} iterations, above {tolerance:e}: \
+         where a film between different viscosities has become too thin, use more nodes, a finer grid or a repulsion \
+         over a wider range"
     )]
     NoConvergence {
         /// The iteration.

@@ -337,7 +337,8 @@ impl SteadyState {
     }
 
     /// Velocity, its gradient and the pressure at points (length), inside the droplet and outside of it, at any
-    /// distance from the interface, in the frame of the laboratory, to spectral accuracy.
+    /// distance from the interface, in the frame of the laboratory, to spectral accuracy. Which side of the interface a
+    /// point on it is on is not defined: take points 1e-5 radii beside it.
     ///
     /// # Errors
     /// Points that are not finite; a flow that cannot be solved for.

@@ -23,6 +23,9 @@ pub(crate) use correction::{CloseCorrection, Crossing, reach};
 
 /// Newton iterations before giving up on a preimage.
 const MOST_ITERATIONS: usize = 30;
+/// A preimage farther from the nearest node than so many times the point, but for a spacing, is not the one that the
+/// kernels peak at: it is found beside curves whose last modes are large.
+const FARTHEST: f64 = 3.0;
 /// A point closer to the curve than this fraction of the spacing counts as that far inside.
 const LEAST_DISTANCE: f64 = 1e-9;
 
@@ -91,7 +94,7 @@ impl CloseWeights {
 
     /// Finds the weights for `point`, relative to the centre of a curve whose fine nodes are ready, and says on
     /// which side it lies; `None` where it is farther than `reach` fine spacings, so that plain weights do and the side
-    /// is not looked for.
+    /// is not looked for, and where the preimage is not found, for which plain weights on the fine nodes have to do.
     pub(crate) fn find(
         &mut self,
         curve: &Curve,
@@ -119,6 +122,8 @@ impl CloseWeights {
         let preimage = if least.sqrt() < reach * spacing {
             let start = Complex64::new(weight * nearest as f64, 0.0) + (point - curve.fine.position[nearest]) / tangent;
             let found = refine(curve, point, (Complex64::new(0.0, 1.0) * start).exp());
+            let farthest = (FARTHEST * least.sqrt() + spacing) / tangent.norm();
+            let found = found.filter(|found| (found.unit / self.units[nearest]).ln().norm() < farthest);
             if let Some(found) = found
                 && (found.unit.norm() - 1.0).abs() < LEAST_DISTANCE * weight
             {

@@ -83,17 +83,15 @@ pub enum LayerError {
     SingularWalls,
     /// An interface beyond a rigid wall or in an obstacle.
     #[error(
-        "node {node} of curve {curve} at ({x}, {y}) is beyond rigid wall {wall}: move it away, use a smaller time \
-         step or more nodes"
+        "interface {curve} is beyond rigid wall {wall} at ({x}, {y}): move it away, use a smaller time step or more \
+         nodes"
     )]
     CrossesWall {
         /// Number of the interface.
         curve: usize,
-        /// Number of its node, or of the wall's.
-        node: usize,
-        /// Its x coordinate.
+        /// Where, x coordinate (length).
         x: f64,
-        /// Its y coordinate.
+        /// Where, y coordinate (length).
         y: f64,
         /// Number of the wall.
         wall: usize,

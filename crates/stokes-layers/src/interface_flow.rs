@@ -333,11 +333,11 @@ impl InterfaceFlow {
     fn check_places(&self) -> Result<(), LayerError> {
         let (interfaces, walls) = self.layers.curves.split_at(self.len());
         for (curve, interface) in interfaces.iter().enumerate() {
-            for (node, z) in interface.nodes.position.iter().enumerate() {
+            for z in &interface.nodes.position {
                 let place = z + interface.centre;
                 let left = |wall: &Curve| wall.winds_around(self.geometry.images().wrap(place - wall.centre));
                 if let Some(wall) = walls.iter().position(|wall| left(wall) != wall.is_open()) {
-                    return Err(LayerError::CrossesWall { curve, node, x: place.re, y: place.im, wall });
+                    return Err(LayerError::CrossesWall { curve, x: place.re, y: place.im, wall });
                 }
             }
         }
@@ -347,9 +347,8 @@ impl InterfaceFlow {
     /// Computes the single layer of the interfaces, at walls too.
     fn single_layer(&mut self, contrast: bool) -> Result<(), LayerError> {
         self.layers.single_layer(contrast);
-        self.layers.crossing().map_or(Ok(()), |Crossing { curve, node, wall }| {
-            let Complex64 { re: x, im: y } = self.layers.curves[curve].centre;
-            Err(LayerError::CrossesWall { curve, node, x, y, wall: wall - self.len() })
+        self.layers.crossing().map_or(Ok(()), |Crossing { curve, wall, place }| {
+            Err(LayerError::CrossesWall { curve, x: place.re, y: place.im, wall: wall - self.len() })
         })
     }
 

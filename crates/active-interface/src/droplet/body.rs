@@ -295,7 +295,7 @@ impl Body for ActiveDroplet {
         if peclet > PECLET_LIMIT {
             let spacing = self.shape.geometry.mean_length() * PECLET_LIMIT / peclet;
             let remedy = if spacing > 0.0 {
-                format!("use a marker spacing below {spacing:.2e}")
+                format!("use markers (cells) less than {spacing:.2e} apart")
             } else {
                 "give the particles a diffusion constant".to_owned()
             };
@@ -303,7 +303,9 @@ impl Body for ActiveDroplet {
             warnings.push(warning("edge of the concentration not resolved", peclet / PECLET_LIMIT, message));
         }
         let radius = self.shape.geometry.perimeter / TAU;
-        if let Some(least) = discretisation.spacing.map(|h| LEAST_RADIUS * h).filter(|least| radius < *least) {
+        // Layers do not see the grid.
+        let grid = discretisation.spacing.filter(|_| discretisation.shape_modes.is_none());
+        if let Some(least) = grid.map(|h| LEAST_RADIUS * h).filter(|least| radius < *least) {
             let message = format!("its radius is {radius:.2e}, below {least:.2e}: use a finer grid");
             warnings.push(warning("droplet not resolved", least / radius, message));
         }

@@ -23,6 +23,7 @@ pub fn stress_curvature(
     tension: f64,
 ) -> Result<f64, InterfaceError> {
     let n = normal / positive("the length of the normal", normal.length())?;
+    positive("the magnitude of the tension", tension.abs())?;
     let mut jump = 0.0;
     for ((side, viscosity), sign) in sides.iter().zip(viscosities).zip([-1.0, 1.0]) {
         let [[ux, uy], [vx, vy]] = side.gradient;

@@ -37,14 +37,15 @@ pub fn speed_over_length(activity: f64, viscosity: f64, length: f64) -> Result<f
 /// from the length l0, `onset`, on; zero before. Cowley has alpha = 0.6 and l0 = 18.
 ///
 /// # Errors
-/// Lengths that are negative or not finite, an alpha that is not finite.
+/// Lengths that are negative or not finite, a droplet higher than the channel, an alpha that is not finite.
 pub fn amplitude_over_length(
     [length, width]: [f64; 2],
     half_height: f64,
     alpha: f64,
     onset: f64,
 ) -> Result<f64, InterfaceError> {
-    let room = 0.5 * not_negative("the width of the channel", width)? - not_negative("the half height", half_height)?;
+    let free = 0.5 * not_negative("the width of the channel", width)? - not_negative("the half height", half_height)?;
+    let room = not_negative("half the width less the half height", free)?;
     let beyond = not_negative("the length of the channel", length)? - not_negative("the onset", onset)?;
     Ok(finite("alpha", alpha)? * room * (1.0 - (-beyond.max(0.0) / LENGTH).exp()))
 }
@@ -59,5 +60,5 @@ pub fn amplitude_over_length(
 pub fn speed_over_stiffness(unconfined: f64, rigid: f64, k: f64, b: f64) -> Result<f64, InterfaceError> {
     let (unconfined, rigid) = (finite("the speed in unbounded fluid", unconfined)?, finite("the speed", rigid)?);
     let decay = (-not_negative("the spring constant", k)? / positive("the width of the exponential", b)?).exp();
-    Ok((unconfined - rigid) * decay + rigid)
+    Ok(finite("the speed", (unconfined - rigid) * decay + rigid)?)
 }

@@ -103,7 +103,7 @@ impl Setup {
 
     /// A droplet, of as many markers as a layer has or as a grid alone needs.
     fn placed(&self, droplet: &DropletSetup, layers: bool) -> Result<ActiveDroplet, SetupError> {
-        let shape = self.shape(droplet)?;
+        let shape = self.shape(droplet, layers)?;
         let (curve, turned, round) = shape.curve()?;
         let centre = Vec2::new(droplet.centre[0], droplet.centre[1]);
         let placed = |curve: Curve, turned| {
@@ -246,7 +246,7 @@ impl Setup {
     }
 
     /// The shape of a droplet at the start: its own, or that of a circle squeezed between walls.
-    fn shape(&self, droplet: &DropletSetup) -> Result<DropletShape, SetupError> {
+    fn shape(&self, droplet: &DropletSetup, layers: bool) -> Result<DropletShape, SetupError> {
         let &DropletShape::Round { radius } = &droplet.shape else { return Ok(droplet.shape.clone()) };
         let y = droplet.centre[1];
         let [length, width] = self.region.lengths();
@@ -256,9 +256,10 @@ impl Setup {
         let beside = sides().map(|(solid, side)| {
             (if side < 0.0 { y - side } else { side - y }, if solid.surface == Surface::Layer { FILM } else { 0.0 })
         });
-        let (room, film, to) = match (beside.reduce(|a, b| if b.0 < a.0 { b } else { a }), &self.method, self.region) {
-            (Some((room, film)), ..) => (room, film, Squeezed::Stadium),
-            (None, Method::Integral(_), Region::Channel { .. }) => (0.5 * width - y.abs(), FILM, Squeezed::Ellipse),
+        let exact = layers || matches!(self.method, Method::Integral(_));
+        let (room, film, to) = match (beside.reduce(|a, b| if b.0 < a.0 { b } else { a }), self.region) {
+            (Some((room, film)), _) => (room, film, Squeezed::Stadium),
+            (None, Region::Channel { .. }) if exact => (0.5 * width - y.abs(), FILM, Squeezed::Ellipse),
             _ => return Ok(droplet.shape.clone()),
         };
         let below = sides().map(|(_, side)| side).filter(|side| *side < 0.0).fold(-0.5 * width, f64::max);

@@ -136,6 +136,11 @@ impl Setup {
         if self.has_layers() {
             return self.check_layers(grid);
         }
+        if grid.contrast == Contrast::Sharp && self.is_nested() {
+            let remedy = "interfaces between different viscosities that lie in one another are layers, and so are the \
+                          surfaces of solids beside them: give layer";
+            Checked { place: "solids[0]" }.refuse("surface", &"plain", remedy)?;
+        }
         let (with_fluid, equal): (Vec<_>, Vec<_>) =
             self.droplets.iter().partition(|droplet| droplet.motion == MarkerMotion::WithFluid);
         if !with_fluid.is_empty() && equal.is_empty() {
@@ -171,8 +176,8 @@ impl Setup {
             checked.refuse("kernel", &format!("{:?}", grid.kernel), remedy)?;
         }
         if let Some(number) = self.droplets.iter().position(|droplet| droplet.gel.is_some()) {
-            let remedy = "the grid hardly sees the gel's forces so close to a layer: take the gel away, or give plain \
-                          surfaces of solids and no rigid bodies or shells";
+            let remedy = "the grid hardly sees the gel's forces so close to a layer: take the gel away, or what makes \
+                          layers: solids whose surface is not plain, rigid bodies, interfaces in one another";
             Checked { place: &format!("droplets[{number}]") }.refuse("gel", &"a gel", remedy)?;
         }
         for (number, solid) in self.solids.iter().enumerate() {

@@ -26,7 +26,7 @@ pub struct DropletSetup {
     pub centre: [f64; 2],
     /// Direction of swimming at the start (radians from the x axis), by which the shape is turned.
     pub angle: f64,
-    /// Viscosity of the droplet (stress times time); `None` for that of the exterior fluid.
+    /// Viscosity of the droplet (stress times time); `None` for that of the fluid around it.
     pub viscosity: Option<f64>,
     /// Tension gamma0 of the interface without particles (force).
     pub tension: f64,

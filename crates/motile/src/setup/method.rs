@@ -88,7 +88,8 @@ pub struct GridMethod {
     pub contrast: Contrast,
     /// Resolution of interfaces where they are layers: where surfaces of solids are ([`crate::Surface::Layer`]), beside
     /// rigid bodies, and where interfaces between different viscosities lie in one another. Takes the place of
-    /// corrections, filter and marker spacing. Concerns no other scenes.
+    /// corrections, filter and marker spacing; of the spacing h, scenes without solids then have nothing to see.
+    /// Concerns no other scenes.
     pub layers: IntegralMethod,
 }
 

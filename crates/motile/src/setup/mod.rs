@@ -66,7 +66,7 @@ pub struct Setup {
     pub region: Region,
     /// How the flow is computed.
     pub method: Method,
-    /// Viscosity of the exterior fluid, and of droplets that have none of their own (stress times time).
+    /// Viscosity of the exterior fluid (stress times time).
     pub viscosity: f64,
     /// How long the steps of runs are.
     pub step: StepSize,

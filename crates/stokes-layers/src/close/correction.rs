@@ -31,8 +31,9 @@ struct CloseNode {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Crossing {
     pub(crate) curve: usize,
-    pub(crate) node: usize,
     pub(crate) wall: usize,
+    /// Where (length).
+    pub(crate) place: Complex64,
 }
 
 /// The corrections for the present positions.
@@ -116,7 +117,7 @@ impl CloseCorrection {
                 && left.is_some_and(|left| left != (kept.is_kept(source) && curve.is_open()))
             {
                 let (curve, wall) = if kept.is_kept(source) { (target, source) } else { (source, target) };
-                self.crossing = Some(Crossing { curve, node, wall });
+                self.crossing = Some(Crossing { curve, wall, place: curves[source].centre + point });
             }
             if kept.is_kept(source) {
                 self.close[index].force_row = Some(self.push_force_row(curve, plan, point));
