@@ -26,6 +26,8 @@ const MOST_ITERATIONS: usize = 30;
 /// A preimage farther from the nearest node than so many times the point, but for a spacing, is not the one that the
 /// kernels peak at: it is found beside curves whose last modes are large.
 const FARTHEST: f64 = 3.0;
+/// A point closer to the curve than so many spacings may be on the other side of the polygon through its fine nodes.
+const ON_POLYGON: f64 = 0.2;
 /// A point closer to the curve than this fraction of the spacing counts as that far inside.
 const LEAST_DISTANCE: f64 = 1e-9;
 
@@ -123,7 +125,13 @@ impl CloseWeights {
             let start = Complex64::new(weight * nearest as f64, 0.0) + (point - curve.fine.position[nearest]) / tangent;
             let found = refine(curve, point, (Complex64::new(0.0, 1.0) * start).exp());
             let farthest = (FARTHEST * least.sqrt() + spacing) / tangent.norm();
-            let found = found.filter(|found| (found.unit / self.units[nearest]).ln().norm() < farthest);
+            let found = found.filter(|found| {
+                let clear = !curve.is_open() && least.sqrt() > ON_POLYGON * spacing;
+                let near = (found.unit / self.units[nearest]).ln().norm() < farthest;
+                let left = (tangent.conj() * (point - curve.fine.position[nearest])).im > 0.0;
+                let doubtful = clear && found.inside != left;
+                near && (!doubtful || found.inside == is_inside(&curve.fine.position, point))
+            });
             if let Some(found) = found
                 && (found.unit.norm() - 1.0).abs() < LEAST_DISTANCE * weight
             {
@@ -213,6 +221,15 @@ impl CloseWeights {
             }
         }
     }
+}
+
+/// Whether a point is inside a closed polygon.
+fn is_inside(corners: &[Complex64], point: Complex64) -> bool {
+    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+    let right = |(a, b): &(&Complex64, &Complex64)| {
+        (a.im > point.im) != (b.im > point.im) && point.re < a.re + (b.re - a.re) * (point.im - a.im) / (b.im - a.im)
+    };
+    sides.filter(right).count() % 2 == 1
 }
 
 /// `sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p = 1 the closed form

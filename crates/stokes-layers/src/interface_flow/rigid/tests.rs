@@ -151,6 +151,34 @@ fn what_has_no_tension_moves_with_the_flow() {
     }
 }
 
+/// A droplet whose last modes are large, as one is that is not resolved, beside a wall that it does not reach.
+#[test]
+fn a_rough_droplet_is_not_beyond_a_wall() {
+    let mut flow =
+        walled(3.0, Forcing::default(), 192, |_| 1.0, &[], Settings { tolerance: 1e-8, ..settings(64) }).unwrap();
+    // Numbers between -1 and 1 without a pattern.
+    let mut state = 1_u64;
+    let mut noise = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f64 / f64::from(1 << 23) - 1.0
+    };
+    for round in 0..200 {
+        let modes: Vec<[f64; 2]> = (0..20).map(|_| [0.03 * noise(), 0.03 * noise()]).collect();
+        let rough = |t: f64| {
+            let waves =
+                modes.iter().zip(10..).map(|([a, b], m)| a * (f64::from(m) * t).cos() + b * (f64::from(m) * t).sin());
+            (0.6 + waves.sum::<f64>()) * Vec2::from_angle(t)
+        };
+        let mut positions: Vec<Vec2> = (0..64).map(|k| rough(angle(k, 64))).collect();
+        let top = (0..2000).map(|k| rough(angle(k, 2000)).y).fold(0.0, f64::max);
+        positions.iter_mut().for_each(|x| x.y += 0.94 - top);
+        let forces = vec![Vec2::ZERO; 64];
+        let loaded = flow.load([Interface::closed(&positions, &forces, [1.0, 1.0])].into_iter());
+        let solved = loaded.and_then(|()| flow.solve());
+        assert!(solved.is_ok(), "{round}: {solved:?}");
+    }
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let build = |width: f64, half_width: fn(f64) -> f64, posts: &[Vec<Vec2>]| {
