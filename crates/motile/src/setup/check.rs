@@ -176,8 +176,8 @@ impl Setup {
             checked.refuse("kernel", &format!("{:?}", grid.kernel), remedy)?;
         }
         if let Some(number) = self.droplets.iter().position(|droplet| droplet.gel.is_some()) {
-            let remedy = "the grid hardly sees the gel's forces so close to a layer: take the gel away, or what makes \
-                          layers: solids whose surface is not plain, rigid bodies, interfaces in one another";
+            let remedy = "the grid hardly sees the gel's forces so close to a layer: take the gel away, or give plain \
+                          surfaces of solids and neither rigid bodies nor interfaces in one another";
             Checked { place: &format!("droplets[{number}]") }.refuse("gel", &"a gel", remedy)?;
         }
         for (number, solid) in self.solids.iter().enumerate() {
