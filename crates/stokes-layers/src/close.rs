@@ -124,14 +124,7 @@ impl CloseWeights {
         let preimage = if least.sqrt() < reach * spacing {
             let start = Complex64::new(weight * nearest as f64, 0.0) + (point - curve.fine.position[nearest]) / tangent;
             let found = refine(curve, point, (Complex64::new(0.0, 1.0) * start).exp());
-            let farthest = (FARTHEST * least.sqrt() + spacing) / tangent.norm();
-            let found = found.filter(|found| {
-                let clear = !curve.is_open() && least.sqrt() > ON_POLYGON * spacing;
-                let near = (found.unit / self.units[nearest]).ln().norm() < farthest;
-                let left = (tangent.conj() * (point - curve.fine.position[nearest])).im > 0.0;
-                let doubtful = clear && found.inside != left;
-                near && (!doubtful || found.inside == is_inside(&curve.fine.position, point))
-            });
+            let found = found.filter(|found| self.is_plausible(curve, point, (nearest, least), found));
             if let Some(found) = found
                 && (found.unit.norm() - 1.0).abs() < LEAST_DISTANCE * weight
             {
@@ -161,6 +154,19 @@ impl CloseWeights {
         let preimage = preimage?;
         self.swap(curve, transforms, preimage);
         Some(preimage.inside)
+    }
+
+    /// Whether a preimage is the one that the kernels peak at, by its distance from the nearest node and by its side.
+    fn is_plausible(&self, curve: &Curve, point: Complex64, nearest: (usize, f64), found: &Preimage) -> bool {
+        let (nearest, square) = nearest;
+        let (weight, tangent) = (TAU / self.units.len() as f64, curve.fine.tangent[nearest]);
+        let farthest = weight + FARTHEST * (square / tangent.norm_sqr()).sqrt();
+        if (found.unit - self.units[nearest]).norm_sqr() > farthest * farthest {
+            return false;
+        }
+        let left = (tangent.conj() * (point - curve.fine.position[nearest])).im > 0.0;
+        let on_polygon = ON_POLYGON * ON_POLYGON * weight * weight * tangent.norm_sqr();
+        left == found.inside || curve.is_open() || square < on_polygon || found.inside == curve.polygon_contains(point)
     }
 
     /// Turns plain weights into those for a pole at the preimage.
@@ -221,15 +227,6 @@ impl CloseWeights {
             }
         }
     }
-}
-
-/// Whether a point is inside a closed polygon.
-fn is_inside(corners: &[Complex64], point: Complex64) -> bool {
-    let sides = corners.iter().zip(corners.iter().cycle().skip(1));
-    let right = |(a, b): &(&Complex64, &Complex64)| {
-        (a.im > point.im) != (b.im > point.im) && point.re < a.re + (b.re - a.re) * (point.im - a.im) / (b.im - a.im)
-    };
-    sides.filter(right).count() % 2 == 1
 }
 
 /// `sum over n <= terms of binomial(n + k - 1, k - 1) p^n` for k = 1, 2, 3 term by term: close to p = 1 the closed form

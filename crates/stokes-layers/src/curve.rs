@@ -345,6 +345,17 @@ impl Curve {
         self.weight() * self.nodes.tangent.iter().map(Complex64::norm_sqr).fold(0.0, f64::max).sqrt()
     }
 
+    /// Whether a point, relative to its centre, is inside the polygon through the fine nodes of a closed curve.
+    pub(crate) fn polygon_contains(&self, point: Complex64) -> bool {
+        let corners = &self.fine.position;
+        let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+        let right = |(a, b): &(&Complex64, &Complex64)| {
+            (a.im > point.im) != (b.im > point.im)
+                && point.re < a.re + (b.re - a.re) * (point.im - a.im) / (b.im - a.im)
+        };
+        sides.filter(right).count() % 2 == 1
+    }
+
     /// Whether a point, relative to its centre, that is some spacings away from it lies on its left, by Cauchy's
     /// formula.
     pub(crate) fn winds_around(&self, point: Complex64) -> bool {
